@@ -229,6 +229,122 @@ fn drivers_wait_at_red_lights() {
     assert!(red < 0.6 * green, "{red} at red, {green} at green");
 }
 
+/// A map made from a template, as a scene of so many steps.
+fn made(server: &Server, template: &str, parameters: &Value, steps: usize) -> Value {
+    let reply = server.post("/v1/map", &json!({"template": template, "parameters": parameters})).unwrap();
+    assert_eq!(reply.status, 200, "{}", reply.text());
+    let mut scene = reply.json()["scene"].clone();
+    scene["time"]["steps"] = json!(steps);
+    scene
+}
+
+#[test]
+fn traffic_comes_in_by_arms() {
+    let server = Server::start(&[]).unwrap();
+    let scene = made(&server, "four-arms", &json!({}), 91);
+    let arms = place(&server, &json!({"scene": scene, "density": {"per_lane_km": 0}}))["arms"].clone();
+    assert_eq!(ids(&arms), ["east", "north", "west", "south"]);
+    let mut body = json!({"scene": scene, "seed": 4, "arrivals": [
+        {"arm": "north", "per_hour": 1200}, {"arm": "east", "per_hour": 600}]});
+    let reply = place(&server, &body);
+    let agents = reply["agents"].as_array().unwrap();
+    let count = |arm: &Value| arm["placed"].as_u64().unwrap() + arm["later"].as_u64().unwrap();
+    let arms = reply["arms"].as_array().unwrap();
+    assert_eq!(arms.iter().map(count).sum::<u64>() as usize, agents.len(), "nobody else");
+    assert_eq!((count(&arms[2]), count(&arms[3])), (0, 0));
+    assert!(agents.len() >= 4, "{agents:?}");
+    for agent in agents {
+        let track = &agent["track"];
+        let (first, seen) = (track["first_step"].as_u64().unwrap(), track["x_m"].as_array().unwrap().len());
+        assert!(if first == 0 { seen == 1 } else { seen > 1 || first == 90 }, "{track}");
+    }
+    assert_eq!(place(&server, &body), reply, "the same again");
+    // What drives on the other arms is a matter of density, and changes nothing here.
+    body["density"] = json!({"per_lane_km": 40});
+    body["types"] = json!({"vehicle": 1.0});
+    let more = place(&server, &body);
+    assert!(ids(&more["agents"]).len() > agents.len());
+    assert_eq!(more["arms"], reply["arms"]);
+    // Driven, those who come in later stay in the scene.
+    let mut scene = scene.clone();
+    scene["agents"] = reply["agents"].clone();
+    let answer = server.post("/v1/generate", &json!({"scene": scene, "react": true, "seed": 1})).unwrap();
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    let scores = answer.json()["scores"][0]["agents"].as_object().unwrap().len();
+    assert_eq!(scores, agents.len());
+}
+
+#[test]
+fn speeds_keep_to_the_range_that_was_asked_for() {
+    let server = Server::with_demos().unwrap();
+    let mut moving = 0;
+    for demo in DEMOS {
+        for (min, max) in [(0.0, 4.0), (6.0, 9.0), (14.0, 20.0)] {
+            let body = json!({"scene_id": demo, "keep": [], "density": {"count": 40}, "seed": 2,
+                "types": {"vehicle": 0.7, "cyclist": 0.3}, "speeds": {"min_mps": min, "max_mps": max}});
+            let reply = place(&server, &body);
+            let agents = reply["agents"].as_array().unwrap();
+            assert_eq!(agents.len() as u64 + reply["unplaced"].as_u64().unwrap(), 40);
+            for agent in agents {
+                let speed = agent["conditions"]["start"]["speed_mps"].as_f64().unwrap();
+                if agent["type"] == "cyclist" {
+                    assert!(speed <= 14.0, "{agent}");
+                } else if speed > 0.0 {
+                    moving += 1;
+                    assert!((min - 0.002..=max + 0.002).contains(&speed), "{demo} {min}..{max}: {agent}");
+                }
+            }
+        }
+    }
+    assert!(moving > 60, "{moving}");
+}
+
+#[test]
+fn cars_park_where_there_is_room() {
+    let server = Server::start(&[]).unwrap();
+    let park = |scene: &Value, parked: Value| {
+        place(&server, &json!({"scene": scene, "seed": 3, "parked": parked, "density": {"per_lane_km": 0}}))
+    };
+    let lot = made(&server, "car-park", &json!({}), 91);
+    let half = park(&lot, json!({"share": 0.5}));
+    let places = half["parking_places"].as_u64().unwrap();
+    let cars = half["agents"].as_array().unwrap();
+    assert!(places >= 20, "{places}");
+    assert_eq!(cars.len() as u64, (places as f64 * 0.5).round() as u64, "{}", half["reason"]);
+    // More of them: those that stood stay.
+    let most = park(&lot, json!({"share": 0.8}));
+    let at = |car: &Value| (car["track"]["x_m"][0].to_string(), car["track"]["y_m"][0].to_string());
+    let all: Vec<_> = most["agents"].as_array().unwrap().iter().map(at).collect();
+    assert!(cars.iter().all(|car| all.contains(&at(car))));
+    let boxes: Vec<[f64; 5]> =
+        most["agents"].as_array().unwrap().iter().map(|car| outline(car, 0, 0.0).unwrap()).collect();
+    for (i, a) in boxes.iter().enumerate() {
+        assert_eq!(boxes[..i].iter().filter(|b| touch(a, b)).count(), 0);
+    }
+    for car in cars {
+        assert_eq!(car["track"]["x_m"].as_array().unwrap().len(), 91);
+        assert!(car["track"]["vx_mps"].as_array().unwrap().iter().all(|v| v.as_f64() == Some(0.0)));
+        assert!(
+            car["conditions"]["start"].as_object().is_none_or(|s| s.values().all(Value::is_null)),
+            "{car}"
+        );
+    }
+    // Driven, they stand where they stood.
+    let mut scene = lot.clone();
+    scene["agents"] = half["agents"].clone();
+    let answer =
+        server.post("/v1/generate", &json!({"scene": scene, "react": true, "seed": 1})).unwrap().json();
+    let score = &answer["scores"][0]["scene"];
+    assert_eq!(score["collisions"].as_u64().unwrap_or(0), 0, "{score}");
+    // A street with strips beside its lanes; on one without there is no room, which is said.
+    let street = made(&server, "straight", &json!({"parking_m": 2.2}), 91);
+    let along = park(&street, json!({"per_100m": 8}));
+    assert!(along["agents"].as_array().unwrap().len() > 5, "{along}");
+    let bare = park(&made(&server, "straight", &json!({"parking_m": 0.0}), 91), json!({"share": 1.0}));
+    assert_eq!((bare["parking_places"].as_u64(), ids(&bare["agents"]).len()), (Some(0), 0));
+    assert!(bare["reason"].as_str().unwrap().contains("no room for parked cars"), "{bare}");
+}
+
 #[test]
 fn a_large_map_is_answered_in_time() {
     let server = Server::start(&[]).unwrap();
@@ -305,6 +421,21 @@ fn bad_requests_are_refused_with_their_place() {
             "out-of-range",
             "/region/circle/radius_m",
         ),
+        ("/speeds", json!({"min_mps": -1, "max_mps": 5}), "out-of-range", "/speeds/min_mps"),
+        ("/speeds", json!({"min_mps": 9, "max_mps": 5}), "out-of-range", "/speeds/max_mps"),
+        ("/speeds", json!({"min_mps": 9, "max_mps": 41}), "out-of-range", "/speeds/max_mps"),
+        ("/speeds", json!({"min_mps": 9}), "invalid-field", "/speeds"),
+        ("/arrivals", json!([{"arm": "west", "per_hour": 20001}]), "out-of-range", "/arrivals/0/per_hour"),
+        ("/arrivals", json!([{"arm": "moon", "per_hour": 20}]), "invalid-field", "/arrivals/0/arm"),
+        (
+            "/arrivals",
+            json!([{"arm": "west", "per_hour": 20}, {"arm": "west", "per_hour": 30}]),
+            "invalid-field",
+            "/arrivals/1/arm",
+        ),
+        ("/parked", json!({}), "invalid-field", "/parked"),
+        ("/parked", json!({"share": 1.1}), "out-of-range", "/parked/share"),
+        ("/parked", json!({"per_100m": 20.1}), "out-of-range", "/parked/per_100m"),
         ("/sead", json!(1), "invalid-field", "/sead"),
         ("/scene_id", json!("demo-crossing"), "invalid-field", "/scene"),
         ("/density", json!({"count": 1.5}), "invalid-field", "/density/count"),

@@ -508,6 +508,14 @@ pub enum GenerateError {
     /// No road user has this id.
     #[error("no road user \"{0}\"")]
     UnknownAgent(AgentId),
+    /// The map, or the region of it, has no such arm.
+    #[error("no arm \"{arm}\"; {known}")]
+    UnknownArm {
+        /// Asked for.
+        arm: String,
+        /// Those that there are, in words.
+        known: String,
+    },
     /// A start field is free and neither log nor default fills it.
     #[error("{agent}: start field {field} is free and nothing fills it")]
     StartMissing {

@@ -232,6 +232,7 @@ impl From<GenerateError> for Problem {
         let detail = error.to_string();
         match error {
             GenerateError::UnknownAgent(_) => Self::field("/agents", Code::UnknownAgent, detail),
+            GenerateError::UnknownArm { .. } => Self::field("/arrivals", Code::InvalidField, detail),
             GenerateError::StartMissing { agent, field } => {
                 let pointer = format!("/conditions/{}/start/{field}", formats::pointer_token(&agent));
                 Self::field(&pointer, Code::StartMissing, detail)

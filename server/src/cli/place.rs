@@ -8,7 +8,7 @@ use super::values::{For, for_one, index, share, within};
 use super::{Common, Failure, parallel};
 use crate::routes::place::PlaceBody;
 use clap::Args;
-use experts::placement::{MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM};
+use experts::placement::{ArmTraffic, MAX_COUNT, MAX_GAP_M, MAX_PER_HOUR, MAX_PER_LANE_KM, MAX_SPEED_MPS};
 use experts::{Cancel, Placer};
 use formats::native::{self, MAX_SAFE_INTEGER, MapForm, SceneDoc};
 use serde_json::{Map, Value, json};
@@ -49,6 +49,19 @@ pub struct PlaceArgs {
     /// Least room along the lane between those who drive, metres.
     #[arg(long, default_value_t = 2.0, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
     min_gap: f64,
+    /// Speeds between which motor vehicles start that move, such as 8..14, m/s; as on such roads when absent.
+    #[arg(long, value_name = "FROM..TO", value_parser = speeds)]
+    speeds: Option<[f64; 2]>,
+    /// Motor vehicles an hour that come in by an arm, such as north=600,west-2=300; --arms says which there are.
+    /// Then only as many others as --density or --count says.
+    #[arg(long, value_delimiter = ',', value_name = "ARM=PER_HOUR", value_parser = for_one(per_hour))]
+    arrivals: Vec<For<f64>>,
+    /// Share of the places at kerbs and in lots that parked cars take, 0 to 1.
+    #[arg(long, value_name = "SHARE", value_parser = within(0.0, 1.0, ""))]
+    parked: Option<f64>,
+    /// Lists the arms by which roads come into the first scene, as a table, and places nobody.
+    #[arg(long)]
+    arms: bool,
     /// File to write the scene with its new road users to, or folder for a file a scene; - or absent is stdout.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
@@ -71,6 +84,9 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     let placer = common.engine()?.placer;
     let work = Work { args: &args, body: &body, placer: &placer };
     let reading = Reading { index: args.index.clone(), ..Reading::default() };
+    if args.arms {
+        return tell_arms(&work, &sources, &reading);
+    }
     let folder = args.output.as_deref().filter(|path| Folder::named(path));
     let Some(path) = folder else {
         let [source] = sources.as_slice() else {
@@ -105,6 +121,18 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
+/// `8..14` as two numbers.
+fn speeds(text: &str) -> Result<[f64; 2], String> {
+    let speed = within(0.0, MAX_SPEED_MPS, "m/s");
+    let (from, to) = text.split_once("..").ok_or("FROM..TO expected, as in 8..14")?;
+    let [from, to] = [speed(from)?, speed(to)?];
+    if from <= to { Ok([from, to]) } else { Err("the lower speed first".into()) }
+}
+
+fn per_hour(text: &str) -> Result<f64, String> {
+    within(0.0, MAX_PER_HOUR, "vehicles an hour")(text)
+}
+
 struct Work<'a> {
     args: &'a PlaceArgs,
     body: &'a PlaceBody,
@@ -121,9 +149,13 @@ impl Work<'_> {
             .run(&shared, self.placer, &Cancel::default())
             .map_err(|problem| refused(&source.path, &problem))?;
         let mut told = vec![format!("{} placed", placement.agents.len())];
+        for ArmTraffic { arm, placed, later, .. } in placement.arms.iter().filter(|a| a.placed + a.later > 0)
+        {
+            told.push(format!("{}: {placed} at the start, {later} later", arm.id));
+        }
         if let Some(reason) = &placement.reason {
             let unplaced: usize = placement.unplaced.values().sum();
-            told.push(format!("{unplaced} not placed: {reason}"));
+            told.push(if unplaced > 0 { format!("{unplaced} not placed: {reason}") } else { reason.clone() });
         }
         if let Some(keep) = &self.args.keep {
             let keep: HashSet<&String> = keep.iter().collect();
@@ -136,12 +168,37 @@ impl Work<'_> {
     }
 }
 
+/// The arms of one scene, a line each.
+fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(), Failure> {
+    let [source] = sources else { return Err(Failure::usage("--arms tells those of one scene")) };
+    let scene = Arc::new(source.first(reading)?.scene);
+    let placement = work.body.run(&scene, work.placer, &Cancel::default());
+    let placement = placement.map_err(|problem| refused(&source.path, &problem))?;
+    let mut text = String::from("arm,x_m,y_m,lanes,length_m,most_per_hour\n");
+    for ArmTraffic { arm, length_m, most_per_hour, .. } in &placement.arms {
+        let (x, y) = (arm.position.x, arm.position.y);
+        text += &format!("{},{x:.1},{y:.1},{},{length_m:.0},{most_per_hour}\n", arm.id, arm.lanes.len());
+    }
+    output::write(work.args.output.as_deref(), text.as_bytes(), work.args.force)
+}
+
 /// The body of `POST /v1/place` that says the same.
 fn body(args: &PlaceArgs) -> Result<Value, Failure> {
     let mut body = Map::new();
     body.insert("at_s".into(), json!(args.at));
     body.insert("seed".into(), json!(args.seed));
     body.insert("min_gap_m".into(), json!(args.min_gap));
+    if let Some([min, max]) = args.speeds {
+        body.insert("speeds".into(), json!({ "min_mps": min, "max_mps": max }));
+    }
+    if !args.arrivals.is_empty() {
+        let arrivals: Vec<Value> =
+            args.arrivals.iter().map(|given| json!({ "arm": given.id, "per_hour": given.value })).collect();
+        body.insert("arrivals".into(), json!(arrivals));
+    }
+    if let Some(share) = args.parked {
+        body.insert("parked".into(), json!({ "share": share }));
+    }
     if let Some(keep) = &args.keep {
         body.insert("keep".into(), json!(keep.iter().filter(|id| !id.is_empty()).collect::<Vec<_>>()));
     }

@@ -9,8 +9,8 @@ use crate::http::extract::Connection;
 use crate::work::{Asked, Kind};
 use axum::extract::State;
 use experts::placement::{
-    Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,
-    ring_area_m2,
+    Amount, ArmTraffic, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
+    MAX_SPEED_MPS, Method, Parked, PlaceRequest, Placement, Region, SpeedRange, map_bounds, ring_area_m2,
 };
 use experts::{Cancel, GenerateError, Placer};
 use formats::native::{AgentDoc, MAX_SAFE_INTEGER, Members, SceneDoc};
@@ -29,6 +29,8 @@ const PLACE_COST: Duration = Duration::from_millis(50);
 const REGION_MARGIN_M: f64 = 50.0;
 /// Most corners of a region.
 const MAX_CORNERS: usize = scene::MAX_POLYLINE_POINTS;
+/// Most arms that traffic may be asked of.
+const MAX_ARMS: usize = 256;
 /// Shares must sum to one within this.
 const SHARE_TOLERANCE: f64 = 1e-6;
 
@@ -71,6 +73,43 @@ pub struct DensityDoc {
     count: Option<u64>,
 }
 
+/// Between which speeds motor vehicles start that move.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedsDoc {
+    /// m/s.
+    #[schemars(range(min = 0.0, max = 40.0))]
+    min_mps: f64,
+    /// m/s; not less than `min_mps`.
+    #[schemars(range(min = 0.0, max = 40.0))]
+    max_mps: f64,
+}
+
+/// Traffic that comes in by an arm.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArrivalsDoc {
+    /// Id of one of the reply's `arms`.
+    arm: String,
+    /// Motor vehicles an hour, all lanes together.
+    #[schemars(range(min = 0.0, max = 20000.0))]
+    per_hour: f64,
+}
+
+/// Cars parked along kerbs and in lots: exactly one of the two.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParkedDoc {
+    /// Share of the places that are taken.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    share: Option<f64>,
+    /// Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 20.0))]
+    per_100m: Option<f64>,
+}
+
 /// Body of a placement. Exactly one of `scene` and `scene_id` is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -88,9 +127,9 @@ pub struct PlaceBody {
     /// Where; null is the whole map. It may reach 50 m beyond the map's box.
     #[serde(default)]
     region: Option<RegionDoc>,
-    /// How many.
-    #[serde(default = "usual_density")]
-    density: DensityDoc,
+    /// How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`.
+    #[serde(default)]
+    density: Option<DensityDoc>,
     /// Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
     #[serde(default)]
     #[schemars(with = "Option<BTreeMap<String, f64>>")]
@@ -110,10 +149,16 @@ pub struct PlaceBody {
     #[serde(default = "usual_gap")]
     #[schemars(range(min = 0.0, max = 50.0))]
     min_gap_m: f64,
-}
-
-fn usual_density() -> DensityDoc {
-    DensityDoc { per_lane_km: Some(12.0), count: None }
+    /// Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands.
+    #[serde(default)]
+    speeds: Option<SpeedsDoc>,
+    /// Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone.
+    #[serde(default)]
+    #[schemars(length(max = 256))]
+    arrivals: Vec<ArrivalsDoc>,
+    /// Parked cars, beside those that `density` asks for.
+    #[serde(default)]
+    parked: Option<ParkedDoc>,
 }
 
 fn usual_gap() -> f64 {
@@ -123,7 +168,8 @@ fn usual_gap() -> f64 {
 /// What was placed.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlaceReply {
-    /// New road users: one state at `at_s`, the same as a fixed start, goals free.
+    /// New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
+    /// has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
     pub agents: Vec<AgentDoc>,
     /// Road users asked for that found no place.
     pub unplaced: usize,
@@ -131,15 +177,72 @@ pub struct PlaceReply {
     pub reason: Option<String>,
     /// `model`, or `lane-sampler` where the weights folder has no placement weights.
     pub method: Method,
+    /// Where roads come into the map or the region, with what came of the traffic asked for.
+    pub arms: Vec<ArmDoc>,
+    /// Places at kerbs and in lots; null without `parked`.
+    pub parking_places: Option<usize>,
 }
 
-impl From<&Placement> for PlaceReply {
-    fn from(placement: &Placement) -> Self {
+/// A lane by which an arm leads in.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ArmLaneDoc {
+    /// Id of the lane.
+    pub lane: String,
+    /// Arc length at which it comes in, metres.
+    pub s_m: f64,
+}
+
+/// Where a road comes in.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ArmDoc {
+    /// The compass point that it comes from, with a number where several do: `north-east`, `west-2`.
+    pub id: String,
+    /// Middle of its lanes there, metres.
+    pub x_m: f64,
+    /// The same, metres.
+    pub y_m: f64,
+    /// Direction in which it leads, radians.
+    pub heading_rad: f64,
+    /// From right to left.
+    pub lanes: Vec<ArmLaneDoc>,
+    /// To its line, metres: the first junction, or where the road ends or joins another.
+    pub length_m: f64,
+    /// Most vehicles an hour that its lanes take.
+    pub most_per_hour: f64,
+    /// Vehicles of its traffic that are there at the start.
+    pub placed: usize,
+    /// Those that come in later.
+    pub later: usize,
+}
+
+impl ArmDoc {
+    fn of(traffic: &ArmTraffic, scene: &Scene) -> Self {
+        let ArmTraffic { arm, length_m, most_per_hour, placed, later } = traffic;
+        // The first lanes of the graph are those of the map.
+        let lane = |i: usize| scene.map.lanes.get(i).map(|lane| lane.id.clone()).unwrap_or_default();
+        Self {
+            id: arm.id.clone(),
+            x_m: arm.position.x,
+            y_m: arm.position.y,
+            heading_rad: arm.heading_rad,
+            lanes: arm.lanes.iter().map(|l| ArmLaneDoc { lane: lane(l.lane), s_m: l.s_m }).collect(),
+            length_m: *length_m,
+            most_per_hour: *most_per_hour,
+            placed: *placed,
+            later: *later,
+        }
+    }
+}
+
+impl PlaceReply {
+    fn of(placement: &Placement, scene: &Scene) -> Self {
         Self {
             agents: placement.agents.iter().map(AgentDoc::from_agent).collect(),
             unplaced: placement.unplaced.values().sum(),
             reason: placement.reason.clone(),
             method: placement.method,
+            arms: placement.arms.iter().map(|arm| ArmDoc::of(arm, scene)).collect(),
+            parking_places: placement.parking_places,
         }
     }
 }
@@ -153,8 +256,8 @@ impl AboutScene for PlaceBody {
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 
 /// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-/// cyclists on bike lanes or on the right. Boxes keep 0.1 m apart and all centres lie in the region. Fewer
-/// than asked is no error. Stores nothing.
+/// cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m apart
+/// and all centres lie in the region. Fewer than asked is no error. Stores nothing.
 #[utoipa::path(post, path = "/v1/place", operation_id = "place", tag = "generate",
     request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json",
         example = json!({
@@ -170,7 +273,8 @@ pub async fn place(
     WithScene(body, Subject { scene, .. }): WithScene<PlaceBody>,
 ) -> Result<JsonText, Problem> {
     let placer = Arc::clone(&app.placer);
-    let work = move |cancel: &Cancel| JsonText::of(&PlaceReply::from(&body.run(&scene, &placer, cancel)?));
+    let work =
+        move |cancel: &Cancel| JsonText::of(&PlaceReply::of(&body.run(&scene, &placer, cancel)?, &scene));
     let asked = Asked { kind: Kind::Place, cost: PLACE_COST, caller: connection.into() };
     app.pool.run(asked, work).await
 }
@@ -184,6 +288,11 @@ impl PlaceBody {
         let request = self.request(scene)?;
         placer.place(&request, cancel).map_err(|error| match error {
             GenerateError::UnknownAgent(_) => Problem::field("/keep", Code::UnknownAgent, error.to_string()),
+            GenerateError::UnknownArm { ref arm, .. } => {
+                let named = |a: &&ArrivalsDoc| a.arm.chars().take(64).eq(arm.chars());
+                let at = self.arrivals.iter().position(|a| named(&a)).unwrap_or(0);
+                Problem::field(&format!("/arrivals/{at}/arm"), Code::InvalidField, error.to_string())
+            }
             other => other.into(),
         })
     }
@@ -199,7 +308,16 @@ impl PlaceBody {
         for (pointer, min, max, got) in numbers {
             in_range(&mut faults, pointer, (min, max), got);
         }
-        let amount = amount(&self.density, &mut faults);
+        let amount = match &self.density {
+            Some(density) => amount(density, &mut faults),
+            None if self.arrivals.is_empty() && self.parked.is_none() => {
+                PlaceRequest::new(Arc::clone(scene)).amount
+            }
+            None => Amount::PerLaneKm(0.0),
+        };
+        let speeds = self.speeds.map(|doc| speeds(doc, &mut faults));
+        let arrivals = arrivals(&self.arrivals, &mut faults);
+        let parked = self.parked.as_ref().map(|doc| parked(doc, &mut faults));
         let types = match &self.types {
             Some(types) => shares(types, &mut faults),
             None => PlaceRequest::new(Arc::clone(scene)).types,
@@ -226,6 +344,9 @@ impl PlaceBody {
             keep: self.keep.as_ref().map(|ids| ids.iter().cloned().collect::<BTreeSet<_>>()),
             seed: self.seed,
             min_gap_m: self.min_gap_m,
+            speeds,
+            arrivals,
+            parked,
             ..PlaceRequest::new(Arc::clone(scene))
         })
     }
@@ -252,6 +373,48 @@ fn amount(density: &DensityDoc, faults: &mut Vec<FieldProblem>) -> Amount {
             let detail = "exactly one of per_lane_km and count is needed";
             faults.push(FieldProblem::new("/density", "invalid-field", detail));
             Amount::Count(0)
+        }
+    }
+}
+
+fn speeds(doc: SpeedsDoc, faults: &mut Vec<FieldProblem>) -> SpeedRange {
+    let SpeedsDoc { min_mps, max_mps } = doc;
+    in_range(faults, "/speeds/min_mps", (0.0, MAX_SPEED_MPS), min_mps);
+    in_range(faults, "/speeds/max_mps", (min_mps.clamp(0.0, MAX_SPEED_MPS), MAX_SPEED_MPS), max_mps);
+    SpeedRange { min_mps, max_mps }
+}
+
+fn arrivals(all: &[ArrivalsDoc], faults: &mut Vec<FieldProblem>) -> Vec<Arrivals> {
+    if all.len() > MAX_ARMS {
+        let detail = format!("{} arms found, at most {MAX_ARMS} expected", all.len());
+        faults.push(FieldProblem::new("/arrivals", "invalid-field", detail));
+        return Vec::new();
+    }
+    let mut seen = BTreeSet::new();
+    for (i, ArrivalsDoc { arm, per_hour }) in all.iter().enumerate() {
+        in_range(faults, &format!("/arrivals/{i}/per_hour"), (0.0, MAX_PER_HOUR), *per_hour);
+        if !seen.insert(arm) {
+            let detail = "this arm is there already; one rate for each expected";
+            faults.push(FieldProblem::new(format!("/arrivals/{i}/arm"), "invalid-field", detail));
+        }
+    }
+    all.iter().map(|doc| Arrivals { arm: doc.arm.clone(), per_hour: doc.per_hour }).collect()
+}
+
+fn parked(doc: &ParkedDoc, faults: &mut Vec<FieldProblem>) -> Parked {
+    match (doc.share, doc.per_100m) {
+        (Some(share), None) => {
+            in_range(faults, "/parked/share", (0.0, 1.0), share);
+            Parked::Share(share)
+        }
+        (None, Some(count)) => {
+            in_range(faults, "/parked/per_100m", (0.0, MAX_PARKED_PER_100M), count);
+            Parked::Per100M(count)
+        }
+        _ => {
+            let detail = "exactly one of share and per_100m is needed";
+            faults.push(FieldProblem::new("/parked", "invalid-field", detail));
+            Parked::Share(0.0)
         }
     }
 }

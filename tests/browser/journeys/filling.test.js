@@ -243,4 +243,49 @@ journeys('filling', (stage) => {
     await e.until(() => !document.querySelector('.filling'));
     assert.equal(await count(e), part.length, 'Esc adds nobody');
   });
+
+  it(
+    'lets traffic come in by an arm that is dragged outward, and parks cars, in one step',
+    { timeout: 90_000 },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      const { bytes } = await emptyScene(e);
+      await e.drop('nobody.json', bytes);
+      await e.page.waitForSelector('.nobody');
+      await e.page.locator('.nobody [data-action="tool-fill"]').click();
+      await e.page.waitForSelector('.filling .arms');
+      await e.key('PageDown');
+      await slide(e, 'How busy', 0);
+      assert.deepEqual(await preview(e), []);
+      const said = await e.page.request.post(new URL('/v1/place', e.page.url()).href, {
+        data: { scene_id: 'demo-crossing', density: { per_lane_km: 0 } },
+      });
+      const { arms } = await said.json();
+      assert.equal(await e.page.locator('.filling .arms input').count(), arms.length);
+      // The knob of an arm without traffic lies 34 px inside the map's edge; 55 px outward is half of what it takes.
+      const arm = arms.find((a) => a.id === 'east');
+      const [x, y] = await e.at(arm.x_m, arm.y_m);
+      const [ox, oy] = [-Math.cos(arm.heading_rad), Math.sin(arm.heading_rad)];
+      const knob = [x - 34 * ox, y - 34 * oy];
+      await e.drag(knob, [knob[0] + 55 * ox, knob[1] + 55 * oy]);
+      await e.release();
+      const rate = await e.value('fill-arm-east');
+      assert.ok(Math.abs(rate - arm.most_per_hour / 2) <= 40, `${rate} of ${arm.most_per_hour}`);
+      const came = await preview(e);
+      assert.ok(came.length > 0, 'somebody comes in');
+      await e.type('fill-arm-north', '900');
+      await slide(e, 'Parked cars', 100);
+      await e.type('fill-fastest', '30');
+      const shown = await preview(e);
+      assert.ok(shown.length > came.length);
+      await e.picture('arms');
+      await e.page.locator('.filling [data-action="fill-add"]').click();
+      await e.settled();
+      assert.equal(await count(e), shown.length);
+      await e.key('Control+z');
+      await e.settled();
+      assert.equal(await count(e), 0, 'one step');
+    },
+  );
 });

@@ -1,9 +1,5 @@
-// Which kinds an area is filled with. The server draws by type; of those who drive the finer kinds are shared out here.
-import { PRESETS, type PlacedKind, type Preset } from '../model/kinds';
-import type { Newcomer } from '../model/newcomer';
-import { topSpeed } from '../model/domain';
-import type { Footprint } from '../model/boxes';
-import { inTheWay } from './room';
+// Which kinds an area is filled with. The server draws by type; of those who drive the finer kinds are
+// shared out in `fill-recast`.
 
 export const FILL_KINDS = ['car', 'heavy', 'motorcycle', 'cyclist', 'pedestrian'] as const;
 /** `heavy`: trucks and buses. */
@@ -25,61 +21,4 @@ export function typesOf(mix: Mix): { vehicle: number; cyclist: number; pedestria
   const cyclist = shareOf(mix, 'cyclist'),
     pedestrian = shareOf(mix, 'pedestrian');
   return { vehicle: Math.max(0, 1 - cyclist - pedestrian), cyclist, pedestrian };
-}
-
-const groupOf = (kind: PlacedKind): FillKind => (kind === 'truck' || kind === 'bus' ? 'heavy' : kind);
-
-/** One in so many of the heavy ones is a bus. */
-const BUS_EVERY = 3;
-
-/**
- * The same places with the kinds that are wanted. Whoever has the right kind stays as drawn; a longer one comes only
- * where it touches nobody.
- */
-export function recast(all: readonly Newcomer[], mix: Mix, taken: readonly Footprint[]): Newcomer[] {
-  const out = [...all];
-  const driving = all.flatMap((n, i) => (n.kind === 'cyclist' || n.kind === 'pedestrian' ? [] : [i]));
-  const vehicles = shareOf(mix, 'car') + shareOf(mix, 'heavy') + shareOf(mix, 'motorcycle');
-  if (!driving.length || !vehicles) return out;
-  const wanted = (kind: FillKind): number => Math.round((shareOf(mix, kind) / vehicles) * driving.length);
-  const of = (kind: FillKind): number[] => driving.filter((i) => groupOf(out[i].kind) === kind);
-  const put = (i: number, kind: PlacedKind): boolean => {
-    const next = as(out[i], kind, PRESETS[kind][0]);
-    const others = out.filter((_, j) => j !== i);
-    if (next.length > out[i].length && (inTheWay(next, taken) ?? inTheWay(next, others))) return false;
-    out[i] = next;
-    return true;
-  };
-  for (const kind of ['heavy', 'motorcycle'] as const) {
-    const surplus = of(kind).slice(wanted(kind));
-    for (const i of surplus) put(i, 'car');
-  }
-  for (const kind of ['heavy', 'motorcycle'] as const) {
-    let missing = wanted(kind) - of(kind).length;
-    // Spread over the area: every so many-th car.
-    for (const i of spread(of('car'))) {
-      if (missing <= 0) break;
-      const which = kind === 'heavy' ? (missing % BUS_EVERY ? 'truck' : 'bus') : 'motorcycle';
-      if (put(i, which)) missing--;
-    }
-  }
-  return out;
-}
-
-const as = (n: Newcomer, kind: PlacedKind, size: Preset): Newcomer => ({
-  ...n,
-  kind,
-  subtype: size.subtype,
-  length: size.length,
-  width: size.width,
-  pose: { ...n.pose, speed: Math.min(n.pose.speed, topSpeed({ type: 'vehicle', subtype: size.subtype })) },
-});
-
-/** Steps through a list so that neighbours do not follow each other: every third, then those between. */
-const spread = (list: readonly number[]): number[] =>
-  [0, 1, 2].flatMap((from) => list.filter((_, i) => i % 3 === from));
-
-/** So many of them, evenly out of all. */
-export function thinned<T>(all: readonly T[], most: number): T[] {
-  return all.filter((_, i) => Math.floor(((i + 1) * most) / all.length) > Math.floor((i * most) / all.length));
 }

@@ -1,7 +1,8 @@
 // What an area is to be filled with: where, how busy, which kinds, and what is seen of it before it is added.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { boxOf, insideBox, type Vec } from '../model/geometry';
-import type { Newcomer } from '../model/newcomer';
+import { topSpeed } from '../model/domain';
+import { comesLater, type Newcomer } from '../model/newcomer';
 import { EVEN_MIX, type FillKind, type Mix } from './fill-mix';
 
 /** Everything that decides who is placed where. */
@@ -11,11 +12,33 @@ export interface FillWish {
   /** Road users for each 100 m of lane. */
   readonly density: number;
   readonly mix: Mix;
+  /** Between which speeds motor vehicles start that move, m/s. */
+  readonly speeds: SpeedRange;
+  /** Vehicles an hour by the names of the arms that they come in by. */
+  readonly rates: Readonly<Record<string, number>>;
+  /** Share of the places at kerbs and in lots that parked cars take. */
+  readonly parked: number;
   readonly seed: number;
   /** Do those stay who are there already? */
   readonly keep: boolean;
   /** Those of the preview that stay while the others are drawn anew. */
   readonly pinned: readonly Newcomer[];
+}
+
+export type SpeedRange = readonly [min: number, max: number];
+
+/** Where a road comes in. */
+export interface Arm {
+  /** The compass point that it comes from, with a number where several do. */
+  readonly id: string;
+  readonly at: Vec;
+  /** Direction in which it leads, radians. */
+  readonly heading: number;
+  /** Vehicles an hour that its lanes take. */
+  readonly most: number;
+  /** Those of its traffic that are there at the start, and those that come in later. */
+  readonly placed: number;
+  readonly later: number;
 }
 
 /** What is known of a wish. */
@@ -25,11 +48,19 @@ export interface FillAnswer {
   readonly reason: string | null;
   /** Ids of those who go when it is added. */
   readonly replaced: readonly string[];
+  readonly arms: readonly Arm[];
+  /** Places at kerbs and in lots; null while nobody knows. */
+  readonly parkingPlaces: number | null;
 }
 
-export const LEAST_DENSITY = 0.5;
+/** Of an answer that could not be had. */
+export const NO_ANSWER: FillAnswer = { all: [], reason: null, replaced: [], arms: [], parkingPlaces: null };
+
+export const LEAST_DENSITY = 0;
 export const MOST_DENSITY = 12.5;
 const USUAL_DENSITY = 3;
+/** No bounds at all. */
+export const ANY_SPEED: SpeedRange = Object.freeze([0, topSpeed({ type: 'vehicle', subtype: 'car' })] as const);
 /** The largest seed that is drawn by the dice: short enough to be read. */
 const LARGEST_SEED = 9999;
 /** Around somebody small one may miss by so much, metres. */
@@ -39,6 +70,9 @@ const first = (seed: number): FillWish => ({
   region: null,
   density: USUAL_DENSITY,
   mix: EVEN_MIX,
+  speeds: ANY_SPEED,
+  rates: {},
+  parked: 0,
   seed,
   keep: true,
   pinned: [],
@@ -119,6 +153,21 @@ export class Filling {
     if (Object.values(mix).some((v) => v > 0)) this.#wish.value = { ...wish, mix };
   }
 
+  /** Both ends within what cars can drive, the lower one first. */
+  setSpeeds([min, max]: SpeedRange): void {
+    this.#wish.value = { ...this.#wish.peek(), speeds: [Math.min(min, max), Math.max(min, max)] };
+  }
+
+  /** So many vehicles an hour are to come in by an arm. */
+  setRate(arm: string, perHour: number): void {
+    const wish = this.#wish.peek();
+    if ((wish.rates[arm] ?? 0) !== perHour) this.#wish.value = { ...wish, rates: { ...wish.rates, [arm]: perHour } };
+  }
+
+  setParked(parked: number): void {
+    this.#wish.value = { ...this.#wish.peek(), parked };
+  }
+
   setKeep(keep: boolean): void {
     this.#wish.value = { ...this.#wish.peek(), keep };
   }
@@ -138,7 +187,8 @@ export class Filling {
 
   /** The one of the preview that stands at a place. */
   at([x, y]: Vec): Newcomer | null {
-    return this.all.peek().find((n) => insideBox(n.pose, n.length, n.width, x, y, MISS_M)) ?? null;
+    const there = this.all.peek().filter((n) => !comesLater(n));
+    return there.find((n) => insideBox(n.pose, n.length, n.width, x, y, MISS_M)) ?? null;
   }
 
   /** Somebody of the preview stays from now on, or goes with the next draw. The others stand where they stood. */

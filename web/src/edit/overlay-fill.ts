@@ -1,20 +1,23 @@
 // What the overlay shows of an area that is being filled: its outline with corners, and who would come.
 import { boxOf, type Vec } from '../model/geometry';
 import { typeOfKind } from '../model/kinds';
-import type { Newcomer } from '../model/newcomer';
+import { comesLater, type Newcomer } from '../model/newcomer';
 import { paintRing } from '../draw/handles';
-import { tag, type Labels } from '../draw/labels';
+import { pill, tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
+import { armHandles, armName, type ArmHandle } from './arm-handles';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/picture';
 
 const CORNER_PX = 8;
 const DASH = [6, 4];
+const KNOB_PX = 8;
+const HEAD_PX = 9;
 
-const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: false });
+const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: n.parked });
 
 export class FillOverlay {
   constructor(
@@ -30,8 +33,12 @@ export class FillOverlay {
     const outline = drawn ?? wish.region;
     if (outline) this.#paintOutline(g, v, outline, drawn === null);
     this.#paintGoing(g, v);
-    for (const n of filling.all.value) this.#paintOne(g, v, n, wish.pinned.includes(n));
+    // Who comes in later is told at its arm: at the start nobody is there.
+    for (const n of filling.all.value) if (!comesLater(n)) this.#paintOne(g, v, n, wish.pinned.includes(n));
     if (drawn) return;
+    const handles = armHandles(filling.answer.value?.arms ?? [], wish.rates, v);
+    for (const h of handles) this.#paintArm(g, v, h);
+    for (const h of handles) this.#paintRate(g, h);
     const n = filling.all.value.length;
     if (wish.region) this.#paintCount(g, v, wish.region, filling.asking.value && !n ? '…' : TEXTS.toAdd(n));
   }
@@ -111,6 +118,60 @@ export class FillOverlay {
     g.lineWidth = 2;
     g.fill();
     g.stroke();
+  }
+
+  /** A stem with a head that points the way the traffic goes, and a knob to drag outward. */
+  #paintArm(g: Pen, v: View, { base, at, out, rate }: ArmHandle): void {
+    const c = colours();
+    const colour = rate > 0 ? c.focus : c['ink-3'];
+    const tip: Vec = [base[0] - out[0] * HEAD_PX, base[1] - out[1] * HEAD_PX];
+    const line = (width: number, style: string): void => {
+      g.beginPath();
+      g.moveTo(...at);
+      g.lineTo(...base);
+      g.strokeStyle = style;
+      g.lineWidth = width;
+      g.stroke();
+      g.beginPath();
+      g.moveTo(...tip);
+      g.lineTo(base[0] - out[1] * HEAD_PX * 0.6, base[1] + out[0] * HEAD_PX * 0.6);
+      g.lineTo(base[0] + out[1] * HEAD_PX * 0.6, base[1] - out[0] * HEAD_PX * 0.6);
+      g.closePath();
+      g.fillStyle = style;
+      g.fill();
+      g.stroke();
+    };
+    line(7, c.halo);
+    line(3, colour);
+    const r = KNOB_PX * v.grip;
+    g.beginPath();
+    g.arc(at[0], at[1], r + 2, 0, Math.PI * 2);
+    g.fillStyle = c.halo;
+    g.fill();
+    g.beginPath();
+    g.arc(at[0], at[1], r, 0, Math.PI * 2);
+    // Filled is decided, hollow is not.
+    g.fillStyle = rate > 0 ? colour : c.surface;
+    g.fill();
+    g.strokeStyle = colour;
+    g.lineWidth = 2;
+    g.stroke();
+    this.labels.block(at[0] - r, at[1] - r, 2 * r, 2 * r);
+  }
+
+  #paintRate(g: Pen, { arm, at, rate }: ArmHandle): void {
+    const c = colours();
+    const words = rate > 0 ? TEXTS.armComes(armName(arm), rate, arm.placed, arm.later) : armName(arm);
+    pill(g, this.labels, at[0], at[1], words, {
+      ...(rate > 0 ? { bg: c.focus, fg: c.surface } : {}),
+      must: rate > 0,
+      tries: [
+        [14, -10],
+        [-60, 14],
+        [-60, -34],
+        [-150, -10],
+      ],
+    });
   }
 
   #paintCount(g: Pen, v: View, region: readonly Vec[], words: string): void {

@@ -14,7 +14,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { frameAround, type Frame } from './frame';
-import { FillOverlay } from './overlay-fill';
+import type { FillOverlay } from './overlay-fill';
 import type { Ghosts } from './placing';
 import { TEXTS } from '../texts/picture';
 
@@ -28,21 +28,37 @@ const SHORT_PX = 14;
 const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: false });
 
 export class SeveralOverlay {
-  readonly #fill: FillOverlay;
+  /** Comes when an area is filled; until then the picture is painted again. */
+  #fill: FillOverlay | null = null;
+  #coming = false;
 
   constructor(
     private readonly editor: Editor,
     private readonly labels: Labels,
     private readonly poseNow: (a: Agent) => Pose | null,
-  ) {
-    this.#fill = new FillOverlay(editor, labels);
+  ) {}
+
+  get coming(): boolean {
+    return this.#coming;
+  }
+
+  #paintFill(g: Pen, v: View): void {
+    if (!this.editor.filling.wish.value) return;
+    if (this.#fill) this.#fill.paint(g, v);
+    else if (!this.#coming) {
+      this.#coming = true;
+      void import('./overlay-fill')
+        .then(({ FillOverlay }) => (this.#fill = new FillOverlay(this.editor, this.labels)))
+        .catch(() => this.editor.notices.show({ text: TEXTS.thePreviewDid }))
+        .finally(() => (this.#coming = false));
+    }
   }
 
   paint(g: Pen, v: View): void {
     const { editor: e } = this;
     if (e.selected.value.length > 1) this.#paintMembers(g, v);
     if (e.sweep.value) this.#paintSweep(g, v, e.sweep.value.outline, e.sweep.value.ids);
-    this.#fill.paint(g, v);
+    this.#paintFill(g, v);
     const ghosts = e.placement.ghosts.value;
     if (ghosts) this.#paintGhosts(g, v, ghosts);
   }

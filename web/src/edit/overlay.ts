@@ -75,9 +75,9 @@ export class Overlay {
     return this.verdicts.roadSign;
   }
 
-  /** Does something fade or run? It is to be painted again then. */
+  /** Does something fade, run or come? It is to be painted again then. */
   get moving(): boolean {
-    return this.ghosts.fading || this.hovered.running;
+    return this.ghosts.fading || this.hovered.running || this.several.coming;
   }
 
   paint(g: Pen, v: View): void {

@@ -247,4 +247,6 @@ const turned = ({ kind, subtype, length, width, pose, goal, note, does }: Newcom
   goal,
   note,
   does,
+  motion: null,
+  parked: false,
 });

@@ -222,8 +222,8 @@ export interface paths {
         put?: never;
         /**
          * Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-         *     cyclists on bike lanes or on the right. Boxes keep 0.1 m apart and all centres lie in the region. Fewer
-         *     than asked is no error. Stores nothing.
+         *     cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m apart
+         *     and all centres lie in the region. Fewer than asked is no error. Stores nothing.
          */
         post: operations["place"];
         delete?: never;
@@ -681,6 +681,64 @@ export interface components {
             turns: components["schemas"]["Turn"][][] | null;
         };
         /**
+         * ArmDoc
+         * @description Where a road comes in.
+         */
+        ArmDoc: {
+            /**
+             * Format: double
+             * @description Direction in which it leads, radians.
+             */
+            heading_rad: number;
+            /** @description The compass point that it comes from, with a number where several do: `north-east`, `west-2`. */
+            id: string;
+            /** @description From right to left. */
+            lanes: components["schemas"]["ArmLaneDoc"][];
+            /**
+             * Format: uint
+             * @description Those that come in later.
+             */
+            later: number;
+            /**
+             * Format: double
+             * @description To its line, metres: the first junction, or where the road ends or joins another.
+             */
+            length_m: number;
+            /**
+             * Format: double
+             * @description Most vehicles an hour that its lanes take.
+             */
+            most_per_hour: number;
+            /**
+             * Format: uint
+             * @description Vehicles of its traffic that are there at the start.
+             */
+            placed: number;
+            /**
+             * Format: double
+             * @description Middle of its lanes there, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description The same, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * ArmLaneDoc
+         * @description A lane by which an arm leads in.
+         */
+        ArmLaneDoc: {
+            /** @description Id of the lane. */
+            lane: string;
+            /**
+             * Format: double
+             * @description Arc length at which it comes in, metres.
+             */
+            s_m: number;
+        };
+        /**
          * ArmPlace
          * @description Where an arm lies, for whoever draws handles on it.
          */
@@ -695,6 +753,19 @@ export interface components {
             name: string;
             /** @description Where its lanes in lead, from the middle of the road to the kerb. */
             turns: components["schemas"]["Turn"][][];
+        };
+        /**
+         * ArrivalsDoc
+         * @description Traffic that comes in by an arm.
+         */
+        ArrivalsDoc: {
+            /** @description Id of one of the reply's `arms`. */
+            arm: string;
+            /**
+             * Format: double
+             * @description Motor vehicles an hour, all lanes together.
+             */
+            per_hour: number;
         };
         /**
          * Bound
@@ -2667,18 +2738,38 @@ export interface components {
          */
         PairChoice: "all" | "regenerated";
         /**
+         * ParkedDoc
+         * @description Cars parked along kerbs and in lots: exactly one of the two.
+         */
+        ParkedDoc: {
+            /**
+             * Format: double
+             * @description Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+             * @default null
+             */
+            per_100m?: number | null;
+            /**
+             * Format: double
+             * @description Share of the places that are taken.
+             * @default null
+             */
+            share?: number | null;
+        };
+        /**
          * PlaceBody
          * @description Body of a placement. Exactly one of `scene` and `scene_id` is given.
          */
         PlaceBody: {
+            /** @description Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone. */
+            arrivals?: components["schemas"]["ArrivalsDoc"][];
             /**
              * Format: double
              * @description Scene time at which they start, seconds.
              * @default 0
              */
             at_s?: number;
-            /** @description How many. */
-            density?: components["schemas"]["DensityDoc"];
+            /** @description How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`. */
+            density?: components["schemas"]["DensityDoc"] | null;
             /**
              * @description With `scene_id`: refuse when the scene has changed.
              * @default null
@@ -2695,6 +2786,8 @@ export interface components {
              * @default 2
              */
             min_gap_m?: number;
+            /** @description Parked cars, beside those that `density` asks for. */
+            parked?: components["schemas"]["ParkedDoc"] | null;
             /** @description Where; null is the whole map. It may reach 50 m beyond the map's box. */
             region?: components["schemas"]["RegionDoc"] | null;
             /**
@@ -2713,6 +2806,8 @@ export interface components {
              * @default 0
              */
             seed?: number;
+            /** @description Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands. */
+            speeds?: components["schemas"]["SpeedsDoc"] | null;
             /**
              * @description Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
              * @default null
@@ -2730,10 +2825,20 @@ export interface components {
          * @description What was placed.
          */
         PlaceReply: {
-            /** @description New road users: one state at `at_s`, the same as a fixed start, goals free. */
+            /**
+             * @description New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
+             *     has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
+             */
             agents: components["schemas"]["AgentDoc"][];
+            /** @description Where roads come into the map or the region, with what came of the traffic asked for. */
+            arms: components["schemas"]["ArmDoc"][];
             /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
             method: components["schemas"]["PlacementMethod"];
+            /**
+             * Format: uint
+             * @description Places at kerbs and in lots; null without `parked`.
+             */
+            parking_places: number | null;
             /** @description Why, in one sentence; null when all were placed. */
             reason: string | null;
             /**
@@ -3770,6 +3875,22 @@ export interface components {
          * @description Where the value of a field came from.
          */
         Source: "user" | "log" | "default" | "model";
+        /**
+         * SpeedsDoc
+         * @description Between which speeds motor vehicles start that move.
+         */
+        SpeedsDoc: {
+            /**
+             * Format: double
+             * @description m/s; not less than `min_mps`.
+             */
+            max_mps: number;
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            min_mps: number;
+        };
         /**
          * StartDoc
          * @description Where a road user starts; absent or null is free.

@@ -2,8 +2,9 @@
 import type { Pose, Vec } from './geometry';
 import { KIND_NAMES, PLACED_KINDS, typeOfKind, type PlacedKind, type Preset } from './kinds';
 import { rangesOf } from './domain';
-import { motionFrom } from './motion';
-import { freeGoal, type Agent, type GoalSpec, type Others } from './scene';
+import { motionFrom, poseAtStep, type Motion } from './motion';
+import { freeGoal, logStartSpec, type Agent, type GoalSpec, type Others } from './scene';
+import { trackJson } from './write';
 
 export interface Newcomer {
   readonly kind: PlacedKind;
@@ -14,7 +15,14 @@ export interface Newcomer {
   readonly goal: GoalSpec | null;
   readonly note: string;
   readonly does: Others | null;
+  /** What it does by itself: it comes in later, or is parked; null for one that the generator drives from the start. */
+  readonly motion: Motion | null;
+  /** Part of the street: it stands for as long as the scene lasts. */
+  readonly parked: boolean;
 }
+
+/** It comes in after the start. */
+export const comesLater = (n: Newcomer): boolean => n.motion !== null && n.motion.first > 0;
 
 export const newcomer = (kind: PlacedKind, size: Preset, pose: Pose): Newcomer => ({
   kind,
@@ -25,14 +33,26 @@ export const newcomer = (kind: PlacedKind, size: Preset, pose: Pose): Newcomer =
   goal: null,
   note: '',
   does: null,
+  motion: null,
+  parked: false,
 });
 
 /** The road user that it becomes. */
 export function settle(n: Newcomer, id: string): Agent {
   const { x, y, heading, speed } = n.pose;
   const [vx, vy] = [speed * Math.cos(heading), speed * Math.sin(heading)];
-  const log = motionFrom({ x_m: [x], y_m: [y], heading_rad: [heading], vx_mps: [vx], vy_mps: [vy] });
+  const { motion } = n;
+  const log = motion ?? motionFrom({ x_m: [x], y_m: [y], heading_rad: [heading], vx_mps: [vx], vy_mps: [vy] });
   const type = typeOfKind(n.kind);
+  const logStart = motion ? poseAtStep(motion, 0) : { x, y, heading, speed };
+  const source = motion && {
+    id,
+    type,
+    ...(n.subtype ? { subtype: n.subtype } : {}),
+    length_m: n.length,
+    width_m: n.width,
+    track: trackJson(motion),
+  };
   return Object.freeze({
     id,
     type,
@@ -48,13 +68,13 @@ export function settle(n: Newcomer, id: string): Agent {
     logSize: [n.length, n.width] as const,
     logType: type,
     logSubtype: n.subtype,
-    placed: true,
-    source: null,
+    placed: motion === null,
+    source,
     log,
-    logStart: Object.freeze({ x, y, heading, speed }),
-    parked: false,
+    logStart: logStart && Object.freeze(logStart),
+    parked: n.parked,
     ego: false,
-    start: Object.freeze({ pos: Object.freeze([x, y] as const), heading, speed }),
+    start: motion ? logStartSpec(logStart) : Object.freeze({ pos: Object.freeze([x, y] as const), heading, speed }),
     goal: n.goal ?? freeGoal(),
     chosen: null,
     profile: null,
@@ -67,7 +87,7 @@ export function settle(n: Newcomer, id: string): Agent {
 export function copyOf(a: Agent, pose: Pose): Newcomer | null {
   if (a.kind === 'other') return null;
   const { kind, subtype, length, width, goal, note, does } = a;
-  return { kind, subtype, length, width, pose, goal, note, does };
+  return { kind, subtype, length, width, pose, goal, note, does, motion: null, parked: false };
 }
 
 /** The same so many metres further on, its goal with it. */
@@ -90,8 +110,11 @@ const MOST_CHARACTERS = 4_000_000;
 
 /** Road users as the clipboard carries them from tab to tab. */
 export function copiesText(all: readonly Newcomer[]): string {
-  const road_users = all.map(({ pose, goal, length, width, ...rest }) => ({
-    ...rest,
+  const road_users = all.map(({ kind, subtype, note, does, pose, goal, length, width }) => ({
+    kind,
+    subtype,
+    note,
+    does,
     length_m: length,
     width_m: width,
     x_m: pose.x,
@@ -145,6 +168,8 @@ function readOne(v: unknown): Newcomer | null {
     goal: readGoal(o.goal),
     note: typeof o.note === 'string' ? o.note.slice(0, 2000) : '',
     does,
+    motion: null,
+    parked: false,
   };
 }
 

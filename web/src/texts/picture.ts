@@ -6,6 +6,9 @@ export const TEXTS = table('picture', {
   besideIt: 'beside it',
   byTheRoad: (distance: string, where: string) => `By the road: ${distance} ${where}`,
   byRoad: 'by road',
+  armComes: (arm: string, rate: number, now: number, later: number) =>
+    `${arm} ${rate}/h · ${now} now${later ? `, ${later} later` : ''}`,
+  thePreviewDid: 'The preview did not load. Try again when the network is back.',
   kerbM: (radius_m: string) => `Kerb ${radius_m} m`,
   collision: (title: string) => `Collision · ${title}`,
   inTheLog: (text: string) => `${text} · in the log`,

@@ -1,13 +1,19 @@
 // Filling an area: outlines drawn by hand, kinds shared out, pins that stay.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { FILL_KINDS, EVEN_MIX, recast, shareOf, thinned, typesOf } from '../../src/edit/fill-mix';
-import { Filling } from '../../src/edit/filling';
+import { FILL_KINDS, EVEN_MIX, shareOf, typesOf } from '../../src/edit/fill-mix';
+import { recast, thinned } from '../../src/edit/fill-recast';
+import { armHandleAt, armHandles, armName, rateAfter } from '../../src/edit/arm-handles';
+import { ANY_SPEED, Filling, NO_ANSWER, type Arm } from '../../src/edit/filling';
 import { simplified } from '../../src/edit/gestures/filling';
 import { inTheWay } from '../../src/edit/room';
 import type { Vec } from '../../src/model/geometry';
 import { PRESETS } from '../../src/model/kinds';
-import { newcomer } from '../../src/model/newcomer';
+import { View } from '../../src/draw/view';
+import { motionFrom } from '../../src/model/motion';
+import { comesLater, newcomer, settle, type Newcomer } from '../../src/model/newcomer';
+import { touched } from '../../src/model/scene';
+import { wholeAgentJson } from '../../src/model/write';
 
 const carAt = (x: number, y = 0) => newcomer('car', PRESETS.car[0], { x, y, heading: 0, speed: 10 });
 
@@ -89,11 +95,11 @@ describe('a preview', () => {
     const f = new Filling();
     f.open(1);
     const all = [carAt(0), carAt(20), carAt(40)];
-    f.settle({ all, reason: null, replaced: [] });
+    f.settle({ ...NO_ANSWER, all });
     f.togglePin(f.at([20.5, 0.4])!);
     expect(f.all.value.map((n) => n.pose.x)).toEqual([20, 0, 40]);
     f.shuffle();
-    f.settle({ all: [carAt(70)], reason: null, replaced: [] });
+    f.settle({ ...NO_ANSWER, all: [carAt(70)] });
     expect(f.all.value.map((n) => n.pose.x)).toEqual([20, 70]);
     f.togglePin(f.all.value[0]);
     expect(f.wish.value!.pinned).toEqual([]);
@@ -114,5 +120,86 @@ describe('too many at once', () => {
       expect(Math.abs(there.length - 25)).toBeLessThanOrEqual(1);
     }
     expect(thinned([1, 2], 5)).toEqual([1, 2]);
+  });
+});
+
+const still = (x: number, first = 0): Newcomer => {
+  const ten = (v: number): number[] => Array.from({ length: 10 }, () => v);
+  const motion = motionFrom({
+    first_step: first,
+    x_m: first ? Array.from({ length: 10 }, (_, i) => x + i) : ten(x),
+    y_m: ten(0),
+    heading_rad: ten(0),
+    vx_mps: ten(first ? 10 : 0),
+    vy_mps: ten(0),
+  });
+  return { ...carAt(x), motion, parked: first === 0 };
+};
+
+describe('those who are parked or come in later', () => {
+  it('come into the scene with their motion, and nobody asked anything of them', () => {
+    const [parked, late] = [settle(still(5), '7'), settle(still(-90, 30), '8')];
+    expect([parked.parked, parked.placed, touched(parked)]).toEqual([true, false, false]);
+    expect(parked.logStart).toMatchObject({ x: 5, speed: 0 });
+    expect([late.logStart, late.start.pos, late.placed]).toEqual([null, null, false]);
+    const json = wholeAgentJson(late);
+    expect([json.id, json.track.first_step, json.track.x_m.length]).toEqual(['8', 30, 10]);
+    expect(json.conditions).toEqual({});
+  });
+
+  it('keep their kind, and are not under the pointer before they are there', () => {
+    const heavy = { ...EVEN_MIX, car: 0, heavy: 50, motorcycle: 0, cyclist: 0, pedestrian: 0 };
+    const all = [carAt(-40), still(5), still(-90, 30)];
+    expect(recast(all, heavy, []).map((n) => n.kind)).toEqual(['truck', 'car', 'car']);
+    const f = new Filling();
+    f.open(1);
+    f.settle({ ...NO_ANSWER, all });
+    expect(f.at([5, 0])).toBe(all[1]);
+    expect(comesLater(all[2]) && f.at([-90, 0])).toBeNull();
+  });
+});
+
+describe('arms', () => {
+  const west: Arm = { id: 'west', at: [-50, 0], heading: 0, most: 2400, placed: 0, later: 0 };
+  const north: Arm = { id: 'north-east-2', at: [0, 30], heading: -Math.PI / 2, most: 4800, placed: 2, later: 1 };
+
+  it('have handles that go outward with the rate and stay in the picture', () => {
+    const v = new View();
+    for (const rate of [0, 600, 2400]) {
+      const [w, n] = armHandles([west, north], { west: rate, 'north-east-2': rate }, v);
+      expect(w.at[0]).toBeCloseTo(w.base[0] - (110 * rate) / 2400);
+      expect(n.at[1]).toBeCloseTo(n.base[1] - (110 * rate) / 4800);
+      for (const h of [w, n]) {
+        expect(h.at[0]).toBeGreaterThanOrEqual(29.9);
+        expect(h.at[1]).toBeGreaterThanOrEqual(29.9);
+      }
+      expect(armHandleAt([w, n], n.at[0] + 5, n.at[1], 13)?.arm).toBe(north);
+      expect(armHandleAt([w, n], 300, 300, 13)).toBeNull();
+    }
+    expect(armHandles([{ ...west, at: [-500, 0] }], {}, v)).toEqual([]);
+  });
+
+  it('take what the hand says, between nothing and all that their lanes take', () => {
+    fc.assert(
+      fc.property(fc.integer({ min: 0, max: 2400 }), fc.integer({ min: -500, max: 500 }), (before, px) => {
+        const rate = rateAfter(before, px, west);
+        expect(rate % 20 === 0 && rate >= 0 && rate <= 2400).toBe(true);
+        expect(Math.sign(rateAfter(1200, px, west) - 1200) * Math.sign(px)).toBeGreaterThanOrEqual(0);
+      }),
+    );
+    expect(armName(north)).toBe('North-east 2');
+  });
+
+  it('are remembered by their names, and speeds keep their order', () => {
+    const f = new Filling();
+    f.open(1);
+    f.setRate('west', 600);
+    f.setSpeeds([20, 5]);
+    expect(f.wish.value!.rates).toEqual({ west: 600 });
+    expect(f.wish.value!.speeds).toEqual([5, 20]);
+    f.close();
+    f.open(2);
+    expect(f.wish.value!.rates).toEqual({});
+    expect(f.wish.value!.speeds).toEqual(ANY_SPEED);
   });
 });

@@ -12,6 +12,14 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Room around every box, metres.
 const MARGIN_M: f64 = 0.1;
+/// The same between two who drive, to the side, metres: lanes keep people farther apart than doors need.
+const SIDE_M: f64 = 0.4;
+/// Whoever drives where a lane leaves the map is so far before its end at least, metres: it is to be seen for a while.
+pub(super) const END_M: f64 = 8.0;
+/// Vehicles longer than this stand straight on their lane only where nose and tail are on a lane too, metres.
+const LONG_M: f64 = 6.0;
+/// Nose and tail of a long vehicle turn from their lane by this at most, radians.
+const LONG_TURN_RAD: f64 = 0.5;
 /// Share of a lane's half width on which nobody parks or stands.
 const BAND: f64 = 0.9;
 
@@ -39,7 +47,7 @@ impl Neighbours {
         let long = OrientedBox::new(
             outline.center(),
             outline.half_length_m() + gap_m,
-            near.half_width_m(),
+            outline.half_width_m() + SIDE_M,
             outline.heading_rad(),
         );
         self.obstacles.iter().zip(&self.driving).all(|(other, driving)| {
@@ -54,6 +62,7 @@ impl Neighbours {
 pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     let outline = placed.outline();
     match placed.kind {
+        CellKind::Lane if !is_on_the_road(placed, cells.graph) => false,
         CellKind::Lane => {
             match placed.lane.map(|lane| cells.lights.ahead(cells.graph, lane, placed.pose.s_m)) {
                 Some(Ahead::StopLine(StopControl::Red, m)) => m >= outline.half_length_m() + STOP_LINE_M,
@@ -70,8 +79,34 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     }
 }
 
+/// Nobody hangs over the edge of the map, and no long vehicle stands across lanes.
+fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
+    let Some(lane) = placed.lane.map(|lane| &graph.lanes()[lane]) else { return true };
+    let half_m = 0.5 * placed.size.length_m;
+    let (before_m, after_m) = (placed.pose.s_m, lane.path.length_m() - placed.pose.s_m);
+    // Short lanes without links are all that some maps have.
+    let long_enough = lane.path.length_m() > 2.0 * (half_m + END_M);
+    let leaves = long_enough && lane.successors.is_empty() && after_m < half_m + END_M;
+    let hangs = long_enough && lane.predecessors.is_empty() && before_m < half_m;
+    if leaves || hangs {
+        return false;
+    }
+    let outline = placed.outline();
+    let ends = [1.0, -1.0].map(|end| outline.center() + outline.forward() * (end * half_m));
+    placed.size.length_m < LONG_M || ends.iter().all(|p| is_along(*p, outline.heading_rad(), graph))
+}
+
+/// The point lies on the band of a lane that leads about this way.
+fn is_along(point: Vec2, heading_rad: f64, graph: &LaneGraph) -> bool {
+    let hits = graph.nearest_lanes(point, 4.0, |_, lane| lane.carries(AgentType::Vehicle));
+    hits.iter().any(|hit| {
+        let half_m = 0.5 * graph.lanes()[hit.lane].width_m;
+        hit.distance_m < BAND * half_m && wrap_angle(hit.heading_rad - heading_rad).abs() < LONG_TURN_RAD
+    })
+}
+
 /// The point lies on the band that traffic of some lane uses.
-fn on_lane(point: Vec2, graph: &LaneGraph) -> bool {
+pub(super) fn on_lane(point: Vec2, graph: &LaneGraph) -> bool {
     let drives = |_: usize, l: &GraphLane| l.carries(AgentType::Vehicle) || l.carries(AgentType::Cyclist);
     let hits = graph.nearest_lanes(point, 4.0, drives);
     hits.iter().any(|h| h.distance_m < BAND * 0.5 * graph.lanes()[h.lane].width_m)
@@ -92,6 +127,8 @@ mod tests {
             subtype: Subtype::Car,
             size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
             pose,
+            free_mps: None,
+            parked: false,
             kind,
             lane: (kind == CellKind::Lane).then_some(0),
         }
@@ -114,8 +151,8 @@ mod tests {
         assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
         let across = car(10.0, 0.0, 1.0, CellKind::Lane);
         assert!(beside(&across, true).is_free(&at(4.5), 2.0), "nobody follows across");
-        assert!(beside(&leader, true).is_free(&car(10.0, 2.2, 0.0, CellKind::Lane), 2.0));
-        assert!(!beside(&leader, true).is_free(&car(10.0, 2.05, 0.0, CellKind::Lane), 2.0));
+        assert!(beside(&leader, true).is_free(&car(10.0, 2.45, 0.0, CellKind::Lane), 2.0));
+        assert!(!beside(&leader, true).is_free(&car(10.0, 2.35, 0.0, CellKind::Lane), 2.0));
     }
 
     #[test]

@@ -19,8 +19,15 @@ const CYCLIST_MPS: f64 = 7.0;
 
 /// Speed that limit and bends allow at a place of a lane, m/s.
 pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: AgentType) -> f64 {
+    let most = if agent_type == AgentType::Cyclist { CYCLIST_MPS } else { f64::INFINITY };
+    let limit_mps = graph.lanes()[lane].speed_limit_mps;
+    limit_mps.min(bend_mps(graph, lane, s_m)).min(most).max(1.0)
+}
+
+/// Speed that the bends of a lane allow at a place of it, m/s.
+pub(super) fn bend_mps(graph: &LaneGraph, lane: usize, s_m: f64) -> f64 {
     let here = &graph.lanes()[lane];
-    let mut allowed = here.speed_limit_mps;
+    let mut allowed = f64::INFINITY;
     for i in 0..=5 {
         let ahead_m = BEND_LOOK_M * f64::from(i) / 5.0;
         if s_m + ahead_m > here.path.length_m() {
@@ -29,8 +36,7 @@ pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: 
         let bend = here.path.curvature_at(s_m + ahead_m, 6.0).abs().max(1e-6);
         allowed = allowed.min((BEND_MPS2 / bend + 2.0 * BEND_MPS2 * ahead_m).sqrt());
     }
-    let most = if agent_type == AgentType::Cyclist { CYCLIST_MPS } else { f64::INFINITY };
-    allowed.min(most).max(1.0)
+    allowed
 }
 
 /// Speed that is usual off the lanes, m/s.

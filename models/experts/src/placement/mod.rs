@@ -5,13 +5,17 @@
 //! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
 //! to a conflict first, so that everybody knows who is in front.
 
+mod arms;
+mod arrivals;
 mod assign;
 mod cells;
 mod checks;
 mod context;
 mod driving;
+mod following;
 pub mod learn;
 mod model;
+mod parking;
 mod place;
 mod placed;
 mod placer;
@@ -22,8 +26,12 @@ mod request;
 mod speeds;
 mod stop_lines;
 
+pub use arms::{Arm, ArmLane};
 pub use model::{PlacementInfo, PlacementModel};
 pub use place::place;
 pub use placer::Placer;
 pub use region::{Region, map_bounds, ring_area_m2};
-pub use request::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement};
+pub use request::{
+    Amount, ArmTraffic, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
+    MAX_SPEED_MPS, Method, Parked, PlaceRequest, Placement, SpeedRange,
+};

@@ -7,7 +7,7 @@ use super::model::{PlacementModel, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_pose, draw_size};
 use super::random::{self, WeightTree, stream_name};
-use super::request::{Method, PlaceRequest, Placement, reason};
+use super::request::{Method, PlaceRequest, Placement, counted, reason};
 use super::speeds::StartSpeeds;
 use crate::planning::world::AgentAtStart;
 use crate::request::{Cancel, GenerateError};
@@ -15,7 +15,7 @@ use scene::geometry::wrap_angle;
 use scene::random::Stream;
 use scene::routes::LaneGraph;
 use scene::routes::speed::Obstacle;
-use scene::{Agent, AgentType, MAX_AGENTS, Size, Subtype, Vec2};
+use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Size, Subtype, Vec2};
 use std::collections::{BTreeMap, HashSet};
 use std::f64::consts::PI;
 
@@ -25,20 +25,22 @@ const TRIES: usize = 128;
 const CELL_TRIES: u8 = 4;
 
 /// Draws cells in proportion to rates that change with whoever is placed.
-struct Sampler<'a> {
-    request: &'a PlaceRequest,
+pub(super) struct Sampler<'a> {
+    pub(super) request: &'a PlaceRequest,
     model: Option<&'a PlacementModel>,
-    cells: Cells<'a>,
+    pub(super) cells: Cells<'a>,
     /// Distance from each lane cell to the nearest road user ahead, metres.
     gaps: Vec<f64>,
     /// How likely each cell is drawn, by type.
-    rates: BTreeMap<AgentType, WeightTree>,
+    pub(super) rates: BTreeMap<AgentType, WeightTree>,
+    /// Lanes that drivers reach by an arm alone.
+    pub(super) arrival_lanes: HashSet<usize>,
     /// Failed draws by type and cell.
     failed: BTreeMap<AgentType, Vec<u8>>,
     neighbours: Neighbours,
     /// Number of kept road users among the neighbours.
     kept: usize,
-    placed: Vec<PlacedAgent>,
+    pub(super) placed: Vec<PlacedAgent>,
 }
 
 /// Places road users by the model, or evenly along lanes without one. Equal requests give equal answers.
@@ -59,8 +61,10 @@ pub fn place(
     let kept: Vec<&Agent> =
         scene.agents.iter().filter(|a| request.keep.as_ref().is_none_or(|k| k.contains(&a.id))).collect();
     let mut sampler = Sampler::new(model, graph, request, &kept);
-    let wanted = request.wanted(sampler.cells.lane_km(&request.region));
     let mut free = MAX_AGENTS.saturating_sub(kept.len());
+    let mut traffic = sampler.place_arrivals(&mut free, cancel)?;
+    let parked = sampler.park(&mut free, cancel)?;
+    let wanted = request.wanted(sampler.cells.lane_km(&request.region));
     let (mut unplaced, mut full) = (BTreeMap::new(), false);
     for (&agent_type, &count) in &wanted {
         let asked = count.min(free);
@@ -72,9 +76,29 @@ pub fn place(
         }
     }
     let speeds = sampler.speeds();
-    let reason = reason(&unplaced, full);
-    let method = if model.is_some() { Method::Model } else { Method::LaneSampler };
-    Ok(Placement { agents: sampler.agents(&speeds), unplaced, reason, method })
+    let mut ids = request.free_ids();
+    let mut agents = sampler.agents(&speeds, &mut ids);
+    agents.extend(sampler.late_comers(&mut traffic, &speeds, &kept, &mut ids, cancel)?);
+    let mut reasons: Vec<String> = reason(&unplaced, full).into_iter().collect();
+    let too_slow = speeds.iter().filter(|speed| speed.is_none()).count();
+    if let (1.., Some(range)) = (too_slow, request.speeds) {
+        let who = counted(too_slow, AgentType::Vehicle);
+        reasons.push(format!("no place where one can start at {} m/s or more for {who}", range.min_mps));
+    }
+    reasons.append(&mut traffic.reasons);
+    reasons.extend(parked.reason);
+    let missing = too_slow + traffic.unplaced + parked.unplaced;
+    if missing > 0 {
+        *unplaced.entry(AgentType::Vehicle).or_default() += missing;
+    }
+    Ok(Placement {
+        agents,
+        unplaced,
+        reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
+        method: if model.is_some() { Method::Model } else { Method::LaneSampler },
+        arms: traffic.arms,
+        parking_places: parked.places,
+    })
 }
 
 impl<'a> Sampler<'a> {
@@ -91,6 +115,7 @@ impl<'a> Sampler<'a> {
             gaps: vec![f64::INFINITY; cells.all.len()],
             cells,
             rates: BTreeMap::new(),
+            arrival_lanes: HashSet::new(),
             failed: BTreeMap::new(),
             neighbours: Neighbours::default(),
             kept: 0,
@@ -118,7 +143,7 @@ impl<'a> Sampler<'a> {
         sampler
     }
 
-    fn of_type(&self, agent_type: AgentType) -> Option<&'a TypeModel> {
+    pub(super) fn of_type(&self, agent_type: AgentType) -> Option<&'a TypeModel> {
         self.model.and_then(|m| m.types.get(&agent_type))
     }
 
@@ -127,7 +152,10 @@ impl<'a> Sampler<'a> {
         let reach_m = 0.5 * cell.extent() + 20.0;
         let fits =
             self.cells.may_hold(cell, agent_type) && self.request.region.may_hold(cell.center, reach_m);
-        if !fits {
+        let by_an_arm = agent_type == AgentType::Vehicle
+            && cell.kind == CellKind::Lane
+            && self.arrival_lanes.contains(&cell.line);
+        if !fits || by_an_arm {
             return 0.0;
         }
         if self.model.is_none() {
@@ -182,19 +210,24 @@ impl<'a> Sampler<'a> {
         Ok(done)
     }
 
+    /// Somebody has found a place: it is in the way of those who come after it, and leads those behind.
+    pub(super) fn settle(&mut self, placed: PlacedAgent) {
+        let obstacle = Obstacle { outline: placed.outline(), speed_mps: 0.0 };
+        self.neighbours.push(obstacle, placed.lane.is_some());
+        let lane = placed.lane.map(|lane| (lane, placed.pose.s_m));
+        self.placed.push(placed);
+        if let Some((lane, s_m)) = lane {
+            self.lead(lane, s_m);
+        }
+    }
+
     fn place_one(&mut self, agent_type: AgentType, stream: &mut Stream) -> bool {
         for _ in 0..TRIES {
             let Some(at) = self.rates.get(&agent_type).and_then(|rates| rates.draw(stream)) else {
                 return false;
             };
             if let Some(placed) = self.draw(agent_type, at, stream) {
-                let obstacle = Obstacle { outline: placed.outline(), speed_mps: 0.0 };
-                self.neighbours.push(obstacle, placed.lane.is_some());
-                let lane = placed.lane.map(|lane| (lane, placed.pose.s_m));
-                self.placed.push(placed);
-                if let Some((lane, s_m)) = lane {
-                    self.lead(lane, s_m);
-                }
+                self.settle(placed);
                 return true;
             }
             let failed = self.failed.get_mut(&agent_type).and_then(|f| f.get_mut(at));
@@ -227,11 +260,12 @@ impl<'a> Sampler<'a> {
         pose.position = pose.position.map(|v| rounded(v, 1e3));
         pose.heading_rad = wrap_angle(rounded(pose.heading_rad, 1e4));
         let lane = (cell.kind == CellKind::Lane).then_some(cell.line);
-        let placed = PlacedAgent { agent_type, subtype, size, pose, kind: cell.kind, lane };
+        let (kind, free_mps, parked) = (cell.kind, None, false);
+        let placed = PlacedAgent { agent_type, subtype, size, pose, kind, lane, free_mps, parked };
         self.fits(&placed).then_some(placed)
     }
 
-    fn fits(&self, placed: &PlacedAgent) -> bool {
+    pub(super) fn fits(&self, placed: &PlacedAgent) -> bool {
         let inside = self.request.region.contains(placed.pose.position)
             && placed.pose.position.amax() <= scene::MAX_COORDINATE_M;
         inside
@@ -239,19 +273,18 @@ impl<'a> Sampler<'a> {
             && (self.model.is_none() || is_sensible(placed, &self.cells))
     }
 
-    /// Speeds of the placed, m/s, in order.
-    fn speeds(&self) -> Vec<f64> {
+    /// Speeds of the placed, m/s, in order; `None` where none of those that are wanted is possible.
+    fn speeds(&self) -> Vec<Option<f64>> {
         let obstacles = self.neighbours.obstacles.clone();
-        let (seed, model, kept) = (self.request.seed, self.model, self.kept);
-        StartSpeeds { seed, model, cells: &self.cells, placed: &self.placed, kept, obstacles }.draw()
+        let (seed, model, kept, range) = (self.request.seed, self.model, self.kept, self.request.speeds);
+        StartSpeeds { seed, model, cells: &self.cells, placed: &self.placed, kept, obstacles, range }.draw()
     }
 
-    /// The placed as road users of the scene, with ids that are free there.
-    fn agents(&self, speeds: &[f64]) -> Vec<Agent> {
-        let taken: HashSet<&str> = self.request.scene.agents.iter().map(|a| a.id.as_str()).collect();
-        let mut ids = (1..).map(|n: usize| format!("p{n}")).filter(|id| !taken.contains(id.as_str()));
-        let placed = self.placed.iter().zip(speeds);
-        placed.map(|(p, speed)| p.agent(ids.next().unwrap_or_default(), *speed, self.request.step)).collect()
+    /// The placed as road users of the scene.
+    fn agents(&self, speeds: &[Option<f64>], ids: &mut impl Iterator<Item = AgentId>) -> Vec<Agent> {
+        let placed = self.placed.iter().zip(speeds).filter_map(|(p, speed)| Some((p, (*speed)?)));
+        let steps = self.request.step..self.request.scene.time.steps;
+        placed.map(|(p, speed)| p.agent(ids.next().unwrap_or_default(), speed, steps.clone())).collect()
     }
 }
 

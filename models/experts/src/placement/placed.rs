@@ -5,6 +5,7 @@ use super::pose::Pose;
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::{Agent, AgentId, AgentType, Conditions, Size, Start, State, Subtype, Track};
+use std::ops::Range;
 
 /// Somebody who was placed, before the speed is known.
 pub(super) struct PlacedAgent {
@@ -16,6 +17,10 @@ pub(super) struct PlacedAgent {
     pub(super) kind: CellKind,
     /// Graph lane of those who drive.
     pub(super) lane: Option<usize>,
+    /// Speed that it would have alone, m/s, where that is not drawn.
+    pub(super) free_mps: Option<f64>,
+    /// It is part of the street: it stands for as long as the scene lasts.
+    pub(super) parked: bool,
 }
 
 /// Positions, headings and speeds as they are written: rounded, so that what is checked is what is sent.
@@ -30,8 +35,9 @@ impl PlacedAgent {
         OrientedBox::new(self.pose.position, half_length, half_width, self.pose.heading_rad)
     }
 
-    /// The road user as a scene holds it: one state, and the same start as a condition.
-    pub(super) fn agent(&self, id: AgentId, speed_mps: f64, step: usize) -> Agent {
+    /// The road user as a scene holds it: one state, and the same start as a condition. Who is parked stands at
+    /// all of `steps` in place of both.
+    pub(super) fn agent(&self, id: AgentId, speed_mps: f64, steps: Range<usize>) -> Agent {
         let velocity = direction(self.pose.heading_rad) * speed_mps;
         let state = State {
             x_m: self.pose.position.x,
@@ -45,13 +51,14 @@ impl PlacedAgent {
             heading_rad: Some(self.pose.heading_rad),
             speed_mps: Some(speed_mps),
         };
+        let (seen, start) = if self.parked { (steps.len().max(1), Start::default()) } else { (1, start) };
         Agent {
             id,
             agent_type: self.agent_type,
             subtype: self.subtype,
             role: None,
             size: self.size,
-            track: Track { first_step: step, states: vec![Some(state)], z_m: None }.into(),
+            track: Track { first_step: steps.start, states: vec![Some(state); seen], z_m: None }.into(),
             conditions: Conditions { start, ..Conditions::default() },
         }
     }

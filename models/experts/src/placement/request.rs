@@ -1,8 +1,9 @@
 //! What placing is asked for, and its answer.
 
+use super::arms::Arm;
 use super::region::Region;
 use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
 /// Most road users asked for by count.
@@ -11,6 +12,54 @@ pub const MAX_COUNT: usize = MAX_AGENTS;
 pub const MAX_PER_LANE_KM: f64 = 200.0;
 /// Greatest room along the lane that may be asked for, metres.
 pub const MAX_GAP_M: f64 = 50.0;
+
+/// Most vehicles an hour that may be asked of one arm.
+pub const MAX_PER_HOUR: f64 = 20_000.0;
+/// Most parked cars for each 100 m of kerb.
+pub const MAX_PARKED_PER_100M: f64 = 20.0;
+/// Highest starting speed that may be asked for, m/s: the top speed of cars.
+pub const MAX_SPEED_MPS: f64 = 40.0;
+
+/// Between which speeds those start who drive and do not stand, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct SpeedRange {
+    pub min_mps: f64,
+    pub max_mps: f64,
+}
+
+/// Traffic that is to come in by an arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrivals {
+    /// [`Arm::id`].
+    pub arm: String,
+    /// Motor vehicles an hour, all lanes together.
+    pub per_hour: f64,
+}
+
+/// How many cars are parked where there is room at kerbs and in lots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Parked {
+    /// Share of the places that are taken, 0 to 1.
+    Share(f64),
+    /// So many on each 100 m of kerb with room; of the bays in lots as large a share.
+    Per100M(f64),
+}
+
+/// What was made of an arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArmTraffic {
+    /// The arm.
+    pub arm: Arm,
+    /// From where it comes in to its line: the first junction, or where the road ends or joins another, metres.
+    pub length_m: f64,
+    /// Most vehicles an hour that its lanes take.
+    pub most_per_hour: f64,
+    /// Vehicles of its traffic that are there at the start.
+    pub placed: usize,
+    /// Those that come in later.
+    pub later: usize,
+}
 
 /// How many road users.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +102,12 @@ pub struct PlaceRequest {
     pub seed: u64,
     /// Least room between those who drive, along the lane, metres.
     pub min_gap_m: f64,
+    /// Bounds of the speeds of motor vehicles that move; as they are on such roads without.
+    pub speeds: Option<SpeedRange>,
+    /// Traffic by arm. Drivers on the lanes of these arms come from here alone.
+    pub arrivals: Vec<Arrivals>,
+    /// Parked cars beside those that [`PlaceRequest::amount`] asks for.
+    pub parked: Option<Parked>,
 }
 
 impl PlaceRequest {
@@ -68,6 +123,9 @@ impl PlaceRequest {
             keep: None,
             seed: 0,
             min_gap_m: 2.0,
+            speeds: None,
+            arrivals: Vec::new(),
+            parked: None,
         }
     }
 }
@@ -75,7 +133,8 @@ impl PlaceRequest {
 /// The answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// New road users with one state at the step and the same start as a condition; goals are free.
+    /// New road users with one state at the step and the same start as a condition; goals are free. Who comes in
+    /// later has a motion from where the map begins on, who is parked one that stands, and nothing is fixed.
     pub agents: Vec<Agent>,
     /// Those that were asked for and found no place, by type.
     pub unplaced: BTreeMap<AgentType, usize>,
@@ -83,9 +142,19 @@ pub struct Placement {
     pub reason: Option<String>,
     /// How they were placed.
     pub method: Method,
+    /// All arms of the map or region, with what was made of them.
+    pub arms: Vec<ArmTraffic>,
+    /// Places where a car could park; `None` where nobody asked.
+    pub parking_places: Option<usize>,
 }
 
 impl PlaceRequest {
+    /// Ids that are free in the scene.
+    pub(super) fn free_ids(&self) -> impl Iterator<Item = AgentId> {
+        let taken: HashSet<&str> = self.scene.agents.iter().map(|a| a.id.as_str()).collect();
+        (1..).map(|n: usize| format!("p{n}")).filter(move |id| !taken.contains(id.as_str()))
+    }
+
     /// How many of each type, by largest remainder; vehicles first.
     pub(super) fn wanted(&self, lane_km: f64) -> BTreeMap<AgentType, usize> {
         let total = match &self.amount {
@@ -115,20 +184,22 @@ pub(super) fn reason(unplaced: &BTreeMap<AgentType, usize>, full: bool) -> Optio
     if unplaced.is_empty() {
         return None;
     }
-    let name = |t: &AgentType, n: usize| {
-        let one = match t {
-            AgentType::Vehicle => "vehicle",
-            AgentType::Pedestrian => "pedestrian",
-            AgentType::Cyclist => "cyclist",
-            AgentType::Other => "road user",
-        };
-        format!("{n} {one}{}", if n == 1 { "" } else { "s" })
-    };
-    let who: Vec<String> = unplaced.iter().map(|(t, n)| name(t, *n)).collect();
+    let who: Vec<String> = unplaced.iter().map(|(t, n)| counted(*n, *t)).collect();
     let why = if full {
         format!("a scene holds {MAX_AGENTS} road users")
     } else {
         "no free place found".to_owned()
     };
     Some(format!("{why} for {}", who.join(", ")))
+}
+
+/// `3 vehicles`.
+pub(super) fn counted(n: usize, agent_type: AgentType) -> String {
+    let one = match agent_type {
+        AgentType::Vehicle => "vehicle",
+        AgentType::Pedestrian => "pedestrian",
+        AgentType::Cyclist => "cyclist",
+        AgentType::Other => "road user",
+    };
+    format!("{n} {one}{}", if n == 1 { "" } else { "s" })
 }

@@ -3,10 +3,11 @@
 
 use super::cells::Cells;
 use super::context::SpeedContext;
-use super::driving::{allowed_mps, leader_ahead, usual_mps};
+use super::driving::{allowed_mps, bend_mps, leader_ahead, usual_mps};
 use super::model::{PlacementModel, SPEED_STEP, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
+use super::request::SpeedRange;
 use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
 use scene::limits::Limits;
 use scene::random::Stream;
@@ -16,6 +17,8 @@ use std::collections::HashSet;
 
 /// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.
 const BRAKE_MPS2: f64 = 3.0;
+/// Speeds are rounded to this, m/s.
+const ROUNDING_MPS: f64 = 1e-3;
 /// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
 const UNKNOWN_LEADER_MPS: f64 = 5.0;
 
@@ -29,11 +32,13 @@ pub(super) struct StartSpeeds<'a> {
     pub(super) kept: usize,
     /// Kept road users, then the placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
+    /// Between which speeds motor vehicles start that move; as they come without.
+    pub(super) range: Option<SpeedRange>,
 }
 
 impl StartSpeeds<'_> {
-    /// Speed of everyone placed, m/s.
-    pub(super) fn draw(mut self) -> Vec<f64> {
+    /// Speed of everyone placed, m/s; `None` where none in the range is possible.
+    pub(super) fn draw(mut self) -> Vec<Option<f64>> {
         let mut order: Vec<(f64, usize)> = Vec::new();
         for (i, placed) in self.placed.iter().enumerate() {
             let ahead = placed.lane.map(|l| self.cells.lights.ahead(self.cells.graph, l, placed.pose.s_m));
@@ -51,7 +56,8 @@ impl StartSpeeds<'_> {
         for (_, i) in order {
             self.draw_after_leader(i, &mut begun);
         }
-        self.obstacles[self.kept..].iter().map(|o| o.speed_mps).collect()
+        let speeds = self.obstacles[self.kept..].iter().zip(self.placed);
+        speeds.map(|(o, placed)| self.may_start(placed, o.speed_mps).then_some(o.speed_mps)).collect()
     }
 
     /// Draws the speed of one road user, after that of the leader. A ring of leaders is cut where it began.
@@ -83,14 +89,24 @@ impl StartSpeeds<'_> {
         self.obstacles[own].speed_mps = rounded(speed_mps, 1e3);
     }
 
+    /// A motor vehicle stands, or is as fast as is wanted.
+    fn may_start(&self, placed: &PlacedAgent, speed_mps: f64) -> bool {
+        let asked = placed.lane.is_some() && placed.agent_type == AgentType::Vehicle;
+        let slow = |range: SpeedRange| speed_mps > 0.0 && speed_mps < range.min_mps - ROUNDING_MPS;
+        !(asked && self.range.is_some_and(slow))
+    }
+
     fn drive_speed(&self, i: usize, lane: usize, leader: Option<(f64, f64)>, stream: &mut Stream) -> f64 {
         let placed = &self.placed[i];
         let limits = Limits::of(placed.agent_type, placed.subtype, placed.size.length_m);
-        let Some(model) = self.model.and_then(|m| m.types.get(&placed.agent_type)) else {
+        let range = self.range.filter(|_| placed.agent_type == AgentType::Vehicle);
+        let model = self.model.and_then(|m| m.types.get(&placed.agent_type));
+        if model.is_none() && placed.free_mps.is_none() {
             let limit_mps = self.cells.graph.lanes()[lane].speed_limit_mps;
             let most = if placed.agent_type == AgentType::Cyclist { 5.0 } else { limits.speed_mps };
-            return limit_mps.min(most);
-        };
+            let speed_mps = limit_mps.min(most);
+            return range.map_or(speed_mps, |r| speed_mps.clamp(r.min_mps, r.max_mps).min(most));
+        }
         let ahead = self.cells.lights.ahead(self.cells.graph, lane, placed.pose.s_m);
         let unit_mps = allowed_mps(self.cells.graph, lane, placed.pose.s_m, placed.agent_type);
         let mut most = limits.speed_mps;
@@ -102,8 +118,21 @@ impl StartSpeeds<'_> {
         if let Ahead::StopLine(StopControl::Red, m) = ahead {
             most = most.min(brakes_from(m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
         }
-        let context = SpeedContext::driver(ahead.road_ahead(), leader);
-        drawn_speed(model, context, unit_mps, most, stream)
+        let drawn = match (placed.free_mps, model) {
+            (Some(free_mps), _) => free_mps,
+            (None, Some(model)) => {
+                let context = SpeedContext::driver(ahead.road_ahead(), leader);
+                drawn_speed(model, context, unit_mps, f64::INFINITY, stream)
+            }
+            (None, None) => unit_mps,
+        };
+        // Who stands goes on standing: a queue is no matter of speed.
+        let wanted = match range {
+            Some(range) if drawn > 0.0 => drawn.clamp(range.min_mps, range.max_mps),
+            _ => drawn,
+        };
+        let bend_mps = range.map_or(f64::INFINITY, |_| bend_mps(self.cells.graph, lane, placed.pose.s_m));
+        standing_or(wanted.min(most).min(bend_mps))
     }
 
     fn walk_speed(&self, i: usize, stream: &mut Stream) -> f64 {
@@ -137,7 +166,10 @@ fn drawn_speed(
     if class == 0 {
         return 0.0;
     }
-    let speed_mps = (unit_mps * SPEED_STEP * (class as f64 - 1.0 + part)).min(most);
+    standing_or((unit_mps * SPEED_STEP * (class as f64 - 1.0 + part)).min(most))
+}
+
+fn standing_or(speed_mps: f64) -> f64 {
     if speed_mps < STANDING_MPS { 0.0 } else { speed_mps }
 }
 

@@ -104,6 +104,11 @@ impl Lights {
         Self(lit.collect())
     }
 
+    /// A lit signal rules a lane.
+    pub(super) fn rules(&self, lane: usize) -> bool {
+        self.0.contains_key(&lane)
+    }
+
     /// What is ahead of the place at `s_m` of a lane.
     pub(super) fn ahead(&self, graph: &LaneGraph, lane: usize, s_m: f64) -> Ahead {
         let lanes = graph.lanes();

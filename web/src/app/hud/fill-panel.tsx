@@ -2,13 +2,17 @@
 import { useComputed } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
-import { LEAST_DENSITY, MOST_DENSITY } from '../../edit/filling';
+import { armName, RATE_STEP } from '../../edit/arm-handles';
+import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/filling';
+import { comesLater, type Newcomer } from '../../model/newcomer';
 import { KIND_NAMES } from '../../model/kinds';
-import { num } from '../../model/units';
+import { STEP_S } from '../../model/motion';
+import { fromUnit, nextSpeedUnit, num, seconds, speedText, toUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { SeedField } from '../parts/asking';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { NumberField } from '../parts/number-field';
 import '../../styles/filling.css';
 import { TEXTS } from '../../texts/fill-panel';
 
@@ -63,6 +67,22 @@ export default function FillPanel() {
           set={(v) => filling.setShare(k, v)}
         />
       ))}
+      <Slider
+        label={TEXTS.parkedCars}
+        value={Math.round(wish.parked * 100)}
+        range={[0, 100]}
+        step={5}
+        text={filling.answer.value?.parkingPlaces === 0 ? TEXTS.noRoom : `${Math.round(wish.parked * 100)}%`}
+        set={(v) => filling.setParked(v / 100)}
+      />
+      <Line label={TEXTS.speed}>
+        <span class="from-to">
+          <SpeedField end={0} />
+          {TEXTS.to}
+          <SpeedField end={1} />
+        </span>
+      </Line>
+      <Arms />
       <Line label={TEXTS.keepWhatIsThere}>
         <button
           type="button"
@@ -95,27 +115,91 @@ export default function FillPanel() {
   );
 }
 
+/** One end of the range of speeds that vehicles start at. */
+function SpeedField({ end }: { end: 0 | 1 }) {
+  const { editor } = useApp();
+  const { filling, speedUnit } = editor;
+  const mps = (): number => (filling.wish.value?.speeds ?? ANY_SPEED)[end];
+  return (
+    <NumberField
+      label={end ? TEXTS.highestSpeed : TEXTS.lowestSpeed}
+      field={end ? 'fill-fastest' : 'fill-slowest'}
+      unit={() => (end ? speedUnit.value : '')}
+      quantity={() => speedUnit.value}
+      step={1}
+      range={() => [toUnit(ANY_SPEED[0], speedUnit.value), toUnit(ANY_SPEED[1], speedUnit.value)]}
+      value={() => toUnit(mps(), speedUnit.value)}
+      text={() => speedText(mps(), speedUnit.value)}
+      set={(v) => {
+        const other = filling.wish.value!.speeds[1 - end];
+        const here = fromUnit(v, speedUnit.value);
+        // The end that is set wins: the other one goes along.
+        filling.setSpeeds(end ? [Math.min(other, here), here] : [here, Math.max(other, here)]);
+      }}
+      onUnit={end ? () => editor.setUnit(nextSpeedUnit(speedUnit.peek())) : undefined}
+    />
+  );
+}
+
+/** How many come in by each arm; the handles on the map are the same. */
+function Arms() {
+  const { filling } = useApp().editor;
+  const arms = filling.answer.value?.arms ?? [];
+  if (!arms.length) return null;
+  return (
+    <fieldset class="arms">
+      <legend>{TEXTS.comingIn}</legend>
+      {arms.map((arm) => (
+        <Line key={arm.id} label={armName(arm)}>
+          <RateField arm={arm} />
+        </Line>
+      ))}
+    </fieldset>
+  );
+}
+
+function RateField({ arm }: { arm: Arm }) {
+  const { filling } = useApp().editor;
+  const rate = (): number => filling.wish.value?.rates[arm.id] ?? 0;
+  return (
+    <NumberField
+      label={TEXTS.vehiclesAnHour(armName(arm))}
+      field={`fill-arm-${arm.id}`}
+      unit={() => '/h'}
+      quantity={() => 'count'}
+      step={RATE_STEP}
+      range={() => [0, arm.most]}
+      value={rate}
+      text={() => String(rate())}
+      set={(v) => filling.setRate(arm.id, Math.round(v))}
+    />
+  );
+}
+
 /** Who would come, for those who do not see the canvas: a button each, which pins. */
 function Preview() {
   const { filling } = useApp().editor;
   const all = filling.all.value;
   return (
     <div class="sr" role="group" aria-label={TEXTS.preview(all.length)}>
-      {all.map((n) => (
+      {all.map((n, i) => (
         <button
-          key={`${n.pose.x} ${n.pose.y}`}
+          key={comesLater(n) ? `later ${i}` : `${n.pose.x} ${n.pose.y}`}
           type="button"
           tabIndex={-1}
           data-preview={n.kind}
           aria-pressed={filling.isPinned(n)}
           onClick={() => filling.togglePin(n)}
         >
-          {TEXTS.at(KIND_NAMES[n.kind], num(n.pose.x, 1), num(n.pose.y, 1))}
+          {TEXTS.at(`${KIND_NAMES[n.kind]}${what(n)}`, num(n.pose.x, 1), num(n.pose.y, 1))}
         </button>
       ))}
     </div>
   );
 }
+
+const what = (n: Newcomer): string =>
+  n.parked ? TEXTS.parked : comesLater(n) ? TEXTS.comesInAfter(seconds(n.motion!.first * STEP_S)) : '';
 
 /** What to do next, or why there are not more. */
 function Note() {
@@ -126,7 +210,14 @@ function Note() {
   const pinned = wish.pinned.length;
   const words = filling.drawn.value
     ? TEXTS.clickFurther
-    : (reason ?? (pinned ? TEXTS.pinnedShuffle(pinned) : wish.region ? TEXTS.dragACornerTo : TEXTS.theWholeMapDraw));
+    : (reason ??
+      (pinned
+        ? TEXTS.pinnedShuffle(pinned)
+        : Object.values(wish.rates).some((r) => r > 0)
+          ? TEXTS.dragAnArrow
+          : wish.region
+            ? TEXTS.dragACornerTo
+            : TEXTS.theWholeMapDraw));
   return (
     <p class="note" aria-live="polite">
       {gone ? TEXTS.makeRoom(gone) : ''}

@@ -1,6 +1,7 @@
 // An area to be filled: drawn round with one drag, or corner by corner. Its corners can be moved; a click on somebody
 // of the preview pins it.
 import type { Vec } from '../../model/geometry';
+import { armHandleAt, armHandles, rateAfter, type ArmHandle } from '../arm-handles';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import { TEXTS } from '../../texts/gestures';
@@ -13,6 +14,9 @@ const TOLERANCE_PX = 5;
 /** A corner can be taken hold of from so far, pixels. */
 const CORNER_PX = 9;
 const CORNER_PX_TOUCH = 24;
+/** An arm's handle can be taken hold of from so far, pixels. */
+const HANDLE_PX = 13;
+const HANDLE_PX_TOUCH = 26;
 /** A click so near to the first corner closes the outline, pixels. */
 const CLOSE_PX = 10;
 
@@ -87,6 +91,51 @@ class MovingCorner implements State {
   }
 }
 
+/** An arm's handle in hand: outward more come in. */
+class DraggingRate implements State {
+  readonly name = 'dragging a rate';
+
+  constructor(
+    private readonly chart: Chart,
+    private readonly handle: ArmHandle,
+    private readonly press: Press,
+  ) {}
+
+  enter(): void {
+    this.chart.surface.setCursor('grabbing');
+  }
+
+  leave(): void {
+    this.chart.surface.setCursor('');
+  }
+
+  move(): void {
+    const { arm, rate, out } = this.handle;
+    const { at, editor } = this.chart;
+    const px = (at.x - this.press.x) * out[0] + (at.y - this.press.y) * out[1];
+    editor.filling.setRate(arm.id, rateAfter(rate, px, arm));
+  }
+
+  up(): void {
+    this.move();
+    this.chart.rest();
+  }
+
+  cancel(): boolean {
+    this.chart.editor.filling.setRate(this.handle.arm.id, this.handle.rate);
+    return true;
+  }
+}
+
+function handleAt(chart: Chart, press: Pick<Press, 'x' | 'y' | 'touch'>): ArmHandle | null {
+  const { filling } = chart.editor;
+  const wish = filling.wish.peek();
+  const arms = filling.answer.peek()?.arms;
+  if (!wish || !arms || filling.drawn.peek()) return null;
+  const all = armHandles(arms, wish.rates, chart.surface.view);
+  return armHandleAt(all, press.x, press.y, press.touch ? HANDLE_PX_TOUCH : HANDLE_PX);
+}
+
 /** The corner of the area under a place; null where there is none. */
 function cornerAt(chart: Chart, press: Pick<Press, 'x' | 'y' | 'touch'>): number | null {
   const { view } = chart.surface;
@@ -106,7 +155,7 @@ function click(chart: Chart, press: Press): void {
   if (!drawn) {
     const who = filling.at(at);
     if (who) filling.togglePin(who);
-    else if (cornerAt(chart, press) === null) filling.addCorner(at);
+    else if (cornerAt(chart, press) === null && !handleAt(chart, press)) filling.addCorner(at);
     return;
   }
   const [x, y] = view.to(...drawn[0]);
@@ -122,7 +171,12 @@ export const FILL = {
   help: 'drawRoundA' as const,
   cursor: 'crosshair',
   picks: false,
+  hover: (chart: Chart): void => {
+    chart.surface.setCursor(handleAt(chart, { ...chart.at, touch: false }) ? 'grab' : '');
+  },
   drag: (chart: Chart, press: Press): State => {
+    const handle = handleAt(chart, press);
+    if (handle) return new DraggingRate(chart, handle, press);
     const corner = cornerAt(chart, press);
     return corner === null ? new Outlining(chart, press) : new MovingCorner(chart, corner);
   },
