@@ -2,6 +2,9 @@
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 
+/** Id of the case that is looked at; null where none is. */
+const shown = (c: Context): number | null => c.searching.open.value?.shown.value ?? null;
+
 const isOpen = (c: Context): boolean => c.searching.open.value !== null;
 
 export const cases = inGroup('Variants', [
@@ -38,11 +41,21 @@ export const cases = inGroup('Variants', [
   },
   {
     id: 'case-stop',
-    label: 'Stop the search',
+    label: 'Pause',
     icon: 'pause',
-    help: 'What was found stays; it can go on later',
+    help: 'The search waits; what was found stays, and it can go on later',
     when: (c) => (c.searching.open.value?.state.value === 'running' ? true : 'Nothing is looked for.'),
     run: (c) => c.searching.open.value?.stop(),
+  },
+  {
+    id: 'star-case',
+    label: 'Star the case',
+    keys: ['S'],
+    icon: 'star',
+    help: 'The star stays with it when it is kept as a variant',
+    onOffer: (c) => shown(c) !== null,
+    when: (c) => (shown(c) === null ? 'Look at a case first.' : true),
+    run: (c) => c.searching.open.value?.toggleStar(shown(c)!),
   },
   {
     id: 'cases-keep',
@@ -54,7 +67,7 @@ export const cases = inGroup('Variants', [
       const open = c.searching.open.value;
       const kept = open?.takes();
       open?.close();
-      if (kept) c.variants.keepTakes(kept.takes, kept.subject, 'case');
+      if (kept) c.variants.keepTakes(kept.takes, kept.subject, 'case', kept.starred);
     },
   },
 ]);

@@ -105,6 +105,8 @@ export class GoalOverlay {
     const said = bad && !bad.outranked;
     const text = said ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
     if (drag?.part === 'goal' && drag.handle === 'body') return;
+    // Beside the words of a stop there is no room for what nobody asked for.
+    if (!goal.set && e.curve.profile.value) return;
     const r = pill(
       g,
       this.labels,

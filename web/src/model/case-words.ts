@@ -11,6 +11,15 @@ export const KIND_WORDS: Readonly<Record<What, string>> = {
   goal: 'Goal reached, little gap',
 };
 
+/** What the search is called. */
+export const TITLES: Readonly<Record<What, string>> = {
+  near: 'Find a near miss',
+  collision: 'Find a collision',
+  first: 'Find who comes first',
+  braking: 'Find hard braking',
+  goal: 'Find a tight arrival',
+};
+
 /** As in `find a near miss between …`. */
 const SENTENCES: Readonly<Record<What, (a: string, b: string | null) => string>> = {
   near: (a, b) => `a near miss between ${a} and ${b ?? 'somebody'}`,

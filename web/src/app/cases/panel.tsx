@@ -1,7 +1,7 @@
 // The search for a case: the sentence of what is looked for, how far it is, and what was found.
 import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/cases';
-import { howWords, KIND_WORDS, momentWords, nothingWords } from '../../model/case-words';
+import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
 import { MOST_TRIES, type Case, type Cases, type Progress } from '../../edit/cases/cases';
 import { num } from '../../model/units';
@@ -30,7 +30,7 @@ export default function CasesPanel() {
           <Icon name="search" size={20} />
         </div>
         <div class="grow">
-          <h2>Find a case</h2>
+          <h2>{TITLES[sought.what]}</h2>
           <p>{about(sought, nameOf)}</p>
         </div>
         <button type="button" class="btn i" aria-label="Close the search" onClick={() => cases.close()}>
@@ -147,6 +147,7 @@ function Run({ cases, sought }: Of) {
   const obstacle = cases.obstacle.value;
   const p = cases.progress.value;
   const problem = cases.problem.value;
+  const found = cases.found.value.length;
   if (state === 'ready')
     return (
       <section class="sect">
@@ -166,7 +167,7 @@ function Run({ cases, sought }: Of) {
         <i style={{ width: `${(100 * p.tried) / p.of}%` }} />
       </div>
       <p class="tally">
-        <em class="tag near">{p.found} found</em>
+        <em class={`tag ${p.found ? 'near' : ''}`}>{p.found} found</em>
         {p.collisions ? <em class="tag collision">{p.collisions} collided</em> : null}
         <em class="tag ok">{Math.max(0, p.tried - p.found - p.collisions)} not like that</em>
       </p>
@@ -176,7 +177,11 @@ function Run({ cases, sought }: Of) {
         </p>
       ) : null}
       <div class="row">
-        {cases.found.value.length ? <ActionButton id="cases-keep" class="pri" icon="" /> : null}
+        {found ? (
+          <ActionButton id="cases-keep" class="pri" icon="">
+            {state === 'running' ? `Stop and keep ${found}` : `Keep ${found === 1 ? 'it' : `the ${found}`} as variants`}
+          </ActionButton>
+        ) : null}
         {state === 'running' ? (
           <ActionButton key="stop" id="case-stop" class="line" size={15} />
         ) : (
@@ -265,15 +270,27 @@ function Found({ cases, sought }: Of) {
               <LivePicture card={pictures[i]} album={album} />
               <Words found={c} sought={sought} />
             </button>
-            <button
-              type="button"
-              class="btn line"
-              aria-label={`Take case ${c.id}`}
-              title="It is what happens from now on; one step, that can be undone"
-              onClick={() => cases.take(c)}
-            >
-              Take
-            </button>
+            <span class="does">
+              <button
+                type="button"
+                class={`btn i star ${c.starred ? 'on' : ''}`}
+                aria-label={`Star case ${c.id}`}
+                aria-pressed={c.starred}
+                title="Star (S)"
+                onClick={() => cases.toggleStar(c.id)}
+              >
+                <Icon name="star" size={15} />
+              </button>
+              <button
+                type="button"
+                class="btn line"
+                aria-label={`Take case ${c.id}`}
+                title="It is what happens from now on; one step, that can be undone"
+                onClick={() => cases.take(c)}
+              >
+                Take
+              </button>
+            </span>
           </article>
         ))}
       </div>

@@ -7,7 +7,7 @@ import { Icon } from '../parts/icons';
 const STEPS = ['Click a car', 'Drag its flag to where it should be in 9 s', 'Let go: the others react'];
 
 export function Coach() {
-  const { editor, form, ui } = useApp();
+  const { editor, form, rounds, searching, ui } = useApp();
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -15,6 +15,9 @@ export function Coach() {
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&
       !editor.layouts.isOpen.value &&
+      // Those who look for something else have found their way.
+      !searching.open.value &&
+      !rounds.isOpen.value &&
       editor.scene.value !== null,
   );
   if (!shown.value) return null;

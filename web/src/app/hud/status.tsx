@@ -21,6 +21,8 @@ export function Status() {
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
   if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
+  const looking = searchLine(c);
+  if (looking && !editor.dragging.value) return <Row {...looking} />;
   const kind = placedBy(c);
   if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
   if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
@@ -29,6 +31,14 @@ export function Status() {
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
     return <Row dot="busy" text={`${some} of ${editor.scene.value!.agents.size} selected`} />;
   return <Row {...lineFor(c, s)} />;
+}
+
+/** How far a search is that goes on. */
+function searchLine({ searching }: Context): Line | null {
+  const open = searching.open.value;
+  if (open?.state.value !== 'running') return null;
+  const { tried, of } = open.progress.value;
+  return { dot: 'busy', text: `Searching: ${tried} of ${of} · ${open.found.value.length} found` };
 }
 
 /** What the map that is being made holds. */

@@ -10,6 +10,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Changes } from './changes';
+import { CurveSection } from './curve-section';
 import { FuturesSection } from './futures-section';
 import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
@@ -27,6 +28,7 @@ export function AgentPanel({ id }: { id: string }) {
           <Locked agent={agent}>
             <Hint agent={agent} />
             <Warnings agent={agent} />
+            <CurveSection agent={agent} />
             <StartSection agent={agent} />
             <GoalSection agent={agent} />
           </Locked>

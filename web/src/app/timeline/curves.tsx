@@ -7,28 +7,33 @@ import { toUnit } from '../../model/units';
 import { modeStyle } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
-import { severalShown, X0, type Axes } from './axes';
+import { severalShown, X0, type Axes, type Line } from './axes';
 
 export function Curves({ axes: a }: { axes: Axes }) {
   const c = useApp();
   const { editor } = c;
-  const agent = editor.agent.peek();
   const several = severalShown(c);
+  const meeting = editor.beside.peek()?.meeting;
+  const agent = meeting ? null : editor.agent.peek();
   const dashed = editor.curve.before.peek() ? 'before' : editor.layers.peek().log ? 'log' : null;
   const name = agent
     ? ` · ${agent.name}${dashed ? `, dashed: ${dashed}` : ''}`
-    : several.length
-      ? ` · ${several.length} selected, one line each`
-      : '';
+    : meeting
+      ? ` · ${several.map((l) => l.agent.name).join(' and ')} in ${meeting.called}`
+      : several.length
+        ? ` · ${several.length} selected, one line each`
+        : '';
   const start = agent && startPose(agent);
   // Beside a curve that begins at the top it stands below.
-  const high = start && a.y(toUnit(start.speed, a.unit)) < (a.y0 + a.y1) / 2;
+  const first = several[0]?.motion.speed[0];
+  const speed = meeting ? (first === undefined ? null : Math.abs(first)) : start && start.speed;
+  const high = speed !== null && speed !== undefined && a.y(toUnit(speed, a.unit)) < (a.y0 + a.y1) / 2;
   return (
     <>
       {agent ? (
         <AgentCurves axes={a} agent={agent} />
       ) : several.length ? (
-        <SeveralCurves axes={a} all={several} />
+        <SeveralCurves axes={a} all={several} strong={!!meeting} />
       ) : (
         <Hint axes={a} />
       )}
@@ -39,21 +44,21 @@ export function Curves({ axes: a }: { axes: Axes }) {
   );
 }
 
-/** One thin line each; thick for the one under the pointer. */
-function SeveralCurves({ axes, all }: { axes: Axes; all: readonly Agent[] }) {
+/** One thin line each; thick for the one under the pointer, and for the few in a case. */
+function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]; strong: boolean }) {
   const { editor } = useApp();
   const hovered = editor.hover.peek();
   return (
     <>
-      {all.map((a) => (
+      {all.map(({ agent: a, motion }, i) => (
         <Curve
           key={a.id}
           axes={axes}
-          motion={untracked(() => editor.motionFor(a))}
+          motion={motion}
           colour={`var(--${colourKey(a)})`}
-          width={a.id === hovered ? 2.5 : 1.1}
-          opacity={a.id === hovered ? 1 : 0.65}
-          dash=""
+          width={a.id === hovered || (strong && !i) ? 2.5 : strong ? 1.6 : 1.1}
+          opacity={a.id === hovered || strong ? 1 : 0.65}
+          dash={strong && i ? '5 3' : ''}
           smooth
         />
       ))}
@@ -110,11 +115,13 @@ function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';
+  // Of a speed drawn by hand the others are no answer.
+  const others = !editor.curve.profile.peek();
   const inForce = f.modes[chosen];
   return (
     <>
       {f.modes.map((m, i) =>
-        i === chosen ? null : (
+        i === chosen || !(others || hovered === i) ? null : (
           <Curve
             key={i}
             axes={axes}

@@ -442,23 +442,29 @@ export class Variants {
   }
 
   /** Scenes of a round, or cases that were found of somebody, join the variants, kept. */
-  keepTakes(takes: readonly Take[], subject: string | null = null, what = 'card'): void {
+  keepTakes(
+    takes: readonly Take[],
+    subject: string | null = null,
+    what = 'card',
+    starred: readonly boolean[] = [],
+  ): void {
     if (!takes.length || this.#refusedLock()) return;
     batch(() => {
       this.stop();
       this.endCompare();
       this.#open.value = true;
     });
-    this.#join(takes, subject, what);
+    this.#join(takes, subject, what, starred);
   }
 
-  #join(takes: readonly Take[], subject: string | null, what = 'card'): void {
+  #join(takes: readonly Take[], subject: string | null, what = 'card', starred: readonly boolean[] = []): void {
     const { editor } = this;
     const now = editor.scene.peek();
     if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
-    const command = keepStates(now, states, n === 1 ? `A ${what} kept as a variant` : `${n} ${what}s kept as variants`);
+    const name = n === 1 ? `A ${what} kept as a variant` : `${n} ${what}s kept as variants`;
+    const command = keepStates(now, states, name, starred);
     if (!command) return editor.notices.show({ text: 'There is no room for more variants. Remove some first.' });
     this.#keepSets(takes);
     editor.run(command);
