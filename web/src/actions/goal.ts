@@ -70,6 +70,16 @@ const clearing: Pick<Action, 'when' | 'run'> = {
   when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : 'No goal is set.'),
 };
 
+const asRecorded: Pick<Action, 'when' | 'run'> = {
+  ...onAgent((_, a) => moves.goalFromLog(a)),
+  when: (c) => {
+    const a = c.editor.agent.value;
+    if (!a || a.locked) return hasFree(c);
+    if (!moves.goalFromLog(a)) return 'Nothing of that time was recorded, or it stands.';
+    return moves.isGoalOfLog(a) ? 'Its goal is there already.' : true;
+  },
+};
+
 const resetting: Pick<Action, 'when' | 'run'> = {
   ...onAgent((_, a) => resetAgent(a)),
   when: (c) => {
@@ -90,6 +100,14 @@ export const goal = inGroup('Goal and futures', [
       c.editor.activate('goal');
       return a.goal.pos ? null : moves.goalHere(c.editor, a);
     }),
+  },
+  {
+    id: 'goal-from-log',
+    label: 'Goal as in the log',
+    keys: ['Alt+G'],
+    icon: 'flag',
+    help: 'Where it was recorded at the goal time',
+    ...asRecorded,
   },
   {
     id: 'clear-goal',

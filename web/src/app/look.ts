@@ -117,7 +117,24 @@ function endShown(editor: Opening['editor'], a: Agent): Vec | null {
 }
 
 /** Brings road users into the picture, where they are not in it; one alone with where it ends. */
-export function reveal({ editor, stage }: Opening, ids: readonly string[]): void {
+export function reveal(c: Opening, ids: readonly string[]): void {
+  const { editor, stage } = c;
+  bringIn(c, ids);
+  const [id] = ids;
+  if (ids.length !== 1 || editor.motion.peek().futures.has(id)) return;
+  // Where it ends is known when its futures are, if nobody has moved the picture meanwhile.
+  const { cx, cy, z } = stage.view;
+  const end = effect(() => {
+    const there = editor.motion.value.futures.has(id);
+    const left = editor.selection.value !== id;
+    if (!there && !left) return;
+    queueMicrotask(() => end());
+    const v = stage.view;
+    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.dragging.peek()) bringIn(c, ids);
+  });
+}
+
+function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const scene = editor.scene.peek();
   const ps = ids.flatMap((id) => {
     const a = scene?.agents.get(id);

@@ -29,8 +29,11 @@ import { saidOf } from './rounds/said';
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
-/** The rail of tools down to its end, pixels. */
+/** The rail of tools down to its end, pixels; what is left of the picture says whether there is one, and a drawer. */
 const RAIL_H = 484;
+const RAIL_W = 62;
+const RAIL_LEAST = 40;
+const RAIL_MOST = 140;
 /** About as wide as a toast is, pixels. */
 const TOAST_W = 420;
 
@@ -149,13 +152,18 @@ export class Overlay {
 
   /** Rectangles of the panels over the picture, which labels keep clear of. */
   private panels(v: View): [number, number, number, number][] {
-    const left = v.inset.left > 100 ? v.inset.left - 12 : 0;
+    const { left, bottom } = v.inset;
+    // Above a sheet they stand higher.
+    const y = v.h - (bottom > 60 ? bottom + 44 : 52);
+    const drawer = left > RAIL_MOST ? left - 12 : 0;
+    // On a small page there is no rail.
+    const rail = left < RAIL_LEAST ? 0 : drawer ? RAIL_W : left - 6;
     return [
-      [left, v.h - 52, 400, 52],
-      [v.w - 160, v.h - 52, 160, 52],
+      [drawer, y, 400, v.h - y],
+      [v.w - 160, y, 160, v.h - y],
       [v.w - 260, 0, 260, 52],
-      [0, 0, 62, RAIL_H],
-      [left ? 62 : 0, 0, left, left ? v.h : 0],
+      [0, 0, rail, RAIL_H],
+      [drawer ? RAIL_W : 0, 0, drawer, drawer ? v.h : 0],
     ];
   }
 

@@ -106,7 +106,10 @@ export class SpeedCurve {
     this.#point.value = i;
   }
 
-  /** Moves a stop along the path, so that the front of the road user comes to a place; `sticks` so near to where one stops, metres. */
+  /**
+   * Moves a stop along the path, so that the front of the road user comes to a place; so near to where one stops it
+   * `sticks` there, metres.
+   */
   stopAt(i: number, [x, y]: Vec, sticks: number): void {
     const a = this.editor.agent.peek();
     const scene = this.editor.scene.peek();

@@ -116,3 +116,7 @@ function evaluate(source: string): number | null {
   const v = sum();
   return at === tokens.length && Number.isFinite(v) ? v : null;
 }
+
+/** What is left of something that takes a while. */
+export const leftWords = (s: number): string =>
+  s > 90 ? `about ${num(s / 60, 0)} min left` : `about ${num(Math.ceil(s), 0)} s left`;

@@ -3,8 +3,8 @@ import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
-import { MOST_TRIES, type Case, type Cases, type Progress } from '../../edit/cases/cases';
-import { num } from '../../model/units';
+import { MOST_TRIES, type Case, type Cases } from '../../edit/cases/cases';
+import { leftWords, num } from '../../model/units';
 import { useAlbum } from '../variants/album';
 import { LivePicture, type Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
@@ -161,7 +161,7 @@ function Run({ cases, sought }: Of) {
         <span role="status">
           {p.tried} of {p.of} tried
         </span>
-        <small>{state === 'running' ? leftWords(p) : state === 'paused' ? 'paused' : ''}</small>
+        <small>{state === 'running' && p.left !== null ? leftWords(p.left) : state === 'paused' ? 'paused' : ''}</small>
       </h3>
       <div class="progress" role="progressbar" aria-label="Tried" aria-valuemax={p.of} aria-valuenow={p.tried}>
         <i style={{ width: `${(100 * p.tried) / p.of}%` }} />
@@ -195,9 +195,6 @@ function Run({ cases, sought }: Of) {
     </section>
   );
 }
-
-const leftWords = ({ left }: Progress): string =>
-  left === null ? '' : left > 90 ? `about ${num(left / 60, 0)} min left` : `about ${num(Math.ceil(left), 0)} s left`;
 
 const clock = (d: Date): string => d.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
 

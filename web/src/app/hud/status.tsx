@@ -21,8 +21,8 @@ export function Status() {
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
   if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
-  const looking = searchLine(c);
-  if (looking && !editor.dragging.value) return <Row {...looking} />;
+  const work = workLine(c);
+  if (work && !editor.dragging.value) return <Row {...work} />;
   const kind = placedBy(c);
   if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
   if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
@@ -33,8 +33,10 @@ export function Status() {
   return <Row {...lineFor(c, s)} />;
 }
 
-/** How far a search is that goes on. */
-function searchLine({ searching }: Context): Line | null {
+/** How far a search is that goes on, or the making of variants. */
+function workLine({ searching, variants }: Context): Line | null {
+  const making = variants.making.value;
+  if (making) return { dot: 'busy', text: `Making variants: ${making.done} of ${making.of}` };
   const open = searching.open.value;
   if (open?.state.value !== 'running') return null;
   const { tried, of } = open.progress.value;

@@ -4,6 +4,7 @@ import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
 import { seconds } from '../../model/units';
+import { goalFromLog } from '../../edit/moves';
 import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { useApp } from '../parts/app-context';
@@ -226,6 +227,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
 function Foot({ agent }: { agent: LiveAgent }) {
   const goal = useComputed(() => hasGoal(agent.value.goal)).value;
   const changed = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
+  const recorded = useComputed(() => goalFromLog(agent.value) !== null).value;
   return (
     <div class="sect foot">
       {goal ? (
@@ -233,6 +235,11 @@ function Foot({ agent }: { agent: LiveAgent }) {
       ) : (
         <ActionButton key="set" id="set-goal" class="goal" size={15} withKey />
       )}
+      {!goal && recorded && !changed ? (
+        <ActionButton key="log" id="goal-from-log" class="line" icon="">
+          As in the log
+        </ActionButton>
+      ) : null}
       {changed ? <ActionButton id="reset-agent" class="line" icon="" size={15} /> : null}
     </div>
   );

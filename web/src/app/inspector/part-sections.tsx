@@ -7,7 +7,7 @@ import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/
 import { hasGoal, type GoalSpec } from '../../model/scene';
 import { fromUnit, nextSpeedUnit, num, sizeText, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
-import { goalTime, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
+import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { leaveGiven } from '../../edit/ways-out';
@@ -43,6 +43,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     const a = agent.value;
     const drag = editor.drag.value;
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
+    if (a.goal.pos && isGoalOfLog(a)) return 'as in the log';
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? 'partly free' : 'free: the generator decides';
   });

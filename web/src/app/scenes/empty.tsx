@@ -1,14 +1,15 @@
 // The first screen when there is no scene to open.
 import { useComputed } from '@preact/signals';
+import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
-import { ActionButton } from '../parts/buttons';
 import { about, ChooseFiles } from './drawer';
 import { Thumbnail } from './thumbnail';
 
 const OFFERED = 3;
 
 export function Empty() {
-  const { library, scenes } = useApp();
+  const c = useApp();
+  const { library, scenes } = c;
   const cards = scenes.list.value.slice(0, OFFERED);
   return (
     <div class="empty">
@@ -33,7 +34,9 @@ export function Empty() {
           {'Scenario records, lane maps or saved scenes · or '}
           <ChooseFiles />
           {' · '}
-          <ActionButton id="new-map" class="line" size={14} />
+          <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
+            start from a new map
+          </button>
         </div>
       </div>
     </div>

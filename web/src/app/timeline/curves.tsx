@@ -23,11 +23,9 @@ export function Curves({ axes: a }: { axes: Axes }) {
       : several.length
         ? ` · ${several.length} selected, one line each`
         : '';
-  const start = agent && startPose(agent);
-  // Beside a curve that begins at the top it stands below.
-  const first = several[0]?.motion.speed[0];
-  const speed = meeting ? (first === undefined ? null : Math.abs(first)) : start && start.speed;
-  const high = speed !== null && speed !== undefined && a.y(toUnit(speed, a.unit)) < (a.y0 + a.y1) / 2;
+  const drawn = agent
+    ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
+    : several.map((l) => l.motion);
   return (
     <>
       {agent ? (
@@ -37,11 +35,23 @@ export function Curves({ axes: a }: { axes: Axes }) {
       ) : (
         <Hint axes={a} />
       )}
-      <text class="back" x={X0 + 8} y={high ? a.y1 - 6 : a.y0 + 11}>
+      <text class="back" x={X0 + 8} y={titleAt(a, drawn)}>
         {`${a.unit}${name}`}
       </text>
     </>
   );
+}
+
+/** The title stands above or below, wherever the beginnings of the curves leave it more room. */
+function titleAt(a: Axes, motions: readonly Motion[]): number {
+  const room = (y: number): number =>
+    Math.min(
+      ...motions.flatMap((m) =>
+        [...m.speed.slice(0, TITLE_STEPS)].map((v) => Math.abs(a.y(toUnit(Math.abs(v), a.unit)) - y)),
+      ),
+    );
+  const [above, below] = [a.y0 + 11, a.y1 - 6];
+  return room(below) > room(above) ? below : above;
 }
 
 /** One thin line each; thick for the one under the pointer, and for the few in a case. */
@@ -83,6 +93,8 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   const { editor } = useApp();
   const f = editor.futures.peek();
   const before = f && editor.curve.before.peek();
+  // What is to be taken hold of is drawn apart; while a handle is dragged nothing is.
+  const taken = editor.curve.points.peek().length > 0 && !editor.dragging.peek();
   // Of two dashed lines one would be taken for the other.
   const showLog = !before && (editor.layers.peek().log || !f);
   return (
@@ -100,11 +112,14 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
         />
       ) : null}
       {f ? <FutureCurves axes={axes} futures={f} /> : null}
-      {editor.curve.points.peek().length ? null : <StartPoint axes={axes} agent={agent} />}
-      {editor.curve.points.peek().length ? null : <GoalPoint axes={axes} agent={agent} />}
+      {taken ? null : <StartPoint axes={axes} agent={agent} />}
+      {taken ? null : <GoalPoint axes={axes} agent={agent} />}
     </>
   );
 }
+
+/** About as many steps of a curve as the title is long. */
+const TITLE_STEPS = 14;
 
 const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 

@@ -22,6 +22,7 @@ const shown = ({ editor }: Context): unknown => [
   editor.motion.value,
   editor.shownEvents.value,
   editor.beside.value,
+  editor.dragging.value,
   editor.layers.value.log,
   editor.scene.value,
   editor.speedUnit.value,
@@ -112,8 +113,8 @@ function Badges({ tick, axes }: DrawingProps) {
 function Points({ tick, axes }: DrawingProps) {
   const { editor } = useApp();
   void tick.value;
-  // What is shown then is another motion than the one that is drawn by hand.
-  if (editor.beside.peek()?.meeting) return null;
+  // What is shown then is another motion than the one whose points these are.
+  if (editor.beside.peek()?.meeting || editor.dragging.peek()) return null;
   return editor.curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
 }
 

@@ -3,7 +3,9 @@ import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
+import { leftWords } from '../../model/units';
 import { MOST_NEW } from '../../model/variants';
+import type { Making } from '../../edit/variants/variants';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -11,6 +13,7 @@ import { useAlbum } from './album';
 import { CardView } from './card';
 import { Range, RangePick } from './range';
 import '../../styles/variants.css';
+import '../../styles/cases.css';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [
   ['all', 'All'],
@@ -99,7 +102,6 @@ const countOf = (all: readonly Card[], filter: Filter): number =>
 function About() {
   const { editor, variants } = useApp();
   const making = variants.making.value;
-  const paused = variants.paused.value;
   const words = useComputed(() => {
     if (editor.playing.value) return 'all run on one clock';
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
@@ -112,22 +114,7 @@ function About() {
     const from = `seed ${seed}, diversity ${Math.round(last.state.diversity * 100)}%`;
     return `${who ? `ways of ${who}` : 'everybody anew'}, from ${from}`;
   });
-  if (making)
-    return (
-      <>
-        <small role="status">
-          {making.done} of {making.of}
-          {paused ? ', waiting' : ''}
-        </small>
-        <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
-          <Icon name={paused ? 'play' : 'pause'} size={14} />
-          {paused ? 'Go on' : 'Pause'}
-        </button>
-        <button type="button" class="btn line" onClick={() => variants.stop()}>
-          Stop{making.done ? `, keep ${making.done}` : ''}
-        </button>
-      </>
-    );
+  if (making) return <Progress of={making} />;
   return (
     <>
       <small>{words}</small>
@@ -145,6 +132,38 @@ function About() {
         </label>
       )}
       <RangePick />
+    </>
+  );
+}
+
+/** How far it is, what happens in those that are there, and the ways to end it. */
+function Progress({ of: m }: { of: Making }) {
+  const { variants } = useApp();
+  const paused = variants.paused.value;
+  const left = paused ? 'waiting' : m.left ? leftWords(m.left) : '';
+  return (
+    <>
+      <small role="status">
+        <b>
+          {m.done} of {m.of}
+        </b>
+        {left ? `, ${left}` : ''}
+      </small>
+      <span class="progress" role="progressbar" aria-label="Made" aria-valuemax={m.of} aria-valuenow={m.done}>
+        <i style={{ width: `${(100 * m.done) / m.of}%` }} />
+      </span>
+      <span class="tally">
+        {m.clear ? <em class="tag ok">{m.clear} clear</em> : null}
+        {m.near ? <em class="tag near">{m.near} with an event</em> : null}
+        {m.hit ? <em class="tag collision">{m.hit} with a collision</em> : null}
+      </span>
+      <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
+        <Icon name={paused ? 'play' : 'pause'} size={14} />
+        {paused ? 'Go on' : 'Pause'}
+      </button>
+      <button type="button" class="btn line" onClick={() => variants.stop()}>
+        Stop{m.done ? `, keep ${m.done}` : ''}
+      </button>
     </>
   );
 }

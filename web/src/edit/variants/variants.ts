@@ -2,6 +2,7 @@
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/commands';
+import { counted, readEvents, worstOf } from '../../model/events';
 import type { Futures, MotionSet } from '../../model/futures';
 import { sceneKey, type Agent, type Scene } from '../../model/scene';
 import {
@@ -35,6 +36,33 @@ import { Maker, Stopped, subjectOf, type Take } from './making';
 /** What an export is about: the scene as it is, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
+/** How far the making is, and what happens in those that are there. */
+export interface Making {
+  readonly done: number;
+  readonly of: number;
+  /** So many without anything, with a near miss or a broken rule, and with a collision. */
+  readonly clear: number;
+  readonly near: number;
+  readonly hit: number;
+  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  readonly left: number | null;
+}
+
+const begun = (of: number): Making => ({ done: 0, of, clear: 0, near: 0, hit: 0, left: null });
+
+function withOne(m: Making, { scene, set }: Take, tookS: number): Making {
+  const worst = worstOf(counted(readEvents(scene, set)));
+  const done = m.done + 1;
+  return {
+    ...m,
+    done,
+    clear: m.clear + Number(worst === null),
+    hit: m.hit + Number(worst === 'collision'),
+    near: m.near + Number(worst !== null && worst !== 'collision'),
+    left: (tookS / done) * (m.of - done),
+  };
+}
+
 /** How the making of variants ended. */
 interface Made {
   readonly subject: string | null;
@@ -62,7 +90,7 @@ export class Variants {
   readonly #pair = signal<readonly [number, number] | null>(null);
   readonly #picked = signal<number | null>(null);
   readonly #scope = signal<Scope>('present');
-  readonly #making = signal<{ readonly done: number; readonly of: number } | null>(null);
+  readonly #making = signal<Making | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
   readonly #sweep = signal<Sweep | null>(null);
   readonly #paused = signal(false);
@@ -81,7 +109,7 @@ export class Variants {
   /** The first of two that are to be compared. */
   readonly picked: ReadonlySignal<number | null> = this.#picked;
   readonly scope: ReadonlySignal<Scope> = this.#scope;
-  readonly making: ReadonlySignal<{ readonly done: number; readonly of: number } | null> = this.#making;
+  readonly making: ReadonlySignal<Making | null> = this.#making;
   /** The range of a number that is gone through; null where new ones differ by chance. */
   readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
   /** Does the making wait for somebody to go on with it? */
@@ -246,16 +274,17 @@ export class Variants {
   ): Promise<{ takes: Take[]; why: string | null }> {
     const takes: Take[] = [];
     let why: string | null = null;
+    const from = performance.now();
     batch(() => {
       this.endCompare();
       this.#open.value = true;
-      this.#making.value = { done: 0, of };
+      this.#making.value = begun(of);
     });
     try {
       for await (const take of source) {
         if (turn !== this.#turn) break;
         takes.push(take);
-        this.#making.value = { done: takes.length, of };
+        this.#making.value = withOne(this.#making.peek() ?? begun(of), take, (performance.now() - from) / 1000);
         await this.#resumed();
         if (turn !== this.#turn) break;
       }
