@@ -441,7 +441,7 @@ export const STATES = [
       await e.key('Alt+f');
       await e.page.locator('[data-action="case-search"]').click();
       await e.page.waitForSelector('[data-action="case-stop"]');
-      await e.page.waitForSelector('[data-action="case-stop"]', { state: 'detached', timeout: 60_000 });
+      await e.page.waitForSelector('[data-action="case-stop"]', { state: 'detached', timeout: 240_000 });
       await e.page.locator('.case .face').first().click();
       await e.settled();
     },

@@ -40,6 +40,8 @@ const does = (id: Others, key: string, label: string, help: string): Plain => ({
 
 const mirroring = onSome((_, all) => several.mirrorAll(all));
 
+const swapping = onSome((_, all) => several.swapTwo(all));
+
 function lock({ editor }: Context): void {
   const all = editor.chosenOnes;
   const on = !all.every((a) => a.locked);
@@ -103,6 +105,15 @@ export const edit = inGroup('Edit', [
         ? 'One alone is mirrored by its goal. Set one first.'
         : mirroring.when!(c);
     },
+  },
+  {
+    id: 'swap',
+    label: 'Swap places',
+    keys: ['Alt+X'],
+    icon: 'swap',
+    help: 'Each of two starts where the other did; speeds and goals stay',
+    ...swapping,
+    when: (c) => (c.editor.chosenOnes.length === 2 ? swapping.when!(c) : 'Select two road users first.'),
   },
   {
     id: 'delete',

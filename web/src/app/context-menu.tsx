@@ -40,6 +40,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     null,
     'lock',
     'mirror',
+    'swap',
     KINDS,
     null,
     ...DOES,

@@ -186,6 +186,13 @@ const CHIP_TRIES: readonly Offset[] = [
   [42, 0],
   [-42, 0],
   [0, 44],
+  // Where many leave the picture at one place they stand in a column.
+  [0, -66],
+  [0, 66],
+  [22, -44],
+  [22, 44],
+  [0, -88],
+  [0, 88],
 ];
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */

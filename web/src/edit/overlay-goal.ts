@@ -197,7 +197,11 @@ export class GoalOverlay {
         g,
         this.labels,
         [x, y],
-        `on ${d.laneName}`.replace('on on foot', 'on foot').replace('on off', 'off').replace('on inside', 'inside'),
+        `on ${d.laneName}`
+          .replace('on on foot', 'on foot')
+          .replace('on off', 'off')
+          .replace('on inside', 'inside')
+          .replace('on in ', 'in '),
         {
           tries: [
             [34, -46],

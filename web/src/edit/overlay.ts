@@ -32,6 +32,7 @@ const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 /** The rail of tools down to its end, pixels; what is left of the picture says whether there is one, and a drawer. */
 const RAIL_H = 484;
 const RAIL_W = 62;
+const DRAG_HELP_W = 650;
 const RAIL_LEAST = 40;
 const RAIL_MOST = 140;
 /** About as wide as a toast is, pixels. */
@@ -151,7 +152,7 @@ export class Overlay {
   }
 
   /** Rectangles of the panels over the picture, which labels keep clear of. */
-  private panels(v: View): [number, number, number, number][] {
+  private panels(v: View): (readonly [number, number, number, number])[] {
     const { left, bottom } = v.inset;
     // Above a sheet they stand higher.
     const y = v.h - (bottom > 60 ? bottom + 44 : 52);
@@ -160,6 +161,8 @@ export class Overlay {
     const rail = left < RAIL_LEAST ? 0 : drawer ? RAIL_W : left - 6;
     return [
       [drawer, y, 400, v.h - y],
+      // The help of a drag is longer than what stands there otherwise.
+      ...(this.editor.drag.value ? ([[v.w - DRAG_HELP_W, y, DRAG_HELP_W, v.h - y]] as const) : []),
       [v.w - 160, y, 160, v.h - y],
       [v.w - 260, 0, 260, 52],
       [0, 0, rail, RAIL_H],

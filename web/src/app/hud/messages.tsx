@@ -15,6 +15,7 @@ export function Coach() {
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&
       !editor.layouts.isOpen.value &&
+      editor.selected.value.length < 2 &&
       // Those who look for something else have found their way.
       !searching.open.value &&
       !rounds.isOpen.value &&
