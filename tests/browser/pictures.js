@@ -11,6 +11,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { STATES } from './pictures/states.js';
 import { Editor, launch } from './support/editor.js';
+import { Holding } from './support/holding.js';
 import { Pixels } from './support/pixels.js';
 import { Program } from './support/program.js';
 import { missing, out } from './support/where.js';
@@ -20,8 +21,9 @@ const TAKEN = `${out}/pictures`;
 const NOW = '2026-03-02T10:42:00';
 
 /** Takes one state's picture; gives back its path. */
-async function take(program, browser, [name, reach, { hide = [], after, ...page } = {}]) {
-  const e = await Editor.open(browser, program.url, {
+async function take(program, browser, [name, reach, { hide = [], holds, after, ...page } = {}]) {
+  const door = holds ? await Holding.before(program.url) : null;
+  const e = await Editor.open(browser, door?.url ?? program.url, {
     reducedMotion: 'reduce',
     colorScheme: 'light',
     stopwatch: false,
@@ -29,9 +31,11 @@ async function take(program, browser, [name, reach, { hide = [], after, ...page 
     ...page,
   });
   try {
-    await e.begin();
-    await e.until(() => [...document.querySelectorAll('.scns canvas')].every((c) => c.dataset.done));
-    await reach(e, { program });
+    if (page.scene !== false) {
+      await e.begin();
+      await e.until(() => [...document.querySelectorAll('.scns canvas')].every((c) => c.dataset.done));
+    }
+    await reach(e, { program, door });
     // The picture is painted apart from the page: it is there a frame later.
     await e.frames(4);
     await e.page.evaluate(() => document.fonts.ready);
@@ -42,6 +46,7 @@ async function take(program, browser, [name, reach, { hide = [], after, ...page 
     return path;
   } finally {
     await e.close();
+    await door?.close();
     await after?.({ program });
   }
 }

@@ -91,6 +91,39 @@ async function variants(e, count) {
   await e.settled();
 }
 
+/**
+ * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read again.
+ * One of its cars that turns has its goal from the log.
+ */
+async function recorded(e) {
+  const reply = await e.page.request.get(new URL('/v1/scenes/demo-arterial/export?format=womd', e.page.url()).href);
+  await e.drop('market-evening.tfrecord', await reply.body());
+  await e.until(() => /imported/.test(document.querySelector('.toast')?.textContent ?? ''));
+  await e.settled();
+  await e.key('b');
+  const car = await carOnTheMove(e);
+  await e.choose(car.id);
+  await e.key('Alt+g');
+  await e.settled();
+  await e.key('o');
+  await leave(e);
+  await rest(e);
+  await gone(e, '.toast');
+}
+
+/** The flag of a car in a finger, with the loupe beside it. */
+async function fingered(e) {
+  const f = new Fingers(e);
+  const car = await carOnTheMove(e);
+  await e.choose(car.id);
+  await e.key('g');
+  await e.settled();
+  const goal = await e.pose('Goal');
+  const [x, y] = await e.at(goal.x, goal.y);
+  await f.drag([x + 12, y - 34], [x + 72, y - 40], 6);
+  await e.settled();
+}
+
 const dark = { colorScheme: 'dark' };
 
 /** `[name, how to reach it, what the page is like]`. */
@@ -111,9 +144,13 @@ export const STATES = [
     async (e) => {
       const walker = await pedestrianOnTheMove(e);
       await e.choose(walker.id);
+      await e.key('z');
+      await e.key('g');
+      await e.settled();
       await e.type('goal-speed', '1.2+0.4');
-      await leave(e);
+      await gone(e, '.toast');
       await rest(e);
+      await e.page.locator('[data-field="goal-speed"]').click();
     },
   ],
   [
@@ -175,19 +212,60 @@ export const STATES = [
   [
     '14-import-error',
     async (e) => {
-      await e.drop('junction_b.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
-      await e.page.waitForSelector('.dlg');
+      const bytes = (json) => Buffer.from(JSON.stringify(json, null, 1));
+      const { json } = await emptyScene(e);
+      const { agents } = await e.get('/v1/scenes/demo-crossing');
+      await e.drop(
+        ...['harbour_am.json', bytes({ ...json, name: 'Harbour, morning', agents })],
+        ...['harbour_pm.json', bytes({ ...json, name: 'Harbour, evening', agents: agents.slice(0, 30) })],
+        ...['junction_b.json', bytes(brokenScene)],
+      );
+      await e.page.waitForSelector('.dlg pre');
+      await e.settled();
     },
+    // When the server has saved them.
+    { hide: ['.scn small + small'] },
+  ],
+  [
+    '15-empty',
+    async (e) => {
+      await e.page.waitForSelector('.empty .crd');
+      await e.until(() => [...document.querySelectorAll('.crd canvas')].every((c) => c.dataset.done));
+    },
+    // The scene that would be shown cannot be had at first.
+    {
+      scene: false,
+      arrange: (context) => {
+        let refused = false;
+        const body = JSON.stringify({ title: 'The server is busy', detail: 'The server is busy.', status: 503 });
+        return context.route(/\/v1\/scenes\/demo-crossing$/, (route) => {
+          if (refused) return route.continue();
+          refused = true;
+          return route.fulfill({ status: 503, contentType: 'application/problem+json', body });
+        });
+      },
+    },
+  ],
+  [
+    '16-busy',
+    async (e, { door }) => {
+      await e.key('b');
+      await selected(e);
+      await e.key('Shift+V');
+      await e.page.waitForSelector('.strip');
+      await e.page.getByLabel('How many variants are made').fill('10');
+      await e.page.getByLabel('How many variants are made').press('Enter');
+      await leave(e);
+      // The futures, and what the others do about four of them.
+      door.lets = 5;
+      await e.page.locator('.strip .none .pri').click();
+      await e.until(() => document.querySelector('.strip .progress')?.getAttribute('aria-valuenow') === '4');
+      await e.frames(6);
+    },
+    { holds: true },
   ],
   ['17-dark', released, dark],
-  [
-    '18-touch',
-    async (e) => {
-      const [car] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
-      await e.choose(car.id);
-    },
-    devices['tablet on its side'],
-  ],
+  ['18-touch', fingered, devices['tablet on its side']],
   [
     '19-palette',
     async (e) => {
@@ -203,6 +281,20 @@ export const STATES = [
     },
   ],
   ['21-selected-1280x720', selected, { viewport: { width: 1280, height: 720 } }],
+  ['22-recorded-scene', recorded],
+  ['23-recorded-scene-dark', recorded, dark],
+  [
+    '24-live-drag',
+    async (e, { door }) => {
+      const car = await selected(e);
+      // The first guess is on the page, and nothing after it.
+      door.lets = 0;
+      await e.drag(flag(car, 0), flag(car, 0.2), { moves: 1 });
+      await e.until(() => /first guess|step \d/.test(document.querySelector('.insp').textContent));
+      await e.frames(6);
+    },
+    { holds: true },
+  ],
   ['25-verdict-on-the-line', acrossMedian],
   ['25-verdict-on-the-line-dark', acrossMedian, dark],
   [
@@ -252,6 +344,14 @@ export const STATES = [
       await e.key('z');
       await e.settled();
       await gone(e, '.toast');
+    },
+  ],
+  [
+    '28-new-map',
+    async (e) => {
+      await e.key('Control+n');
+      await e.page.waitForSelector('.insp [aria-label="Checks"], .insp .checks');
+      await e.settled();
     },
   ],
   [
@@ -341,7 +441,7 @@ export const STATES = [
       await e.key('Alt+f');
       await e.page.locator('[data-action="case-search"]').click();
       await e.page.waitForSelector('[data-action="case-stop"]');
-      await e.page.waitForSelector('[data-action="case-stop"]', { state: 'detached', timeout: 60_000 });
+      await e.page.waitForSelector('[data-action="case-stop"]', { state: 'detached', timeout: 240_000 });
       await e.page.locator('.case .face').first().click();
       await e.settled();
     },

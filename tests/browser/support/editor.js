@@ -28,8 +28,11 @@ export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */
   errors = [];
 
-  /** With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. */
-  static async open(browser, url, { stopwatch = true, now, ...options } = {}) {
+  /**
+   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is done
+   * with the browser before the page comes; with `scene: false` nobody waits for a scene.
+   */
+  static async open(browser, url, { stopwatch = true, now, arrange, scene = true, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
     if (!stopwatch)
       await context.addInitScript(() => {
@@ -47,10 +50,11 @@ export class Editor {
           }
         };
       }, Date.parse(now));
-    return Editor.#in(context, url, []);
+    await arrange?.(context);
+    return Editor.#in(context, url, [], scene);
   }
 
-  static async #in(context, url, errors) {
+  static async #in(context, url, errors, scene = true) {
     const e = new Editor();
     e.errors = errors;
     e.page = await context.newPage();
@@ -65,7 +69,7 @@ export class Editor {
     e.cdp = listened ? await context.newCDPSession(e.page) : null;
     e.wire = listened ? await Wire.on(e.cdp) : new Wire();
     await e.page.goto(url);
-    await e.ready();
+    if (scene) await e.ready();
     return e;
   }
 
@@ -283,17 +287,17 @@ export class Editor {
     return () => log.jsonValue();
   }
 
-  /** Drops a file from outside onto the picture. */
-  async drop(name, bytes) {
-    const data = await this.page.evaluateHandle(
-      ([n, base64]) => {
+  /** Drops files from outside onto the picture: name, bytes, name, bytes … */
+  async drop(...files) {
+    const pairs = files.flatMap((name, i) => (i % 2 ? [] : [[name, files[i + 1].toString('base64')]]));
+    const data = await this.page.evaluateHandle((all) => {
+      const t = new DataTransfer();
+      for (const [n, base64] of all) {
         const raw = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-        const t = new DataTransfer();
         t.items.add(new File([raw], n, { type: 'application/octet-stream' }));
-        return t;
-      },
-      [name, bytes.toString('base64')],
-    );
+      }
+      return t;
+    }, pairs);
     for (const type of ['dragenter', 'dragover', 'drop'])
       await this.page.dispatchEvent('main.stage', type, { dataTransfer: data });
   }

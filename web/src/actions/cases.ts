@@ -3,6 +3,9 @@ import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
 
+/** Id of the case that is looked at; null where none is. */
+const shown = (c: Context): number | null => c.searching.open.value?.shown.value ?? null;
+
 const isOpen = (c: Context): boolean => c.searching.open.value !== null;
 
 export const cases = inGroup('variants', [
@@ -39,11 +42,21 @@ export const cases = inGroup('variants', [
   },
   {
     id: 'case-stop',
-    label: TEXTS.stopTheSearch,
+    label: TEXTS.pause,
     icon: 'pause',
-    help: 'whatWasFound',
+    help: 'theSearchWaits',
     when: (c) => (c.searching.open.value?.state.value === 'running' ? true : TEXTS.nothingIsLooked),
     run: (c) => c.searching.open.value?.stop(),
+  },
+  {
+    id: 'star-case',
+    label: TEXTS.starTheCase,
+    keys: ['S'],
+    icon: 'star',
+    help: 'starStays',
+    onOffer: (c) => shown(c) !== null,
+    when: (c) => (shown(c) === null ? TEXTS.lookAtACase : true),
+    run: (c) => c.searching.open.value?.toggleStar(shown(c)!),
   },
   {
     id: 'cases-keep',
@@ -55,7 +68,7 @@ export const cases = inGroup('variants', [
       const open = c.searching.open.value;
       const kept = open?.takes();
       open?.close();
-      if (kept) c.variants.keepTakes(kept.takes, kept.subject, 'case');
+      if (kept) c.variants.keepTakes(kept.takes, kept.subject, 'case', kept.starred);
     },
   },
 ]);

@@ -42,6 +42,8 @@ const does = (id: Others, key: string, label: string, help: Help): Plain => ({
 
 const mirroring = onSome((_, all) => several.mirrorAll(all));
 
+const swapping = onSome((_, all) => several.swapTwo(all));
+
 function lock({ editor }: Context): void {
   const all = editor.chosenOnes;
   const on = !all.every((a) => a.locked);
@@ -103,6 +105,15 @@ export const edit = inGroup('edit', [
       const [one, ...more] = c.editor.chosenOnes;
       return one && !more.length && !one.goal.pos ? TEXTS.oneAloneIsMirrored : mirroring.when!(c);
     },
+  },
+  {
+    id: 'swap',
+    label: TEXTS.swapPlaces,
+    keys: ['Alt+X'],
+    icon: 'swap',
+    help: 'eachOfTwo',
+    ...swapping,
+    when: (c) => (c.editor.chosenOnes.length === 2 ? swapping.when!(c) : TEXTS.selectTwo),
   },
   {
     id: 'delete',

@@ -16,7 +16,7 @@ const LOW_PX = 520;
 export const PEEK_PX = 96;
 const HALF_PX = 300;
 /** On a page that is high the open sheet shows more. */
-const HALF_ROOMY_PX = 420;
+const HALF_ROOMY_PX = 412;
 /** Of the height that there is, at most. */
 const HALF_SHARE = 0.55;
 const FULL_SHARE = 0.92;

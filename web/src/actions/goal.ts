@@ -71,6 +71,16 @@ const clearing: Pick<Action, 'when' | 'run'> = {
   when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : TEXTS.noGoalIsSet),
 };
 
+const asRecorded: Pick<Action, 'when' | 'run'> = {
+  ...onAgent((_, a) => moves.goalFromLog(a)),
+  when: (c) => {
+    const a = c.editor.agent.value;
+    if (!a || a.locked) return hasFree(c);
+    if (!moves.goalFromLog(a)) return TEXTS.nothingOfThatTime;
+    return moves.isGoalOfLog(a) ? TEXTS.itsGoalIsThere : true;
+  },
+};
+
 const resetting: Pick<Action, 'when' | 'run'> = {
   ...onAgent((_, a) => resetAgent(a)),
   when: (c) => {
@@ -91,6 +101,14 @@ export const goal = inGroup('goal', [
       c.editor.activate('goal');
       return a.goal.pos ? null : moves.goalHere(c.editor, a);
     }),
+  },
+  {
+    id: 'goal-from-log',
+    label: TEXTS.goalAsInTheLog,
+    keys: ['Alt+G'],
+    icon: 'flag',
+    help: 'whereItWasRecorded',
+    ...asRecorded,
   },
   {
     id: 'clear-goal',

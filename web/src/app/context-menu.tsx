@@ -41,6 +41,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     null,
     'lock',
     'mirror',
+    'swap',
     KINDS,
     null,
     ...DOES,

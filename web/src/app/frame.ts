@@ -6,6 +6,8 @@ const SIDE_SHEET_PX = 352;
 /** How wide the loupe is, where there is room and where there is little. */
 const LOUPE_PX = 156;
 const LOUPE_SMALL_PX = 124;
+/** The rail of tools, whose buttons stand in two columns where fingers need them large. */
+const RAIL_FOR_FINGERS_PX = 132;
 /** Handles for fingers are so much larger. */
 const HANDLES_FOR_FINGERS = 1.7;
 
@@ -17,7 +19,7 @@ interface Edges {
 
 /** What the sheet leaves of the picture. */
 export function insetBesideSheet({ form }: Opening, edges: Edges, rail: number): Edges & { left: number } {
-  const left = form.small.value ? edges.right : rail;
+  const left = form.small.value ? edges.right : form.touch.value ? RAIL_FOR_FINGERS_PX : rail;
   if (form.low.value) return { ...edges, left, right: SIDE_SHEET_PX, bottom: edges.right };
   // A sheet that is fully open covers nearly everything; the picture stays where it was.
   return { ...edges, left, bottom: form.pixels(form.height.value === 'peek' ? 'peek' : 'half') + edges.right };

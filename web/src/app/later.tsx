@@ -9,6 +9,7 @@ import { TEXTS } from '../texts/page';
 
 /** In the order in which they are likely to be wanted. */
 const PARTS = {
+  'speed points': () => import('./timeline/speed-points').then((m) => m.SpeedPoints),
   agent: () => import('./inspector/agent-panel').then((m) => m.AgentPanel),
   palette: () => import('./dialogs/palette').then((m) => m.Palette),
   'context menu': () => import('./context-menu').then((m) => m.ContextMenu),

@@ -3,11 +3,11 @@
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
-import { boxOf } from '../model/geometry';
+import { boxOf, type Vec } from '../model/geometry';
 import type { Camera, HistoryStep } from '../model/history';
 import { poseShown } from '../edit/frame';
-import { poseAt } from '../model/motion';
-import { startPose, type Agent } from '../model/scene';
+import { endPose, poseAt } from '../model/motion';
+import { canChange, startPose, type Agent } from '../model/scene';
 
 /** How much of the map the height of the picture shows at first, in metres, and within which zooms. */
 const OPENING_M = 88;
@@ -104,13 +104,44 @@ const EDGE_PX = 24;
 /** So much room around several that are brought into the picture, metres, and not closer than this. */
 const AROUND_M = 12;
 
-/** Brings road users into the picture, where they are not in it. */
-export function reveal({ editor, stage }: Opening, ids: readonly string[]): void {
+/** To have somebody and its goal in the picture one looks from further off, down to this share of the zoom. */
+const FURTHER = 0.6;
+
+/** Where somebody will be at its goal time, before anything was worked out as recorded; null away from the start. */
+function endShown(editor: Opening['editor'], a: Agent): Vec | null {
+  if (editor.time.peek() > 0.05 || !canChange(a)) return null;
+  if (a.goal.pos) return a.goal.pos;
+  const m = editor.motionFor(a);
+  const end = poseAt(m, a.goal.time) ?? endPose(m);
+  return end && [end.x, end.y];
+}
+
+/** Brings road users into the picture, where they are not in it; one alone with where it ends. */
+export function reveal(c: Opening, ids: readonly string[]): void {
+  const { editor, stage } = c;
+  bringIn(c, ids);
+  const [id] = ids;
+  if (ids.length !== 1 || editor.motion.peek().futures.has(id)) return;
+  // Where it ends is known when its futures are, if nobody has moved the picture meanwhile.
+  const { cx, cy, z } = stage.view;
+  const end = effect(() => {
+    const there = editor.motion.value.futures.has(id);
+    const left = editor.selection.value !== id;
+    if (!there && !left) return;
+    queueMicrotask(() => end());
+    const v = stage.view;
+    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.dragging.peek()) bringIn(c, ids);
+  });
+}
+
+function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const scene = editor.scene.peek();
   const ps = ids.flatMap((id) => {
     const a = scene?.agents.get(id);
     return (a && poseShown(editor, a)) ?? [];
   });
+  const alone = ids.length === 1 ? scene?.agents.get(ids[0]) : undefined;
+  const end = alone && endShown(editor, alone);
   const v = stage.view;
   const { left, right, top, bottom } = v.inset;
   const seen = (p: { x: number; y: number }): boolean => {
@@ -118,10 +149,13 @@ export function reveal({ editor, stage }: Opening, ids: readonly string[]): void
       y = v.y(p.y);
     return x > left + EDGE_PX && x < v.w - right - EDGE_PX && y > top + EDGE_PX && y < v.h - bottom - EDGE_PX;
   };
-  if (!ps.length || ps.every(seen)) return;
-  const b = boxOf(ps.map((p) => [p.x, p.y] as const));
-  if (ps.length === 1) v.centre(ps[0].x, ps[0].y);
-  else v.fit({ x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M }, v.z);
+  if (!ps.length || (ps.every(seen) && (!end || seen({ x: end[0], y: end[1] })))) return;
+  const all = ps.map((p): Vec => [p.x, p.y]);
+  const b = boxOf(end ? [...all, end] : all);
+  const least = alone ? v.z * FURTHER : undefined;
+  v.fit({ x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M }, v.z, least);
+  // The end may be too far off to be seen with it.
+  if (alone && !ps.every(seen)) v.centre(ps[0].x, ps[0].y);
   stage.viewChanged();
 }
 

@@ -18,7 +18,8 @@ export function coach({ editor, ui }: Opening): void {
     if (ui.coach.peek() === 1 && a) ui.coachTo(2);
     if (ui.coach.peek() === 2 && !a && !dragging) ui.coachTo(1);
     if (ui.coach.peek() === 2 && dragging) ui.coachTo(3);
-    if (ui.coach.peek() === 3 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
+    // A goal that was set by keys needs no hand any more.
+    if (ui.coach.peek() > 1 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
   });
 }
 

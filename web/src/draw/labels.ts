@@ -17,6 +17,8 @@ export class Labels {
   private used: Rect[] = [];
   private avoided: readonly Rect[] = [];
   private kept: Rect[] = [];
+  /** Pills that are painted when all are placed, so that no line to another lies over them. */
+  private held: (() => void)[] | null = null;
   constructor(
     private w = 0,
     private h = 0,
@@ -30,6 +32,23 @@ export class Labels {
     this.used = [];
     this.avoided = [];
     this.kept = [];
+  }
+
+  /** Pills are painted when `release` is called, not before. */
+  hold(): void {
+    this.held = [];
+  }
+
+  release(): void {
+    const all = this.held ?? [];
+    this.held = null;
+    for (const paint of all) paint();
+  }
+
+  /** Paints a pill, now or above all that is painted meanwhile. */
+  onTop(paint: () => void): void {
+    if (this.held) this.held.push(paint);
+    else paint();
   }
 
   /** Labels keep off it while there is any other place. */
@@ -107,6 +126,9 @@ function places(w: number, h: number, s: PillStyle): readonly Offset[] {
   return s.must === false ? s.tries : [...s.tries, ...around(w, h, [30, 44, 60, 80])];
 }
 
+/** Room of the sign before the words. */
+const ICON_PX = 15;
+
 const widths = new Map<string, number>();
 let ruler: CanvasRenderingContext2D | null = null;
 
@@ -124,14 +146,19 @@ function textWidth(f: string, text: string): number {
 
 export function pill(g: Pen, labels: Labels, x: number, y: number, text: string, s: PillStyle = {}): Rect | null {
   if (labels.outside(x, y)) return null;
-  const c = colours();
   const f = font(s.weight ?? 600, 11);
-  const h = s.height ?? 20,
-    icon = s.icon ? 15 : 0;
-  const w = textWidth(f, text) + 14 + icon;
+  const h = s.height ?? 20;
+  const w = textWidth(f, text) + 14 + (s.icon ? ICON_PX : 0);
   const r = labels.place(x, y, w, h, places(w, h, s), s.must ?? true);
   if (!r) return null;
   if (s.leader) leaderLine(g, x, y, r, s.leader);
+  labels.onTop(() => paintPill(g, r, text, f, s));
+  return r;
+}
+
+function paintPill(g: Pen, r: Rect, text: string, f: string, s: PillStyle): void {
+  const c = colours();
+  const { w, h } = r;
   roundRect(g, r.x, r.y, w, h, h / 2);
   g.save();
   g.shadowColor = 'rgba(16,20,26,.22)';
@@ -150,8 +177,7 @@ export function pill(g: Pen, labels: Labels, x: number, y: number, text: string,
   g.fillStyle = s.fg ?? c.ink;
   g.textBaseline = 'middle';
   g.textAlign = 'left';
-  g.fillText(text, r.x + 7 + icon, r.y + h / 2 + 0.5);
-  return r;
+  g.fillText(text, r.x + 7 + (s.icon ? ICON_PX : 0), r.y + h / 2 + 0.5);
 }
 
 function leaderLine(g: Pen, x: number, y: number, r: Rect, colour: string): void {

@@ -110,6 +110,8 @@ export interface FuturesStyle {
   alpha?: number;
   outdated?: boolean;
   onlyChosen?: boolean;
+  /** They are drawn up to this time, seconds. */
+  until?: number;
   /** What was said of each: kept ones at full strength, rejected ones dotted and pale. */
   said?: readonly ('keep' | 'reject' | null)[];
 }
@@ -141,6 +143,7 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
         halo: kept,
         dots: kept,
         dash: kept ? [] : REJECTED_DASH,
+        to: s.until,
       });
       continue;
     }
@@ -151,6 +154,7 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
       halo: lit,
       dots: lit,
       dash,
+      to: s.until,
     });
   }
 }
@@ -182,12 +186,19 @@ const CHIP_TRIES: readonly Offset[] = [
   [42, 0],
   [-42, 0],
   [0, 44],
+  // Where many leave the picture at one place they stand in a column.
+  [0, -66],
+  [0, 66],
+  [22, -44],
+  [22, 44],
+  [0, -88],
+  [0, 88],
 ];
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
-function lastInView(v: View, m: Motion): [number, number] | null {
+function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
   const { left, right, top, bottom } = v.inset;
-  for (let i = m.x.length - 1; i >= 0; i--) {
+  for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--) {
     const x = v.x(m.x[i]),
       y = v.y(m.y[i]);
     if (x > left && x < v.w - right && y > top && y < v.h - bottom) return [x, y];
@@ -203,12 +214,13 @@ export function paintChips(
   f: Futures,
   which: readonly number[],
   chosen: number,
+  until?: number,
 ): Chip[] {
   const out: Chip[] = [];
   const R = 8.5;
   for (const i of which) {
     const m = f.modes[i].motion;
-    const end = lastInView(v, m);
+    const end = lastInView(v, m, until);
     if (!end) continue;
     const [ex, ey] = end;
     const r = labels.place(

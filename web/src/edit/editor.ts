@@ -98,10 +98,16 @@ export interface Beside {
     readonly at: Vec;
     readonly time: number;
     readonly who: readonly string[];
+    /** What it is called in a sentence. */
+    readonly called: string;
   };
 }
 
+/** Ways that were tried, one stroke each. */
+export type Tries = readonly (readonly Vec[])[];
+
 const NOBODY: readonly string[] = Object.freeze([]);
+const NO_TRIES: Tries = Object.freeze([]);
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
 export class Editor {
@@ -135,6 +141,7 @@ export class Editor {
   readonly #undoName = signal<string | null>(null);
   readonly #redoName = signal<string | null>(null);
   readonly #beside = signal<Beside | null>(null);
+  readonly #tries = signal<Tries>(NO_TRIES);
   readonly #lock = signal<Lock | null>(null);
   readonly #historyTick = signal(0);
   /** Goal headings that came from a lane and may follow the next one, as `part:id`. */
@@ -167,6 +174,8 @@ export class Editor {
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
   /** Another way that the scene could go, shown dashed beside the one on the picture. */
   readonly beside: ReadonlySignal<Beside | null> = this.#beside;
+  /** Ways that a search has tried so far, pale on the picture. */
+  readonly tries: ReadonlySignal<Tries> = this.#tries;
   readonly undoName: ReadonlySignal<string | null> = this.#undoName;
   readonly redoName: ReadonlySignal<string | null> = this.#redoName;
   /** Null while the document can be changed. */
@@ -228,9 +237,14 @@ export class Editor {
     const s = this.scene.value;
     return s && !this.dragging.value ? readEvents(s, this.motion.value, this.speedUnit.value) : NO_EVENTS;
   });
-  /** What the timeline shows: the events, and while a hand moves what is wrong with the future that is shown. */
+  /**
+   * What the timeline shows: the events, while a hand moves what is wrong with the future that is shown, and of a case
+   * that is looked at what happens in it.
+   */
   readonly shownEvents = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
+    const b = this.beside.value;
+    if (b?.meeting) return readEvents(b.scene, b.set, this.speedUnit.value);
     const d = this.dragging.value ? this.draft.value : null;
     return s && d
       ? eventsOf(s, this.motion.value, d.id, d.futures, this.chosen.value, this.speedUnit.value)
@@ -271,6 +285,7 @@ export class Editor {
       if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
       this.#beside.value = null;
+      this.#tries.value = NO_TRIES;
       this.notices.hide();
       this.#nameSteps();
     });
@@ -526,6 +541,10 @@ export class Editor {
 
   showBeside(beside: Beside | null): void {
     this.#beside.value = beside;
+  }
+
+  showTries(tries: Tries): void {
+    this.#tries.value = tries;
   }
 
   pickEvent(event: TrafficEvent | null): void {

@@ -18,6 +18,8 @@ export type Hit =
   | { kind: 'by-road' }
   /** The bar of a stop, by its point of the speed curve. */
   | { kind: 'stop'; point: number }
+  /** The words beside it: for how long it stops. */
+  | { kind: 'hold'; point: number }
   /** `beside`: a finger came down near it, and not on it. */
   | { kind: 'agent'; id: string; pile: string[]; beside?: true }
   | { kind: 'frame'; handle: FrameHandle }
@@ -67,6 +69,8 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
     // A bar is small, and a flag or a box behind it can be taken elsewhere.
     const stop = c.stops.find(({ ends }) => awayFrom(ends, x, y) <= (c.touch ? FINGER_PX : 7));
     if (stop && !a.locked && (!grip || grip.handle === 'body')) return { kind: 'stop', point: stop.point };
+    const hold = a.locked ? undefined : c.stops.find(({ words }) => words && inRect(words, x, y));
+    if (hold && (!grip || grip.handle === 'body')) return { kind: 'hold', point: hold.point };
     if (grip) return { kind: 'grip', grip };
     if (c.roadSign?.flag && onFlag(c.view, c.roadSign.flag, x, y)) return { kind: 'by-road' };
     for (const chip of c.chips)

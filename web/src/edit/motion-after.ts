@@ -7,7 +7,7 @@ import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
 import { firstPose } from '../model/read';
 import { metAnew, withMeetingsOf, type Changed } from '../model/rejudge';
-import { doing, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } from '../model/scene';
+import { doing, isRecorded, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { FinalEvent } from '../net/types';
 import type { Wanted } from './question';
 import { readReach, readScore, readWarnings } from './read-answer';
@@ -16,7 +16,12 @@ import { judgedCurves, withCurves } from './speed-curve';
 /** Which letters the futures of a road user get. */
 export type Keep = (a: Agent) => KeepOrder;
 
-export const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
+export const naming = (scene: Scene, a: Agent): Naming => ({
+  onFoot: a.type === 'pedestrian',
+  nameOf: nameIn(scene),
+  // What an example comes with was not recorded of anybody.
+  log: isRecorded(scene.source) && !a.placed ? a.log : null,
+});
 
 export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
   const answers = futuresOf(before, scene, e, keep);

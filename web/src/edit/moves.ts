@@ -4,6 +4,7 @@ import { nearestLanes } from '../model/lanemap';
 import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import { limitsOf, topSpeed } from '../model/domain';
+import { poseAt } from '../model/motion';
 import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
@@ -11,6 +12,29 @@ import type { Editor, Field, Part } from './editor';
 import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
 import { TEXTS } from '../texts/moves';
+
+/** The goal where it was recorded at the goal time; null where it was not there, or did not go anywhere. */
+export function goalFromLog(a: Agent): Command | null {
+  const p = logEnd(a);
+  return (
+    p && {
+      ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]), heading: p.heading }),
+      name: TEXTS.goalAsInLog(a.name),
+    }
+  );
+}
+
+/** Is its goal where it was recorded? */
+export function isGoalOfLog(a: Agent): boolean {
+  const p = a.goal.pos && logEnd(a);
+  return !!p && Math.hypot(p.x - a.goal.pos![0], p.y - a.goal.pos![1]) < 0.05;
+}
+
+function logEnd(a: Agent): Pose | null {
+  const start = startPose(a);
+  const p = a.placed ? null : poseAt(a.log, a.goal.time);
+  return start && p && Math.hypot(p.x - start.x, p.y - start.y) > 1 ? p : null;
+}
 
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];

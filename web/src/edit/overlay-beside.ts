@@ -10,13 +10,29 @@ import { colourKey, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
-import type { Beside } from './editor';
+import type { Beside, Tries } from './editor';
 
 const WAY_DASH = [6, 5];
 const BOX_DASH = [4, 3];
 const TRIED_DASH = [8, 6];
+const TRIED_ALPHA = 0.22;
 /** Those in a moment are ringed for so long before and after it. */
 const NOW_S = 0.45;
+
+/** Ways that were tried, all in one thin pale stroke: where a search has looked. */
+export function paintTries(g: Pen, v: View, tries: Tries): void {
+  if (!tries.length) return;
+  g.beginPath();
+  for (const way of tries) way.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+  g.strokeStyle = colours()['ink-2'];
+  // Thinner ones lie over each other one by one, and many would be black.
+  g.lineWidth = 1.25;
+  g.lineCap = 'round';
+  g.lineJoin = 'round';
+  g.globalAlpha = TRIED_ALPHA;
+  g.stroke();
+  g.globalAlpha = 1;
+}
 
 export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, time: number): void {
   const c = colours();

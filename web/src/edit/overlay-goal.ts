@@ -106,6 +106,8 @@ export class GoalOverlay {
     const said = bad && !bad.outranked;
     const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(a.goal.time)) : TEXTS.goalFree;
     if (drag?.part === 'goal' && drag.handle === 'body') return;
+    // Beside the words of a stop there is no room for what nobody asked for.
+    if (!goal.set && e.curve.profile.value) return;
     const r = pill(
       g,
       this.labels,

@@ -1,6 +1,6 @@
 // Where somebody with a speed drawn by hand stands: a bar across the lane in front of the box, and for how long.
 import { paintGhost } from '../draw/handles';
-import { tag, type Labels } from '../draw/labels';
+import { pill, type Labels, type Rect } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
@@ -20,6 +20,8 @@ const AHEAD_M = 0.6;
 export interface StopBar {
   readonly ends: readonly [Vec, Vec];
   readonly point: number;
+  /** Its words: they are pulled for how long it stops. */
+  readonly words: Rect | null;
 }
 
 export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: Agent): StopBar[] {
@@ -40,9 +42,10 @@ export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: A
     ] as const;
     polyline(g, v, bar, c.halo, 8, 1, [], 'round');
     polyline(g, v, bar, c.collision, 5, 1, [], 'round');
-    tag(g, labels, v.to(x, y), TEXTS.stopsHereFor(seconds(lasts)), { radii: [36, 52, 70], leader: c.collision });
+    const said = TEXTS.stopsHereFor(seconds(lasts), editor.curve.placeOf(a, pose));
+    const words = pill(g, labels, ...v.to(x, y), said, { radii: [36, 52, 70], leader: c.collision });
     const point = pointOf(editor.curve.points.value, from);
-    if (point > 0) bars.push({ ends: [v.to(...bar[0]), v.to(...bar[1])], point });
+    if (point > 0) bars.push({ ends: [v.to(...bar[0]), v.to(...bar[1])], point, words });
   }
   return bars;
 }

@@ -37,7 +37,7 @@ export class VerdictOverlay {
   }
 
   /** On the paths: the stretches themselves. */
-  paintStretches(g: Pen, v: View, f: Futures, visible: readonly number[]): void {
+  paintStretches(g: Pen, v: View, f: Futures, visible: readonly number[], until = Infinity): void {
     const c = colours();
     const chosen = this.editor.chosen.value;
     const most = Math.max(...f.modes.map((m) => m.probability));
@@ -46,31 +46,37 @@ export class VerdictOverlay {
       const { width, alpha } = modeStyle(m.probability, most);
       // The worst is painted last, on top.
       for (const fault of [...(m.about?.faults ?? [])].reverse()) {
-        if (fault.kind === 'goal_missed') continue;
-        paintBroken(g, v, stretchOf(f, i, fault), {
-          width: i === chosen ? Math.max(width, 3.2) : width,
-          alpha: i === chosen ? 1 : Math.max(0.45, 0.85 * alpha),
-          colour: fault.kind === 'near_miss' ? c['near-edge'] : c.collision,
-        });
+        if (fault.kind === 'goal_missed' || fault.time > until) continue;
+        const stretch = stretchOf(f, i, fault);
+        paintBroken(
+          g,
+          v,
+          { ...stretch, to: Math.min(stretch.to, until) },
+          {
+            width: i === chosen ? Math.max(width, 3.2) : width,
+            alpha: i === chosen ? 1 : Math.max(0.45, 0.85 * alpha),
+            colour: fault.kind === 'near_miss' ? c['near-edge'] : c.collision,
+          },
+        );
       }
     }
   }
 
   /** One word at each place; a red path never goes without. */
-  paintWords(g: Pen, v: View, f: Futures, visible: readonly number[]): void {
+  paintWords(g: Pen, v: View, f: Futures, visible: readonly number[], most = NAMED): void {
     const inView = (p: FaultPlace): boolean => !this.labels.outside(v.x(p.fault.at[0]), v.y(p.fault.at[1]));
     const places = faultPlaces(f, visible, this.editor.chosen.value).filter(inView);
-    if (places.length) this.labels.avoiding(pathBoxes(v, f, visible), () => this.placeWords(g, v, places));
+    if (places.length) this.labels.avoiding(pathBoxes(v, f, visible), () => this.placeWords(g, v, places, most));
   }
 
-  private placeWords(g: Pen, v: View, places: readonly FaultPlace[]): void {
+  private placeWords(g: Pen, v: View, places: readonly FaultPlace[], most: number): void {
     const nameOf = nameIn(this.editor.scene.peek()!);
-    places.slice(0, NAMED).forEach((p) => {
+    places.slice(0, most).forEach((p) => {
       const [x, y] = v.to(p.fault.at[0], p.fault.at[1]);
       pill(g, this.labels, x, y, placeWord(p.fault, nameOf), pillStyle(p));
     });
-    const rest = places.length - NAMED;
-    if (rest > 0) {
+    const rest = places.length - most;
+    if (rest > 0 && most === NAMED) {
       const [x, y] = v.to(places[NAMED].fault.at[0], places[NAMED].fault.at[1]);
       const { bg: leader } = pillStyle(places[NAMED]);
       pill(g, this.labels, x, y, TEXTS.andMore(rest), { leader, border: leader, radii: RADII });

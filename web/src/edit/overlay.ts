@@ -4,7 +4,7 @@ import type { Pose } from '../model/geometry';
 import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
-import { canChange, canMove, startPose, touched, type Agent } from '../model/scene';
+import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
 import { Labels, pill, tag, type Rect } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
@@ -14,8 +14,8 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
-import { ArmsOverlay } from './overlay-arms';
-import { paintBeside, paintMeeting, paintTried } from './overlay-beside';
+import type { ArmsOverlay } from './overlay-arms';
+import { paintBeside, paintMeeting, paintTried, paintTries } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
@@ -30,6 +30,12 @@ import { TEXTS } from '../texts/picture';
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
+/** The rail of tools down to its end, pixels; what is left of the picture says whether there is one, and a drawer. */
+const RAIL_H = 484;
+const RAIL_W = 62;
+const DRAG_HELP_W = 650;
+const RAIL_LEAST = 40;
+const RAIL_MOST = 140;
 /** About as wide as a toast is, pixels. */
 const TOAST_W = 420;
 
@@ -44,13 +50,16 @@ export class Overlay {
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
   private readonly hovered: HoveredOverlay;
-  private readonly arms: ArmsOverlay;
+  /** Few make maps: what paints them comes when one is made. */
+  private arms: ArmsOverlay | Promise<void> | null = null;
 
   constructor(
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
     /** What is on the picture under it and better left to be seen. */
     private readonly below: () => readonly Rect[],
+    /** It is to be painted once more. */
+    private readonly again: () => void,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
     this.events = new EventsOverlay(editor, this.labels, poseNow);
@@ -59,7 +68,6 @@ export class Overlay {
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
     this.several = new SeveralOverlay(editor, this.labels, poseNow);
     this.hovered = new HoveredOverlay(editor);
-    this.arms = new ArmsOverlay(editor, this.labels);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -98,17 +106,38 @@ export class Overlay {
     });
     for (const r of this.panels(v)) this.labels.block(...r);
     if (making || !scene) {
-      this.arms.paint(g, v);
+      this.paintArms(g, v);
       return;
     }
+    this.labels.hold();
+    this.paintScene(g, v, scene);
+    g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    g.globalAlpha = 1;
+    this.labels.release();
+  }
+
+  private paintArms(g: Pen, v: View): void {
+    if (this.arms && 'paint' in this.arms) this.arms.paint(g, v);
+    else
+      this.arms ??= import('./overlay-arms').then((m) => {
+        this.arms = new m.ArmsOverlay(this.editor, this.labels);
+        this.again();
+      });
+  }
+
+  private paintScene(g: Pen, v: View, scene: Scene): void {
+    const { editor: e } = this;
     for (const r of this.below()) this.labels.keepOff(r);
     if (e.notices.toast.value) {
+      const { left } = v.inset;
       const middle = (v.w + (left > 100 ? left : 0)) / 2;
       this.labels.keepOff({ x: middle - TOAST_W / 2, y: v.h - 100, w: TOAST_W, h: 48 });
     }
     this.paintHover(g, v);
     const a = e.agent.value;
     const beside = e.beside.value;
+    // A hand that moves comes first: they are many.
+    if (!e.drag.value) paintTries(g, v, e.tries.value);
     if (beside) paintBeside(g, v, beside, e.time.value);
     if (e.showBefore.value && !beside) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
@@ -124,14 +153,21 @@ export class Overlay {
   }
 
   /** Rectangles of the panels over the picture, which labels keep clear of. */
-  private panels(v: View): [number, number, number, number][] {
-    const left = v.inset.left > 100 ? v.inset.left - 12 : 0;
+  private panels(v: View): (readonly [number, number, number, number])[] {
+    const { left, bottom } = v.inset;
+    // Above a sheet they stand higher.
+    const y = v.h - (bottom > 60 ? bottom + 44 : 52);
+    const drawer = left > RAIL_MOST ? left - 12 : 0;
+    // On a small page there is no rail.
+    const rail = left < RAIL_LEAST ? 0 : drawer ? RAIL_W : left - 6;
     return [
-      [left, v.h - 52, 400, 52],
-      [v.w - 160, v.h - 52, 160, 52],
+      [drawer, y, 400, v.h - y],
+      // The help of a drag is longer than what stands there otherwise.
+      ...(this.editor.drag.value ? ([[v.w - DRAG_HELP_W, y, DRAG_HELP_W, v.h - y]] as const) : []),
+      [v.w - 160, y, 160, v.h - y],
       [v.w - 260, 0, 260, 52],
-      [0, 0, 62, 430],
-      [left ? 62 : 0, 0, left, left ? v.h : 0],
+      [0, 0, rail, RAIL_H],
+      [drawer ? RAIL_W : 0, 0, drawer, drawer ? v.h : 0],
     ];
   }
 
@@ -240,6 +276,7 @@ export class Overlay {
       d.earlier.forEach((old, i) => paintFutures(g, v, old, { chosen, alpha: TRAIL_ALPHA[i] ?? 0.1 }));
     const committed = this.committed(a);
     const judged = this.judged(a, f);
+    const until = this.tooFar(a) ? a.goal.time : undefined;
     this.verdicts.paintRoadBand(g, v, a);
     this.verdicts.paintGround(g, v, a, f, judged);
     paintFutures(g, v, f, {
@@ -248,9 +285,10 @@ export class Overlay {
       outdated,
       alpha: this.trying ? 0.25 : outdated ? 0.6 : 1,
       onlyChosen: committed,
+      until,
       said: e.deck.ofAgent(a.id) ? saidOf(e).map((s) => s?.verdict ?? null) : [],
     });
-    this.verdicts.paintStretches(g, v, f, judged);
+    this.verdicts.paintStretches(g, v, f, judged, until);
     if (f.sketch) {
       const m = f.modes[0].motion,
         i = m.x.length >> 1;
@@ -263,22 +301,31 @@ export class Overlay {
   private judged(a: Agent, f: Futures): readonly number[] {
     const { editor: e } = this;
     if (!verdictsHold(e) || this.trying) return [];
-    const only = e.hoverFuture.value ?? (this.committed(a) ? e.chosen.value : null);
+    const one = this.committed(a) || this.tooFar(a) || e.curve.profile.value !== null;
+    const only = e.hoverFuture.value ?? (one ? e.chosen.value : null);
     if (only !== null) return only < f.modes.length ? [only] : [];
     return f.modes.map((_, i) => i);
+  }
+
+  /** Its goal cannot be reached, and nothing worse is to be said: the futures end where it gets. */
+  private tooFar(a: Agent): boolean {
+    const bad = a.goal.pos ? outOfReach(this.editor, a) : null;
+    return bad !== null && !bad.outranked && bad.nearest !== null;
   }
 
   /** Away from the start only the future in force is shown: it is what happens. */
   private committed(a: Agent): boolean {
     const { editor: e } = this;
-    return touched(a) && !e.deck.ofAgent(a.id) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+    if (!touched(a) || e.deck.ofAgent(a.id) || e.drag.value || e.hoverFuture.value !== null) return false;
+    // Of a speed drawn by hand the others are no answer.
+    return e.time.value > 0.05 || e.curve.profile.value !== null;
   }
 
   private paintWords(g: Pen, v: View, a: Agent): void {
     const f = this.editor.futures.value;
     if (!f || !this.six) return;
     this.verdicts.paintRoadWay(g, v, a);
-    this.verdicts.paintWords(g, v, f, this.judged(a, f));
+    this.verdicts.paintWords(g, v, f, this.judged(a, f), this.tooFar(a) ? 1 : undefined);
   }
 
   private paintLetters(g: Pen, v: View, a: Agent): void {
@@ -291,6 +338,7 @@ export class Overlay {
         f,
         this.chipIndexes(a, f.modes.length, this.committed(a)),
         this.editor.chosen.value,
+        this.tooFar(a) ? a.goal.time : undefined,
       );
   }
 
@@ -301,7 +349,8 @@ export class Overlay {
     if (hovered !== null && hovered < n) return [hovered];
     if (e.drag.value || committed) return [];
     const all = [...Array(n).keys()];
-    const pos = a.goal.pos;
+    const nearest = this.tooFar(a) ? outOfReach(e, a)!.nearest! : null;
+    const pos = nearest ? ([nearest.x, nearest.y] as const) : a.goal.pos;
     if (!pos) return all;
     const f = e.futures.value!;
     return all.filter((i) => {

@@ -101,6 +101,7 @@ export class Picture {
         e.measure.value,
         e.sweep.value,
         e.beside.value,
+        e.tries.value,
         e.placement.ghosts.value,
         e.filling.wish.value,
         e.filling.drawn.value,

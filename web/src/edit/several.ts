@@ -138,6 +138,16 @@ export function mirrorAll(all: readonly Agent[]): Command | null {
   });
 }
 
+/** Two change places: each starts where the other did, facing as the other did. */
+export function swapTwo([a, b, ...more]: readonly Agent[]): Command | null {
+  const [p, q] = [a && startPose(a), b && startPose(b)];
+  if (!p || !q || more.length) return null;
+  return changeAll([a, b], TEXTS.swapped(a.name, b.name), (one) => {
+    const to = one === a ? q : p;
+    return started(one, { pos: at(to.x, to.y), heading: to.heading });
+  });
+}
+
 /** Nearer to a point or further from it. */
 export function spreadAll(all: readonly Agent[], kx: number, ky: number, about: Vec): Command | null {
   return changeAll(all, TEXTS.spread(whoWords(all)), (a) => {

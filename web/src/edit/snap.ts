@@ -1,5 +1,6 @@
 // Snapping to lanes and angles. It shows itself and lets go with Alt.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/geometry';
+import { armWords } from '../model/arm-names';
 import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
 import { startPose, type Agent, type Scene } from '../model/scene';
 import { TEXTS } from '../texts/picture';
@@ -129,6 +130,8 @@ export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: nu
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
   if (!hit) return TEXTS.offTheLanes;
+  const arm = hit.lane.kind === 'walk' ? null : armWords(map, hit.lane);
+  if (arm) return arm;
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
   const what =

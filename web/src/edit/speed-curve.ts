@@ -7,19 +7,29 @@ import type { Futures, Score } from '../model/futures';
 import {
   addedPoint,
   endsOf,
+  lineOf,
   motionOf,
   movedPoint,
   pathOf,
   timeOfStop,
+  type Path,
   type Profile,
   type SpeedPoint,
 } from '../model/profile';
 import type { Way } from '../model/curve-fit';
+import { pointAt, project, type Pose, type Vec } from '../model/geometry';
 import type { Motion } from '../model/motion';
 import { judgedBy } from '../model/rejudge';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/scene';
+import { stopPlaces, type StopPlace } from '../model/stop-places';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/moves';
+
+/** A front so near to where one stops stands there, metres. */
+const THERE_M = 0.6;
+
+const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPlace | undefined =>
+  all.filter((p) => Math.abs(p.s - s) <= within).sort((p, q) => Math.abs(p.s - s) - Math.abs(q.s - s))[0];
 
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
@@ -97,14 +107,38 @@ export class SpeedCurve {
     this.#point.value = i;
   }
 
-  /** Moves a stop along the path, so that the front of the road user comes to a place. */
-  stopAt(i: number, x: number, y: number): void {
+  /**
+   * Moves a stop along the path, so that the front of the road user comes to a place; so near to where one stops it
+   * `sticks` there, metres.
+   */
+  stopAt(i: number, [x, y]: Vec, sticks: number): void {
     const a = this.editor.agent.peek();
+    const scene = this.editor.scene.peek();
     const base = this.profile.peek();
-    if (!a || !base || i >= base.points.length) return;
-    const { duration } = this.editor.scene.peek()!;
-    this.drag(i, { t: timeOfStop(base, i, [x, y], a.length / 2, limitsOf(a), duration) });
+    if (!a || !scene || !base || i >= base.points.length) return;
+    const line = lineOf(base.path);
+    const { s } = project(line, x, y);
+    const place = nearestOf(this.#places(scene, a, base), s, sticks);
+    const to = pointAt(line, place?.s ?? s);
+    this.drag(i, { t: timeOfStop(base, i, [to.x, to.y], a.length / 2, limitsOf(a), scene.duration) });
   }
+
+  /** Where one stops there, in words; null where it stands anywhere. */
+  placeOf(a: Agent, { x, y }: Pose): string | null {
+    const scene = this.editor.scene.peek();
+    const base = this.profile.peek();
+    if (!scene || !base) return null;
+    const front = project(lineOf(base.path), x, y).s + a.length / 2;
+    return nearestOf(this.#places(scene, a, base), front, THERE_M)?.words ?? null;
+  }
+
+  /** Worked out once for a path: a hand that moves keeps it. */
+  #places(scene: Scene, a: Agent, { path }: Profile): readonly StopPlace[] {
+    if (this.#known?.path !== path || this.#known.agents !== scene.agents)
+      this.#known = { path, agents: scene.agents, all: stopPlaces(scene, a, path) };
+    return this.#known.all;
+  }
+  #known: { readonly path: Path; readonly agents: Scene['agents']; readonly all: readonly StopPlace[] } | null = null;
 
   /** What is in hand becomes a step. */
   release(): void {

@@ -12,6 +12,15 @@ export const KIND_WORDS: Readonly<Record<What, string>> = {
   goal: TEXTS.goalReachedLittle,
 };
 
+/** What the search is called. */
+export const TITLES: Readonly<Record<What, string>> = {
+  near: TEXTS.findANearMiss,
+  collision: TEXTS.findACollision,
+  first: TEXTS.findWhoComesFirst,
+  braking: TEXTS.findHardBraking,
+  goal: TEXTS.findATightArrival,
+};
+
 /** As in `find a near miss between …`. */
 const SENTENCES: Readonly<Record<What, (a: string, b: string | null) => string>> = {
   near: (a, b) => TEXTS.aNearMissBetween(a, b ?? TEXTS.somebody),

@@ -2,7 +2,7 @@
 // the same. No two in one list are alike.
 import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
-import { distances, endPose, pathLength, STEP_S, type Motion } from './motion';
+import { distances, endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from './motion';
 import { TEXTS } from '../texts/names';
 
 /** What a name is made from. */
@@ -15,6 +15,8 @@ export interface Nameable {
 export interface Naming {
   readonly onFoot: boolean;
   readonly nameOf: (id: string) => string | null;
+  /** What was recorded of it; null where nothing was. */
+  readonly log?: Motion | null;
 }
 
 /** A name and what it rests on: `after:12`, or a manner such as `Turns left`. */
@@ -186,11 +188,25 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   const stops = modes.map((m) => endsStanding(m, who.onFoot));
   const stopTells = modes.length === 1 || stops.some((s) => !s);
   return modes.map((m, i) => [
+    ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
     ...(alone && onRoad[i] ? [{ basis: TEXTS.byTheRoad, forms: [TEXTS.byTheRoad] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
     // One that stops is not called by how it goes on.
     stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
   ]);
+}
+
+/** Never further from what was recorded than this is like it, metres; one that hardly moves is not compared. */
+const LIKE_LOG_M = 2;
+const MOVES_M = 4;
+
+function isLike(m: Motion, log: Motion): boolean {
+  if (pathLength(log) < MOVES_M) return false;
+  for (let t = 0; t <= lastStep(m) * STEP_S + 1e-6; t += 5 * STEP_S) {
+    const [p, q] = [poseAt(m, t), poseAt(log, t)];
+    if (!p || !q || Math.hypot(p.x - q.x, p.y - q.y) > LIKE_LOG_M) return false;
+  }
+  return true;
 }
 
 const STOPS = TEXTS.stops;

@@ -1,7 +1,7 @@
 // How fast a road user goes, drawn by hand: points of speed over time on a path that is kept as it was. The motion
 // that follows from both is worked out here, within what the road user can do.
 import type { Limits } from './domain';
-import { clamp, lerp, lerpAngle, type OnLine, type Pose, type Vec } from './geometry';
+import { clamp, lerp, lerpAngle, makeLine, project, type Line, type OnLine, type Pose, type Vec } from './geometry';
 import { lastStep, poseAt, STEP_S, type Motion } from './motion';
 
 /** A speed at a time, m/s and s; from then on it is held for so many seconds. */
@@ -99,6 +99,8 @@ export function alongOf({ x, y }: Path): number[] {
   return x.map((_, i) => (i ? (s += Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1])) : 0));
 }
 
+export const lineOf = (path: Path): Line => makeLine(path.x.map((x, i): Vec => [x, path.y[i]]));
+
 /** Past its end the path goes straight on. */
 function placeAt(path: Path, along: readonly number[], s: number): OnLine {
   const at = (i: number): OnLine => ({ x: path.x[i], y: path.y[i], heading: path.heading[i] });
@@ -174,11 +176,10 @@ export function timeOfStop(
   duration: number,
 ): number {
   const { path, points } = profile;
-  const off = path.x.map((px, k) => Math.hypot(px - x, path.y[k] - y));
-  const wanted = alongOf(path)[off.indexOf(Math.min(...off))] - ahead;
+  const wanted = project(lineOf(path), x, y).s - ahead;
   // The later it stops the further it has come.
   let [from, to] = [0, duration];
-  for (let n = 0; n < 9; n++) {
+  for (let n = 0; n < 12; n++) {
     const t = (from + to) / 2;
     const moved = movedPoint(points, i, { t }, duration);
     const { speed } = motionOf({ path, points: moved }, limits, duration);
@@ -187,7 +188,7 @@ export function timeOfStop(
     if (gone < wanted) from = t;
     else to = t;
   }
-  return Math.round(from * 10) / 10;
+  return Math.round(from * 100) / 100;
 }
 
 /** One more point; null where there is no room for it. */

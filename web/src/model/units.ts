@@ -1,4 +1,5 @@
 // Numbers as people read and type them. Inside the program everything is SI.
+import { TEXTS } from '../texts/places';
 import { deg } from './geometry';
 
 export type SpeedUnit = 'km/h' | 'm/s' | 'mph';
@@ -116,3 +117,7 @@ function evaluate(source: string): number | null {
   const v = sum();
   return at === tokens.length && Number.isFinite(v) ? v : null;
 }
+
+/** What is left of something that takes a while. */
+export const leftWords = (s: number): string =>
+  s > 90 ? TEXTS.aboutMinLeft(num(s / 60, 0)) : TEXTS.aboutSLeft(num(Math.ceil(s), 0));

@@ -139,10 +139,20 @@ export const keepAsVariant = (scene: Scene, name: string): Command | null =>
   keepStates(scene, [stateOfVariant(scene, null)], name);
 
 /** Others join them, kept; null where there is no room for all. */
-export function keepStates(scene: Scene, fresh: readonly VariantState[], name: string): Command | null {
+export function keepStates(
+  scene: Scene,
+  fresh: readonly VariantState[],
+  name: string,
+  starred: readonly boolean[] = [],
+): Command | null {
   if (scene.variants.length + fresh.length > MOST_VARIANTS) return null;
   const first = nextVariant(scene);
-  const come = fresh.map((_, i): Variant => ({ id: first + i, called: null, kept: true, starred: false }));
+  const come = fresh.map((_, i): Variant => ({
+    id: first + i,
+    called: null,
+    kept: true,
+    starred: starred[i] ?? false,
+  }));
   const states = Object.fromEntries(fresh.map((state, i) => [first + i, state]));
   return put(name, [...scene.variants, ...come], { ...scene.variantStates, ...states });
 }

@@ -1,4 +1,4 @@
-import { table } from './table';
+import { plural, table } from './table';
 
 export const TEXTS = table('cases', {
   findACase: 'Find a case',
@@ -22,8 +22,6 @@ export const TEXTS = table('cases', {
   notLikeThat: (max: number) => `${max} not like that`,
   goOn: 'Go on',
   tryMore: (most_tries: number) => `Try ${most_tries} more`,
-  aboutMinLeft: (left: string) => `about ${left} min left`,
-  aboutSLeft: (left: string) => `about ${left} s left`,
   youHaveChanged: (clock: string) => `You have changed the scene since. A case brings back the scene of ${clock}.`,
   youCanKeepEditing: (clock: string) => `You can keep editing: the search uses the scene as it was at ${clock}.`,
   letGoalTimeChange: 'Let goal time change too',
@@ -34,6 +32,17 @@ export const TEXTS = table('cases', {
   hardestFirst: 'hardest first',
   closestFirst: 'closest first',
   take: 'Take',
+  starCase: (id: number) => `Star case ${id}`,
+  stopAndKeep: (found: number) => `Stop and keep ${found}`,
+  keepAsVariants: (found: number) =>
+    plural(found, { one: 'Keep it as a variant', other: `Keep the ${found} as variants` }),
+  findANearMiss: 'Find a near miss',
+  findACollision: 'Find a collision',
+  findWhoComesFirst: 'Find who comes first',
+  findHardBraking: 'Find hard braking',
+  findATightArrival: 'Find a tight arrival',
+  called: (id: number) => `case ${id}`,
+  starS: 'Star (S)',
   takeCase: (id: number) => `Take case ${id}`,
   itIsWhatHappens: 'It is what happens from now on; one step, that can be undone',
   case: (id: number) => `Case ${id}`,

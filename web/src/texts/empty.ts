@@ -15,4 +15,5 @@ export const TEXTS = table('empty', {
   theServerIsNot: 'The server is not answering. Scenes appear here when it does.',
   thereAreNoExamples: 'There are no examples here. Drop a scenario record or a saved scene.',
   openAnExample: 'Open an example and drag a car. Or bring your own scene.',
+  startFromANewMap: 'start from a new map',
 });

@@ -4,7 +4,10 @@ import { table } from './table';
 export const HELPS = table('helps', {
   triesSpeeds: 'Tries speeds, goal times and seeds of a road user until a near miss, hard braking or the like happens',
   goesOnUntil: 'Goes on until it is found or stopped; you can keep editing',
-  whatWasFound: 'What was found stays; it can go on later',
+  starStays: 'The star stays with it when it is kept as a variant',
+  eachOfTwo: 'Each of two starts where the other did; speeds and goals stay',
+  whereItWasRecorded: 'Where it was recorded at the goal time',
+  theSearchWaits: 'The search waits; what was found stays, and it can go on later',
   endsTheSearch: 'Ends the search; each case that was found becomes a variant',
   inTheUsual: 'In the usual size; it drives, rides or walks as its kind does',
   theSelected: 'The selected road users, also for another tab',

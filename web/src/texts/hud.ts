@@ -89,4 +89,6 @@ export const TEXTS = table('hud', {
   zoom: 'Zoom',
   sketchNotWorked: 'Sketch, not worked out yet',
   done2: 'done',
+  makingVariants: (done: number, of: number) => `Making variants: ${done} of ${of}`,
+  searching: (tried: number, of: number, found: number) => `Searching: ${tried} of ${of} · ${found} found`,
 });

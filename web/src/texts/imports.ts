@@ -36,6 +36,7 @@ export const TEXTS = table('imports', {
   notAScene: 'not a scene',
   importWithout: (without: string) => `Import without ${without}`,
   tryAgain: 'Try again',
+  hideLine: (line: number) => `Hide line ${line}`,
   showLine: (line: number) => `Show line ${line}`,
   mapLanes: '/map/lanes',
   mapRoadLines: '/map/road_lines',
@@ -91,4 +92,8 @@ export const TEXTS = table('imports', {
   crosswalk: 'crosswalk',
   driveway: 'driveway',
   signal: 'signal',
+  mendItOrWithout: (names: string) => `Mend it and drop the file again, or import it without ${names}.`,
+  whatIsWrong: 'What is wrong',
+  where: 'Where',
+  whatToDo: 'What to do',
 });

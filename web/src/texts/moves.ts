@@ -67,4 +67,6 @@ export const TEXTS = table('moves', {
   unlocked: 'unlocked',
   reacts: 'reacts',
   react: 'react',
+  goalAsInLog: (name: string) => `Goal of ${name} as in the log`,
+  swapped: (one: string, other: string) => `${one} and ${other} swapped`,
 });

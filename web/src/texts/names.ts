@@ -11,6 +11,7 @@ export const TEXTS = table('names', {
   justLike: 'just like',
   almostLike: 'almost like',
   nearlyLike: 'nearly like',
+  likeTheLog: 'Like the log',
   byTheRoad: 'By the road',
   stops: 'Stops',
   letsGo: (short: string) => `Lets ${short} go`,

@@ -23,7 +23,7 @@ export const TEXTS = table('picture', {
   on: (place: string) => (/^(on|off|inside|beside) /.test(place) ? place : `on ${place}`),
   atAlongTheWay: (time: string, along: string) => `at ${time} · ${along} along the way`,
   somebodyStands: 'Somebody stands here',
-  stopsHereFor: (lasts: string) => `stops here for ${lasts}`,
+  stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,
   andMore: (rest: number) => `and ${rest} more`,
   log: 'Log',
   mApartAt: (d: string, t: string) => `${d} m apart at ${t}`,

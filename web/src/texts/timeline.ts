@@ -1,6 +1,7 @@
 import { table } from './table';
 
 export const TEXTS = table('timeline', {
+  inCase: (who: string, called: string) => ` · ${who} in ${called}`,
   dashed: (dashed: string) => `, dashed: ${dashed}`,
   selectedOneLine: (count: number) => ` · ${count} selected, one line each`,
   nothingToPlay: 'Nothing to play yet',

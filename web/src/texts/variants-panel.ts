@@ -75,4 +75,9 @@ export const TEXTS = table('variants-panel', {
   stop: 'Stop',
   howManyVariants: 'How many variants are made',
   new: 'new',
+  made: 'Made',
+  waiting: 'waiting',
+  clear: (count: number) => `${count} clear`,
+  withAnEvent: (count: number) => `${count} with an event`,
+  withACollision: (count: number) => `${count} with a collision`,
 });

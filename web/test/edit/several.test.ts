@@ -9,7 +9,7 @@ import { Copying, removeSelected } from '../../src/edit/copying';
 import { placeGhost } from '../../src/edit/gestures/placing';
 import { touching } from '../../src/model/boxes';
 import { inTheWay, standing } from '../../src/edit/room';
-import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, withRoom } from '../../src/edit/several';
+import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, swapTwo, withRoom } from '../../src/edit/several';
 import { askedAfter } from '../../src/edit/after-change';
 import { Pointer } from './pointer';
 import { Session } from './session';
@@ -156,6 +156,16 @@ describe('several in hand', () => {
     expect(p.editor.undoName.peek()).toMatch(/mirrored$/);
     p.editor.undo();
     ids.map(place).forEach((now, i) => expect(now).toEqual(before[i]));
+  });
+
+  it('two change places, and keep their speeds', () => {
+    const [a, b] = ['1', '2'].map((id) => ({ ...place(id) }));
+    expect(swapTwo([agent('1')])).toBeNull();
+    p.editor.run(swapTwo(['1', '2'].map(agent))!);
+    expect(place('1')).toEqual({ ...b, speed: a.speed });
+    expect(place('2')).toEqual({ ...a, speed: b.speed });
+    p.editor.undo();
+    expect(place('1')).toEqual(a);
   });
 
   it('one alone stays, and its goal changes sides', () => {

@@ -1,10 +1,10 @@
 // The search for a case: the sentence of what is looked for, how far it is, and what was found.
 import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/cases';
-import { howWords, KIND_WORDS, momentWords, nothingWords } from '../../model/case-words';
+import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
-import { MOST_TRIES, type Case, type Cases, type Progress } from '../../edit/cases/cases';
-import { num } from '../../model/units';
+import { MOST_TRIES, type Case, type Cases } from '../../edit/cases/cases';
+import { leftWords, num } from '../../model/units';
 import { useAlbum } from '../variants/album';
 import { LivePicture, type Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
@@ -31,7 +31,7 @@ export default function CasesPanel() {
           <Icon name="search" size={20} />
         </div>
         <div class="grow">
-          <h2>{TEXTS.findACase}</h2>
+          <h2>{TITLES[sought.what]}</h2>
           <p>{about(sought, nameOf)}</p>
         </div>
         <button type="button" class="btn i" aria-label={TEXTS.closeTheSearch} onClick={() => cases.close()}>
@@ -148,6 +148,7 @@ function Run({ cases, sought }: Of) {
   const obstacle = cases.obstacle.value;
   const p = cases.progress.value;
   const problem = cases.problem.value;
+  const found = cases.found.value.length;
   if (state === 'ready')
     return (
       <section class="sect">
@@ -159,13 +160,15 @@ function Run({ cases, sought }: Of) {
     <section class="sect seeking" aria-label={TEXTS.howFarTheSearch}>
       <h3>
         <span role="status">{TEXTS.ofTried(p.tried, p.of)}</span>
-        <small>{state === 'running' ? leftWords(p) : state === 'paused' ? TEXTS.paused : ''}</small>
+        <small>
+          {state === 'running' && p.left !== null ? leftWords(p.left) : state === 'paused' ? TEXTS.paused : ''}
+        </small>
       </h3>
       <div class="progress" role="progressbar" aria-label={TEXTS.tried} aria-valuemax={p.of} aria-valuenow={p.tried}>
         <i style={{ width: `${(100 * p.tried) / p.of}%` }} />
       </div>
       <p class="tally">
-        <em class="tag near">{TEXTS.found(p.found)}</em>
+        <em class={`tag ${p.found ? 'near' : ''}`}>{TEXTS.found(p.found)}</em>
         {p.collisions ? <em class="tag collision">{TEXTS.collided(p.collisions)}</em> : null}
         <em class="tag ok">{TEXTS.notLikeThat(Math.max(0, p.tried - p.found - p.collisions))}</em>
       </p>
@@ -175,7 +178,11 @@ function Run({ cases, sought }: Of) {
         </p>
       ) : null}
       <div class="row">
-        {cases.found.value.length ? <ActionButton id="cases-keep" class="pri" icon="" /> : null}
+        {found ? (
+          <ActionButton id="cases-keep" class="pri" icon="">
+            {state === 'running' ? TEXTS.stopAndKeep(found) : TEXTS.keepAsVariants(found)}
+          </ActionButton>
+        ) : null}
         {state === 'running' ? (
           <ActionButton key="stop" id="case-stop" class="line" size={15} />
         ) : (
@@ -189,9 +196,6 @@ function Run({ cases, sought }: Of) {
     </section>
   );
 }
-
-const leftWords = ({ left }: Progress): string =>
-  left === null ? '' : left > 90 ? TEXTS.aboutMinLeft(num(left / 60, 0)) : TEXTS.aboutSLeft(num(Math.ceil(left), 0));
 
 const clock = (d: Date): string => d.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
 
@@ -262,15 +266,27 @@ function Found({ cases, sought }: Of) {
               <LivePicture card={pictures[i]} album={album} />
               <Words found={c} sought={sought} />
             </button>
-            <button
-              type="button"
-              class="btn line"
-              aria-label={TEXTS.takeCase(c.id)}
-              title={TEXTS.itIsWhatHappens}
-              onClick={() => cases.take(c)}
-            >
-              {TEXTS.take}
-            </button>
+            <span class="does">
+              <button
+                type="button"
+                class={`btn i star ${c.starred ? 'on' : ''}`}
+                aria-label={TEXTS.starCase(c.id)}
+                aria-pressed={c.starred}
+                title={TEXTS.starS}
+                onClick={() => cases.toggleStar(c.id)}
+              >
+                <Icon name="star" size={15} />
+              </button>
+              <button
+                type="button"
+                class="btn line"
+                aria-label={TEXTS.takeCase(c.id)}
+                title={TEXTS.itIsWhatHappens}
+                onClick={() => cases.take(c)}
+              >
+                {TEXTS.take}
+              </button>
+            </span>
           </article>
         ))}
       </div>

@@ -1,4 +1,5 @@
 // What became of the files that were brought in: one row a file, what is wrong with it below, and the way on.
+import { Fragment } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { useApp } from '../parts/app-context';
@@ -23,7 +24,7 @@ export function ImportReport() {
       </div>
       <div class="body">
         {verdicts.map((v, i) => (
-          <FileRow key={i} verdict={v} />
+          <FileRow key={i} verdict={v} open={bad.length === 1} />
         ))}
       </div>
       <Foot bad={bad} allBad={bad.length === verdicts.length} close={close} />
@@ -96,7 +97,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
   );
 }
 
-function FileRow({ verdict: v }: { verdict: FileVerdict }) {
+function FileRow({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
   const n = v.scenes.length;
   const count = v.scenes[0]?.count;
   const done = n > 1 ? TEXTS.scenes(n) : count ? TEXTS.roadUsers(count) : TEXTS.imported;
@@ -116,7 +117,7 @@ function FileRow({ verdict: v }: { verdict: FileVerdict }) {
           <span class="tag collision">{TEXTS.notAScene}</span>
         )}
       </div>
-      {v.wrong ? <Wrong verdict={v} /> : null}
+      {v.wrong ? <Wrong verdict={v} open={open} /> : null}
       {v.notes?.length ? (
         <ul class="notes">
           {v.notes.map((note) => (
@@ -129,14 +130,13 @@ function FileRow({ verdict: v }: { verdict: FileVerdict }) {
   );
 }
 
-function Wrong({ verdict: v }: { verdict: FileVerdict }) {
+/** `open`: the place in the file is shown at once. */
+function Wrong({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
   const { importing } = useApp();
-  const shown = useSignal(false);
+  const shown = useSignal(open);
   return (
     <div class="wrong">
-      <p>
-        {v.ok ? v.wrong : <b>{v.wrong}</b>} {v.todo} {v.ok ? null : <small class="mut">{v.where}</small>}
-      </p>
+      <Words verdict={v} />
       {v.columns ? <Columns verdict={v} of={v.columns} /> : null}
       {v.without || v.excerpt || v.again ? (
         <div class="ways">
@@ -157,13 +157,36 @@ function Wrong({ verdict: v }: { verdict: FileVerdict }) {
               aria-expanded={shown.value}
               onClick={() => (shown.value = !shown.value)}
             >
-              {TEXTS.showLine(v.excerpt.line)}
+              {shown.value ? TEXTS.hideLine(v.excerpt.line) : TEXTS.showLine(v.excerpt.line)}
             </button>
           ) : null}
         </div>
       ) : null}
       {shown.value && v.excerpt ? <Excerpt of={v.excerpt} /> : null}
     </div>
+  );
+}
+
+/** What is wrong, where, and what to do about it. */
+function Words({ verdict: v }: { verdict: FileVerdict }) {
+  if (v.ok) return <p>{v.wrong}</p>;
+  const rest = v.without ? TEXTS.mendItOrWithout(v.without.join(', ')) : v.todo;
+  const rows = [
+    [TEXTS.whatIsWrong, v.wrong],
+    [TEXTS.where, v.where],
+    [TEXTS.whatToDo, rest],
+  ] as const;
+  return (
+    <dl class="wh">
+      {rows.map(([name, words], i) =>
+        words ? (
+          <Fragment key={name}>
+            <dt>{name}</dt>
+            <dd>{i ? words : <b>{words}</b>}</dd>
+          </Fragment>
+        ) : null,
+      )}
+    </dl>
   );
 }
 

@@ -8,7 +8,7 @@ import { TEXTS } from '../../texts/hud';
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
 
 export function Coach() {
-  const { editor, form, ui } = useApp();
+  const { editor, form, rounds, searching, ui } = useApp();
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -16,6 +16,10 @@ export function Coach() {
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&
       !editor.layouts.isOpen.value &&
+      editor.selected.value.length < 2 &&
+      // Those who look for something else have found their way.
+      !searching.open.value &&
+      !rounds.isOpen.value &&
       editor.scene.value !== null,
   );
   if (!shown.value) return null;

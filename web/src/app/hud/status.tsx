@@ -22,6 +22,8 @@ export function Status() {
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
   if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
+  const work = workLine(c);
+  if (work && !editor.dragging.value) return <Row {...work} />;
   const kind = placedBy(c);
   if (editor.filling.wish.value) return <Row dot="" text={TEXTS.previewNothing} />;
   if (kind) return <Row dot="" text={TEXTS.placing(KIND_WORDS[kind])} />;
@@ -30,6 +32,16 @@ export function Status() {
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
     return <Row dot="busy" text={TEXTS.ofSelected(some, editor.scene.value!.agents.size)} />;
   return <Row {...lineFor(c, s)} />;
+}
+
+/** How far a search is that goes on, or the making of variants. */
+function workLine({ searching, variants }: Context): Line | null {
+  const making = variants.making.value;
+  if (making) return { dot: 'busy', text: TEXTS.makingVariants(making.done, making.of) };
+  const open = searching.open.value;
+  if (open?.state.value !== 'running') return null;
+  const { tried, of } = open.progress.value;
+  return { dot: 'busy', text: TEXTS.searching(tried, of, open.found.value.length) };
 }
 
 /** What the map that is being made holds. */

@@ -4,12 +4,14 @@ import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
 import { seconds } from '../../model/units';
+import { goalFromLog } from '../../edit/moves';
 import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Changes } from './changes';
+import { CurveSection } from './curve-section';
 import { FuturesSection } from './futures-section';
 import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
@@ -28,6 +30,7 @@ export function AgentPanel({ id }: { id: string }) {
           <Locked agent={agent}>
             <Hint agent={agent} />
             <Warnings agent={agent} />
+            <CurveSection agent={agent} />
             <StartSection agent={agent} />
             <GoalSection agent={agent} />
           </Locked>
@@ -222,6 +225,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
 function Foot({ agent }: { agent: LiveAgent }) {
   const goal = useComputed(() => hasGoal(agent.value.goal)).value;
   const changed = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
+  const recorded = useComputed(() => goalFromLog(agent.value) !== null).value;
   return (
     <div class="sect foot">
       {goal ? (
@@ -229,6 +233,11 @@ function Foot({ agent }: { agent: LiveAgent }) {
       ) : (
         <ActionButton key="set" id="set-goal" class="goal" size={15} withKey />
       )}
+      {!goal && recorded && !changed ? (
+        <ActionButton key="log" id="goal-from-log" class="line" icon="">
+          {TEXTS.asInTheLog}
+        </ActionButton>
+      ) : null}
       {changed ? <ActionButton id="reset-agent" class="line" icon="" size={15} /> : null}
     </div>
   );

@@ -7,7 +7,7 @@ import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/
 import { hasGoal, type GoalSpec } from '../../model/scene';
 import { fromUnit, nextSpeedUnit, num, sizeText, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
-import { goalTime, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
+import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { leaveGiven } from '../../edit/ways-out';
@@ -44,6 +44,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     const a = agent.value;
     const drag = editor.drag.value;
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
+    if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asInLog;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;
   });
@@ -94,7 +95,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
 }
 
 /** The words for a lane begin with their own preposition where "on" does not fit. */
-const onLane = (name: string): string => (/^(off|on|inside)\b/.test(name) ? name : TEXTS.on(name));
+const onLane = (name: string): string => (/^(off|on|inside|in)\b/.test(name) ? name : TEXTS.on(name));
 
 interface RowProps {
   label: string;

@@ -15,7 +15,7 @@ export function SceneScore() {
   return (
     <section class="sect">
       <h3>{TEXTS.score}</h3>
-      <dl class="wh">
+      <dl class="wh figures">
         {rows.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
       </dl>
     </section>

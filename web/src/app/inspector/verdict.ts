@@ -5,13 +5,14 @@ import { comparedWithLog } from '../../model/changes';
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
-import { endPose, endsBefore, poseAt } from '../../model/motion';
+import { distances, endPose, endsBefore, poseAt, type Motion } from '../../model/motion';
 import { nameIn, type Agent } from '../../model/scene';
-import { metres, seconds } from '../../model/units';
+import { metres, seconds, speedLabel } from '../../model/units';
 import { headline } from '../../model/verdict-words';
 import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 import { TEXTS } from '../../texts/agent';
+import { isGoalOfLog } from '../../edit/moves';
 
 export interface Verdict {
   readonly kind: 'ok' | 'near' | 'collision' | 'plain';
@@ -44,7 +45,9 @@ export function verdictOn(c: Context, a: Agent): Verdict | null {
   }
   if (e.dragging.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
-  return againstLog(c, a) ?? judged ?? onFutures(c, a);
+  const log = againstLog(c, a);
+  if (log && judged?.title === AS_RECORDED.title) return { ...judged, words: log.words };
+  return log ?? judged ?? onFutures(c, a);
 }
 
 const OUTDATED: Verdict = {
@@ -60,6 +63,35 @@ const NO_LANE: Verdict = {
   title: TEXTS.thereIsNoLane,
   words: TEXTS.carsMayStill,
   snap: true,
+};
+
+/** `16 m in 9.0 s: 1.8 m/s, a brisk walk.` */
+function paceWords(e: Editor, a: Agent): string {
+  const way = wayUntil(e.motionFor(a), a.goal.time);
+  const v = way / a.goal.time;
+  const how = a.type === 'pedestrian' && v > 0.2 ? `, ${WALKS.find(([most]) => v < most)![1]}` : '';
+  return TEXTS.pace(metres(way, 0), seconds(a.goal.time), speedLabel(v, e.unitOf(a)), how);
+}
+
+const WALKS = [
+  [0.9, TEXTS.aSlowWalk],
+  [1.5, TEXTS.aWalk],
+  [2.2, TEXTS.aBriskWalk],
+  [3.2, TEXTS.aJog],
+  [Infinity, TEXTS.aRun],
+] as const;
+
+/** Metres that a motion goes up to a time. */
+function wayUntil(m: Motion, time: number): number {
+  const s = distances(m);
+  return s[Math.min(s.length - 1, Math.max(0, Math.round(time * 10) - m.first))] ?? 0;
+}
+
+const AS_RECORDED: Verdict = {
+  kind: 'ok',
+  icon: 'check',
+  title: TEXTS.goalTakenFromLog,
+  words: TEXTS.dragTheFlag,
 };
 
 /** During a drag, until the generator has judged it, the quick answer stands even when it is yes. */
@@ -84,6 +116,8 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   const said = headline(f, e.chosen.value, a.goal.pos !== null, who);
   if (!said) return null;
   const { mark, title, words, at } = said;
+  if (mark === 'ok' && isGoalOfLog(a)) return AS_RECORDED;
+  if (mark === 'ok' && !words) return { kind: 'ok', icon: 'check', title, words: paceWords(e, a), at };
   return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at };
 }
 

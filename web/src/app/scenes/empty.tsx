@@ -1,7 +1,7 @@
 // The first screen when there is no scene to open.
 import { useComputed } from '@preact/signals';
+import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
-import { ActionButton } from '../parts/buttons';
 import { about, ChooseFiles } from './drawer';
 import { Thumbnail } from './thumbnail';
 import { TEXTS } from '../../texts/empty';
@@ -9,7 +9,8 @@ import { TEXTS } from '../../texts/empty';
 const OFFERED = 3;
 
 export function Empty() {
-  const { library, scenes } = useApp();
+  const c = useApp();
+  const { library, scenes } = c;
   const cards = scenes.list.value.slice(0, OFFERED);
   return (
     <div class="empty">
@@ -34,7 +35,9 @@ export function Empty() {
           {TEXTS.scenarioRecords}
           <ChooseFiles />
           {' · '}
-          <ActionButton id="new-map" class="line" size={14} />
+          <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
+            {TEXTS.startFromANewMap}
+          </button>
         </div>
       </div>
     </div>

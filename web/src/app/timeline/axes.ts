@@ -1,5 +1,6 @@
 // Where seconds and speeds lie in the plot.
 import { toUnit, type SpeedUnit } from '../../model/units';
+import { motionOf } from '../../model/changes';
 import type { Motion } from '../../model/motion';
 import { untracked } from '@preact/signals';
 import type { Agent } from '../../model/scene';
@@ -31,9 +32,9 @@ export interface Axes {
 
 export function axesOf(c: Context, { w, h }: Size): Axes {
   const { editor } = c;
-  const agent = editor.agent.peek();
   const several = severalShown(c);
-  const onFoot = several.length > 0 && several.every((a) => a.type === 'pedestrian');
+  const agent = several.length ? null : editor.agent.peek();
+  const onFoot = several.length > 0 && several.every((l) => l.agent.type === 'pedestrian');
   const unit = agent ? editor.unitOf(agent) : onFoot ? 'm/s' : editor.speedUnit.peek();
   const duration = editor.scene.peek()?.duration ?? 9;
   const x1 = w - RIGHT;
@@ -56,17 +57,29 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
 /** More lines than these would be one grey patch. */
 const MOST_LINES = 40;
 
-/** Those of several whose speeds are shown, a thin line each. */
-export const severalShown = ({ editor }: Context): Agent[] =>
-  editor.selected.peek().length > 1 && !editor.dragging.peek()
-    ? untracked(() => editor.chosenOnes.slice(0, MOST_LINES))
+/** Somebody and the motion whose speed is shown. */
+export interface Line {
+  readonly agent: Agent;
+  readonly motion: Motion;
+}
+
+/** A line each: of those in a case that is looked at, else of several that are selected. */
+export function severalShown({ editor }: Context): Line[] {
+  const b = editor.beside.peek();
+  const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);
+  if (b && inCase) return inCase.map((agent) => ({ agent, motion: motionOf(b.scene, b.set, agent) }));
+  return editor.selected.peek().length > 1 && !editor.dragging.peek()
+    ? untracked(() =>
+        editor.chosenOnes.slice(0, MOST_LINES).map((agent) => ({ agent, motion: editor.motionFor(agent) })),
+      )
     : [];
+}
 
 /** A round figure above everything shown. */
 function topSpeedShown(c: Context, unit: SpeedUnit): number {
   const { editor } = c;
   const log = editor.agent.peek()?.log;
-  const several = untracked(() => severalShown(c).map((a) => editor.motionFor(a)));
+  const several = severalShown(c).map((l) => l.motion);
   const motions: Motion[] = [
     ...several,
     ...(log ? [log] : []),

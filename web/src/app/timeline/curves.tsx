@@ -7,54 +7,69 @@ import { toUnit } from '../../model/units';
 import { modeStyle } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
-import { severalShown, X0, type Axes } from './axes';
+import { severalShown, X0, type Axes, type Line } from './axes';
 import { TEXTS } from '../../texts/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
   const c = useApp();
   const { editor } = c;
-  const agent = editor.agent.peek();
   const several = severalShown(c);
+  const meeting = editor.beside.peek()?.meeting;
+  const agent = meeting ? null : editor.agent.peek();
   const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
-    : several.length
-      ? TEXTS.selectedOneLine(several.length)
-      : '';
-  const start = agent && startPose(agent);
-  // Beside a curve that begins at the top it stands below.
-  const high = start && a.y(toUnit(start.speed, a.unit)) < (a.y0 + a.y1) / 2;
+    : meeting
+      ? TEXTS.inCase(several.map((l) => l.agent.name).join(' and '), meeting.called)
+      : several.length
+        ? TEXTS.selectedOneLine(several.length)
+        : '';
+  const drawn = agent
+    ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
+    : several.map((l) => l.motion);
   return (
     <>
       {agent ? (
         <AgentCurves axes={a} agent={agent} />
       ) : several.length ? (
-        <SeveralCurves axes={a} all={several} />
+        <SeveralCurves axes={a} all={several} strong={!!meeting} />
       ) : (
         <Hint axes={a} />
       )}
-      <text class="back" x={X0 + 8} y={high ? a.y1 - 6 : a.y0 + 11}>
+      <text class="back" x={X0 + 8} y={titleAt(a, drawn)}>
         {`${a.unit}${name}`}
       </text>
     </>
   );
 }
 
-/** One thin line each; thick for the one under the pointer. */
-function SeveralCurves({ axes, all }: { axes: Axes; all: readonly Agent[] }) {
+/** The title stands above or below, wherever the beginnings of the curves leave it more room. */
+function titleAt(a: Axes, motions: readonly Motion[]): number {
+  const room = (y: number): number =>
+    Math.min(
+      ...motions.flatMap((m) =>
+        [...m.speed.slice(0, TITLE_STEPS)].map((v) => Math.abs(a.y(toUnit(Math.abs(v), a.unit)) - y)),
+      ),
+    );
+  const [above, below] = [a.y0 + 11, a.y1 - 6];
+  return room(below) > room(above) ? below : above;
+}
+
+/** One thin line each; thick for the one under the pointer, and for the few in a case. */
+function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]; strong: boolean }) {
   const { editor } = useApp();
   const hovered = editor.hover.peek();
   return (
     <>
-      {all.map((a) => (
+      {all.map(({ agent: a, motion }, i) => (
         <Curve
           key={a.id}
           axes={axes}
-          motion={untracked(() => editor.motionFor(a))}
+          motion={motion}
           colour={`var(--${colourKey(a)})`}
-          width={a.id === hovered ? 2.5 : 1.1}
-          opacity={a.id === hovered ? 1 : 0.65}
-          dash=""
+          width={a.id === hovered || (strong && !i) ? 2.5 : strong ? 1.6 : 1.1}
+          opacity={a.id === hovered || strong ? 1 : 0.65}
+          dash={strong && i ? '5 3' : ''}
           smooth
         />
       ))}
@@ -79,6 +94,8 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   const { editor } = useApp();
   const f = editor.futures.peek();
   const before = f && editor.curve.before.peek();
+  // What is to be taken hold of is drawn apart; while a handle is dragged nothing is.
+  const taken = editor.curve.points.peek().length > 0 && !editor.dragging.peek();
   // Of two dashed lines one would be taken for the other.
   const showLog = !before && (editor.layers.peek().log || !f);
   return (
@@ -96,11 +113,14 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
         />
       ) : null}
       {f ? <FutureCurves axes={axes} futures={f} /> : null}
-      {editor.curve.points.peek().length ? null : <StartPoint axes={axes} agent={agent} />}
-      {editor.curve.points.peek().length ? null : <GoalPoint axes={axes} agent={agent} />}
+      {taken ? null : <StartPoint axes={axes} agent={agent} />}
+      {taken ? null : <GoalPoint axes={axes} agent={agent} />}
     </>
   );
 }
+
+/** About as many steps of a curve as the title is long. */
+const TITLE_STEPS = 14;
 
 const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 
@@ -111,11 +131,13 @@ function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';
+  // Of a speed drawn by hand the others are no answer.
+  const others = !editor.curve.profile.peek();
   const inForce = f.modes[chosen];
   return (
     <>
       {f.modes.map((m, i) =>
-        i === chosen ? null : (
+        i === chosen || !(others || hovered === i) ? null : (
           <Curve
             key={i}
             axes={axes}

@@ -57,7 +57,9 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const label = `${e.label}: ${e.title}${more ? TEXTS.andMore(more) : ''}`;
   // A second click goes on to the next one that shares the place.
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
-  const go = () => goToEvent(c, events[turn % events.length]);
+  const to = events[turn % events.length];
+  // What happens in a case is no event of the scene as it is.
+  const go = () => (c.editor.beside.peek()?.meeting ? c.editor.setTime(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
   const x = p.x - SIGN - (p.words === 'left' ? w : 0);
   const ink = `var(${INK[e.kind]})`;

@@ -11,7 +11,6 @@ import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
-import { SpeedPoints } from './speed-points';
 import { TEXTS } from '../../texts/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
@@ -23,6 +22,8 @@ const shown = ({ editor }: Context): unknown => [
   editor.chosen.value,
   editor.motion.value,
   editor.shownEvents.value,
+  editor.beside.value,
+  editor.dragging.value,
   editor.layers.value.log,
   editor.scene.value,
   editor.speedUnit.value,
@@ -69,6 +70,7 @@ export function Plot() {
         <svg role="img" aria-label={TEXTS.speedOverTime}>
           <Drawing tick={tick} axes={axes} />
           <Playhead axes={axes} />
+          <Badges tick={tick} axes={axes} />
         </svg>
       </div>
       <svg class="pts" role="group" aria-label={TEXTS.pointsOfTheSpeed}>
@@ -91,22 +93,30 @@ function Drawing({ tick, axes: all }: DrawingProps) {
   const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
   const grid = useMemo(() => <Grid axes={axes} />, [axes]);
   return (
-    <>
-      <g>
-        {grid}
-        <EventTimes axes={axes} />
-        <Curves axes={axes} />
-      </g>
-      <g>
-        <EventBadges axes={axes} />
-      </g>
-    </>
+    <g>
+      {grid}
+      <EventTimes axes={axes} />
+      <Curves axes={axes} />
+    </g>
+  );
+}
+
+/** Above the playhead, which would lie over their words. */
+function Badges({ tick, axes }: DrawingProps) {
+  void tick.value;
+  return (
+    <g>
+      <EventBadges axes={axes.value} />
+    </g>
   );
 }
 
 function Points({ tick, axes }: DrawingProps) {
+  const { editor } = useApp();
   void tick.value;
-  return <SpeedPoints axes={axes.value} />;
+  // What is shown then is another motion than the one whose points these are.
+  if (editor.beside.peek()?.meeting || editor.dragging.peek()) return null;
+  return editor.curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
 }
 
 function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {

@@ -3,7 +3,9 @@ import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
+import { leftWords } from '../../model/units';
 import { MOST_NEW } from '../../model/variants';
+import type { Making } from '../../edit/variants/variants';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -12,6 +14,7 @@ import { CardView } from './card';
 import { Range, RangePick } from './range';
 import '../../styles/variants.css';
 import { TEXTS } from '../../texts/variants-panel';
+import '../../styles/cases.css';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [
   ['all', TEXTS.all],
@@ -100,7 +103,6 @@ const countOf = (all: readonly Card[], filter: Filter): number =>
 function About() {
   const { editor, variants } = useApp();
   const making = variants.making.value;
-  const paused = variants.paused.value;
   const words = useComputed(() => {
     if (editor.playing.value) return TEXTS.allRunOnOneClock;
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
@@ -113,21 +115,7 @@ function About() {
     const from = TEXTS.seedDiversity(seed, Math.round(last.state.diversity * 100));
     return who ? TEXTS.waysOfFrom(who, from) : TEXTS.everybodyAnew(from);
   });
-  if (making)
-    return (
-      <>
-        <small role="status">
-          {paused ? TEXTS.ofWaiting(making.done, making.of) : TEXTS.of(making.done, making.of)}
-        </small>
-        <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
-          <Icon name={paused ? 'play' : 'pause'} size={14} />
-          {paused ? TEXTS.goOn : TEXTS.pause}
-        </button>
-        <button type="button" class="btn line" onClick={() => variants.stop()}>
-          {making.done ? TEXTS.stopKeep(making.done) : TEXTS.stop}
-        </button>
-      </>
-    );
+  if (making) return <Progress of={making} />;
   return (
     <>
       <small>{words}</small>
@@ -145,6 +133,36 @@ function About() {
         </label>
       )}
       <RangePick />
+    </>
+  );
+}
+
+/** How far it is, what happens in those that are there, and the ways to end it. */
+function Progress({ of: m }: { of: Making }) {
+  const { variants } = useApp();
+  const paused = variants.paused.value;
+  const left = paused ? TEXTS.waiting : m.left ? leftWords(m.left) : '';
+  return (
+    <>
+      <small role="status">
+        <b>{TEXTS.of(m.done, m.of)}</b>
+        {left ? `, ${left}` : ''}
+      </small>
+      <span class="progress" role="progressbar" aria-label={TEXTS.made} aria-valuemax={m.of} aria-valuenow={m.done}>
+        <i style={{ width: `${(100 * m.done) / m.of}%` }} />
+      </span>
+      <span class="tally">
+        {m.clear ? <em class="tag ok">{TEXTS.clear(m.clear)}</em> : null}
+        {m.near ? <em class="tag near">{TEXTS.withAnEvent(m.near)}</em> : null}
+        {m.hit ? <em class="tag collision">{TEXTS.withACollision(m.hit)}</em> : null}
+      </span>
+      <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
+        <Icon name={paused ? 'play' : 'pause'} size={14} />
+        {paused ? TEXTS.goOn : TEXTS.pause}
+      </button>
+      <button type="button" class="btn line" onClick={() => variants.stop()}>
+        {m.done ? TEXTS.stopKeep(m.done) : TEXTS.stop}
+      </button>
     </>
   );
 }

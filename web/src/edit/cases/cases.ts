@@ -8,10 +8,12 @@ import { findChanges } from '../../model/changes';
 import { choose } from '../../model/commands';
 import { topSpeed } from '../../model/domain';
 import type { MotionSet } from '../../model/futures';
+import type { Motion } from '../../model/motion';
 import { canMove, type Scene } from '../../model/scene';
+import type { Vec } from '../../model/geometry';
 import { stateOfVariant, takeVariant } from '../../model/variants';
 import { Away, Refused } from '../../net/client';
-import type { Beside, Editor } from '../editor';
+import type { Beside, Editor, Tries } from '../editor';
 import { Stopped, type Maker, type Take } from '../variants/making';
 import { TEXTS } from '../../texts/cases';
 
@@ -22,6 +24,7 @@ export interface Case {
   readonly take: Take;
   readonly moment: Moment;
   readonly like: number;
+  readonly starred: boolean;
 }
 
 export interface Progress {
@@ -40,6 +43,9 @@ export const MOST_TRIES = 300;
 export const ENOUGH = 6;
 const NOTHING: Progress = { tried: 0, of: MOST_TRIES, collisions: 0, found: 0, left: null };
 const SOONER_MS = 50;
+/** Ways that were tried are drawn with a place every so many steps, and the newest of them. */
+const WAY_STEPS = 4;
+const MOST_WAYS = 360;
 
 export class Cases {
   readonly #open = signal(false);
@@ -190,8 +196,16 @@ export class Cases {
         if (turn !== this.#turn) return;
         this.#look(take, sought);
       }
-      this.#count(base.futures.get(who.id)?.modes.length ?? 1, began);
+      const modes = base.futures.get(who.id)?.modes ?? [];
+      this.#draw(modes.map((m) => m.motion));
+      this.#count(modes.length || 1, began);
     }
+  }
+
+  /** Where one has looked is seen on the picture. */
+  #draw(motions: readonly Motion[]): void {
+    const all: Tries = [...this.editor.tries.peek(), ...motions.map(wayOf)];
+    this.editor.showTries(Object.freeze(all.slice(-MOST_WAYS)));
   }
 
   /** Which of the futures would do, were nobody to answer them; without any the nearest, while nothing was found. */
@@ -213,7 +227,7 @@ export class Cases {
     const moment = momentOf(take.scene, take.set, sought);
     if (!moment) return;
     const id = 1 + Math.max(0, ...this.#found.peek().map((c) => c.id));
-    const fresh: Case = { id, take, moment, like: 0 };
+    const fresh: Case = { id, take, moment, like: 0, starred: false };
     if (!moment.found) {
       if (sought.what !== 'collision' && moment.value === 0)
         this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
@@ -273,6 +287,7 @@ export class Cases {
       this.#found.value = [];
       this.#closest.value = this.#problem.value = this.#from.value = null;
       this.#made = 0;
+      this.editor.showTries([]);
       this.show(null);
     });
   }
@@ -343,16 +358,27 @@ export class Cases {
     editor.notices.show({ text: `${name}.`, undo: true });
   }
 
-  /** What was found, to be kept. */
-  takes(): { readonly subject: string; readonly takes: readonly Take[] } | null {
+  toggleStar(id: number): void {
+    const all = this.#found.peek();
+    this.#found.value = Object.freeze(all.map((c) => (c.id === id ? { ...c, starred: !c.starred } : c)));
+  }
+
+  /** What was found, to be kept; stars stay with it. */
+  takes(): { readonly subject: string; readonly takes: readonly Take[]; readonly starred: readonly boolean[] } | null {
     const sought = this.#sought.peek();
-    return sought && { subject: sought.who, takes: this.#found.peek().map((c) => c.take) };
+    const found = this.#found.peek();
+    return sought && { subject: sought.who, takes: found.map((c) => c.take), starred: found.map((c) => c.starred) };
   }
 }
+
+/** A way with fewer places than the motion has steps; at 10 steps a second nobody sees the difference. */
+const wayOf = (m: Motion): Vec[] =>
+  Array.from({ length: Math.ceil(m.x.length / WAY_STEPS) }, (_, i): Vec => [m.x[i * WAY_STEPS], m.y[i * WAY_STEPS]]);
 
 const meetingOf = (c: Case, sought: Sought): NonNullable<Beside['meeting']> => ({
   words: TEXTS.case3(c.id, momentWords(sought, c.moment)),
   at: c.moment.at,
   time: c.moment.time,
   who: c.moment.other === null ? [sought.who] : [sought.who, c.moment.other],
+  called: TEXTS.called(c.id),
 });

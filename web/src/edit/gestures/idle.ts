@@ -54,6 +54,8 @@ export class Idle implements State {
         return { body: 'grab', heading: 'crosshair', speed: 'resize', time: 'resize' }[hit.grip.handle];
       case 'stop':
         return 'grab';
+      case 'hold':
+        return 'resize';
       case 'agent':
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':

@@ -9,7 +9,7 @@ import type { Chart, State } from './chart';
 import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
-import { DraggingStop } from './dragging-stop';
+import { DraggingHold, DraggingStop } from './dragging-stop';
 import { HandleMove } from './handle-move';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
@@ -51,6 +51,7 @@ function drag(chart: Chart, press: Press): State {
   if (!scene) return new Panning(chart, press);
   if (hit.kind === 'frame') return several(chart, press, hit.handle);
   if (hit.kind === 'stop') return new DraggingStop(chart, hit.point);
+  if (hit.kind === 'hold') return new DraggingHold(chart, hit.point, press.x);
   const body = bodyUnder(chart, press);
   if (body !== null) {
     const among = editor.selected.peek().includes(body);
@@ -131,6 +132,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       else editor.select(hit.id);
       break;
     case 'stop':
+    case 'hold':
       editor.curve.take(hit.point);
       break;
     case 'frame':

@@ -2,6 +2,7 @@
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/commands';
+import { counted, readEvents, worstOf } from '../../model/events';
 import type { Futures, MotionSet } from '../../model/futures';
 import { sceneKey, type Agent, type Scene } from '../../model/scene';
 import {
@@ -36,6 +37,33 @@ import { TEXTS } from '../../texts/variants';
 /** What an export is about: the scene as it is, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
+/** How far the making is, and what happens in those that are there. */
+export interface Making {
+  readonly done: number;
+  readonly of: number;
+  /** So many without anything, with a near miss or a broken rule, and with a collision. */
+  readonly clear: number;
+  readonly near: number;
+  readonly hit: number;
+  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  readonly left: number | null;
+}
+
+const begun = (of: number): Making => ({ done: 0, of, clear: 0, near: 0, hit: 0, left: null });
+
+function withOne(m: Making, { scene, set }: Take, tookS: number): Making {
+  const worst = worstOf(counted(readEvents(scene, set)));
+  const done = m.done + 1;
+  return {
+    ...m,
+    done,
+    clear: m.clear + Number(worst === null),
+    hit: m.hit + Number(worst === 'collision'),
+    near: m.near + Number(worst !== null && worst !== 'collision'),
+    left: (tookS / done) * (m.of - done),
+  };
+}
+
 /** How the making of variants ended. */
 interface Made {
   readonly subject: string | null;
@@ -63,7 +91,7 @@ export class Variants {
   readonly #pair = signal<readonly [number, number] | null>(null);
   readonly #picked = signal<number | null>(null);
   readonly #scope = signal<Scope>('present');
-  readonly #making = signal<{ readonly done: number; readonly of: number } | null>(null);
+  readonly #making = signal<Making | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
   readonly #sweep = signal<Sweep | null>(null);
   readonly #paused = signal(false);
@@ -82,7 +110,7 @@ export class Variants {
   /** The first of two that are to be compared. */
   readonly picked: ReadonlySignal<number | null> = this.#picked;
   readonly scope: ReadonlySignal<Scope> = this.#scope;
-  readonly making: ReadonlySignal<{ readonly done: number; readonly of: number } | null> = this.#making;
+  readonly making: ReadonlySignal<Making | null> = this.#making;
   /** The range of a number that is gone through; null where new ones differ by chance. */
   readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
   /** Does the making wait for somebody to go on with it? */
@@ -247,16 +275,17 @@ export class Variants {
   ): Promise<{ takes: Take[]; why: string | null }> {
     const takes: Take[] = [];
     let why: string | null = null;
+    const from = performance.now();
     batch(() => {
       this.endCompare();
       this.#open.value = true;
-      this.#making.value = { done: 0, of };
+      this.#making.value = begun(of);
     });
     try {
       for await (const take of source) {
         if (turn !== this.#turn) break;
         takes.push(take);
-        this.#making.value = { done: takes.length, of };
+        this.#making.value = withOne(this.#making.peek() ?? begun(of), take, (performance.now() - from) / 1000);
         await this.#resumed();
         if (turn !== this.#turn) break;
       }
@@ -446,23 +475,28 @@ export class Variants {
   }
 
   /** Scenes of a round, or cases that were found of somebody, join the variants, kept. */
-  keepTakes(takes: readonly Take[], subject: string | null = null, what = 'card'): void {
+  keepTakes(
+    takes: readonly Take[],
+    subject: string | null = null,
+    what = 'card',
+    starred: readonly boolean[] = [],
+  ): void {
     if (!takes.length || this.#refusedLock()) return;
     batch(() => {
       this.stop();
       this.endCompare();
       this.#open.value = true;
     });
-    this.#join(takes, subject, what);
+    this.#join(takes, subject, what, starred);
   }
 
-  #join(takes: readonly Take[], subject: string | null, what = 'card'): void {
+  #join(takes: readonly Take[], subject: string | null, what = 'card', starred: readonly boolean[] = []): void {
     const { editor } = this;
     const now = editor.scene.peek();
     if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
-    const command = keepStates(now, states, TEXTS.sKeptAsVariants(n, what));
+    const command = keepStates(now, states, TEXTS.sKeptAsVariants(n, what), starred);
     if (!command) return editor.notices.show({ text: TEXTS.thereIsNoRoom });
     this.#keepSets(takes);
     editor.run(command);

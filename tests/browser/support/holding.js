@@ -1,0 +1,62 @@
+// A door before the program that can be held shut: an answer of the generator is let through up to its first draft, and
+// the rest waits. What a page shows for a hundredth of a second can be looked at then.
+import { createServer, request } from 'node:http';
+
+export class Holding {
+  /** So many answers are let through whole; the others stop after their first draft. */
+  lets = Infinity;
+  #server;
+  url = '';
+
+  static async before(url) {
+    const h = new Holding();
+    const program = new URL(url);
+    h.#server = createServer((asked, reply) => {
+      const headers = { ...asked.headers, host: program.host };
+      // The program refuses pages of another origin than its own.
+      delete headers.origin;
+      // Where a packed event ends nobody sees.
+      delete headers['accept-encoding'];
+      const { hostname, port } = program;
+      const on = request({ hostname, port, path: asked.url, method: asked.method, headers }, (answer) => {
+        reply.writeHead(answer.statusCode, answer.headers);
+        const whole = !asked.url.startsWith('/v1/generate') || h.lets-- > 0;
+        if (whole) answer.pipe(reply);
+        else firstDraft(answer, reply);
+      });
+      on.on('error', () => reply.destroy());
+      reply.on('close', () => on.destroy());
+      asked.pipe(on);
+    });
+    await new Promise((done) => h.#server.listen(0, '127.0.0.1', done));
+    h.url = `http://127.0.0.1:${h.#server.address().port}`;
+    return h;
+  }
+
+  async close() {
+    this.#server.closeAllConnections();
+    await new Promise((done) => this.#server.close(done));
+  }
+}
+
+/** That it was accepted, and the first draft. */
+const LINES = 2;
+
+function firstDraft(answer, reply) {
+  let left = LINES;
+  answer.on('data', (bytes) => {
+    let end = 0;
+    while (left && end < bytes.length) {
+      const at = bytes.indexOf(10, end);
+      if (at < 0) end = bytes.length;
+      else {
+        end = at + 1;
+        left--;
+      }
+    }
+    if (end) reply.write(bytes.subarray(0, end));
+  });
+  answer.on('end', () => {
+    if (left) reply.end();
+  });
+}

@@ -1,0 +1,69 @@
+// Where one stops on a way, and what lanes are called at a junction.
+import { describe, expect, it } from 'vitest';
+import { armWords } from '../src/model/arm-names';
+import { pointAt } from '../src/model/geometry';
+import { turnOf, type Lane } from '../src/model/lanemap';
+import type { Path } from '../src/model/profile';
+import { startPose } from '../src/model/scene';
+import { stopPlaces } from '../src/model/stop-places';
+import { car, crossing } from './helpers';
+
+const scene = crossing();
+const lanes = [...scene.map.lanes.values()];
+
+/** Along a lane and on over the junction. */
+function wayOver(lane: Lane): Path {
+  const over = lane.next.map((id) => scene.map.lanes.get(id)!).find((l) => l.inside)!;
+  const pts = [...lane.line.pts, ...over.line.pts.slice(1)];
+  return { x: pts.map((p) => p[0]), y: pts.map((p) => p[1]), heading: pts.map(() => 0) };
+}
+
+const lit = lanes.filter(
+  (l) =>
+    l.kind === 'road' &&
+    !l.inside &&
+    l.next.some((id) => scene.map.lanes.get(id)?.inside) &&
+    scene.signals.some((g) => g.lane === l.id || l.next.includes(g.lane)),
+);
+
+describe('places where one stops', () => {
+  it('are the stop lines of a way, just before the end of the lane', () => {
+    expect(lit.length).toBeGreaterThan(0);
+    for (const lane of lit) {
+      const all = stopPlaces(scene, car(scene), wayOver(lane));
+      const line = all.find((p) => p.words === 'at the stop line');
+      expect(line?.s).toBeCloseTo(lane.line.length - 0.3, 0);
+    }
+  });
+
+  it('are 2 m behind somebody who stands in the way', () => {
+    const [lane] = lit;
+    const p = pointAt(lane.line, lane.line.length - 20);
+    const me = car(scene);
+    const b = [...scene.agents.values()].find((a) => a.type === 'vehicle' && a.id !== me.id && startPose(a))!;
+    const stood = { ...b, parked: false, start: { pos: [p.x, p.y] as const, heading: p.heading, speed: 0 } };
+    const agents = new Map(scene.agents).set(b.id, stood);
+    const found = stopPlaces({ ...scene, agents }, me, wayOver(lane)).find((q) => q.words === `behind ${b.name}`);
+    expect(found?.s).toBeCloseTo(lane.line.length - 20 - b.length / 2 - 2, 0);
+  });
+});
+
+describe('lanes at the only junction', () => {
+  it('are called by their arm, and by where alone they lead', () => {
+    for (const lane of lit) {
+      const words = armWords(scene.map, lane)!;
+      const end = pointAt(lane.line, lane.line.length);
+      // The lane leads to the middle: its arm lies on the other side.
+      const back = ['W', 'SW', 'S', 'SE', 'E', 'NE', 'N', 'NW'][
+        ((Math.round((end.heading * 4) / Math.PI) % 8) + 8) % 8
+      ];
+      expect(words).toMatch(new RegExp(`^${back} arm, (inbound|left-turn|right-turn) lane$`));
+      const turns = lane.next.map((id) => turnOf(scene.map.lanes.get(id)!.line));
+      if (turns.every((t) => t > 0.35)) expect(words).toMatch(/left-turn/);
+    }
+    const out = lanes.find(
+      (l) => !l.inside && l.kind === 'road' && l.prev.some((id) => scene.map.lanes.get(id)?.inside),
+    )!;
+    expect(armWords(scene.map, out)).toMatch(/^[NESW]+ arm, outbound lane$/);
+  });
+});
