@@ -5,7 +5,7 @@ import type { Plugin } from 'vite';
 
 /** A key at the start of its line, in a table as the formatter leaves it. */
 const KEY = /^ {2}(\w+):/gm;
-const TABLE = /\/src\/texts\/(?:\w\w\/)?([\w-]+)\.ts$/;
+const TABLE = /\/src\/texts\/([\w-]+)\.ts$/;
 const IMPORT = /import (?:type )?\{ TEXTS(?: as (\w+))? \} from '[./]*\/(?:texts\/)?([\w-]+)';/g;
 
 const LETTERS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ';
@@ -24,11 +24,32 @@ export function shortKeys(): Plugin {
     }
     return keys;
   };
+  /** A language has the tables of many areas: each says whose it is by its type. */
+  const inLanguage = (code: string): string => {
+    const areas = new Map([...code.matchAll(IMPORT)].map(([, as, area]) => [as, area]));
+    let keys: ReadonlyMap<string, string> | null = null;
+    let indent = '';
+    return code
+      .split('\n')
+      .map((line) => {
+        const begins = /^( *)const \w+: Part<typeof (\w+)> = \{$/.exec(line);
+        if (begins) {
+          indent = `${begins[1]}  `;
+          const area = areas.get(begins[2]);
+          keys = area ? keysOf(area) : null;
+          return line;
+        }
+        const key = keys && line.startsWith(indent) ? /^\w+(?=:)/.exec(line.slice(indent.length))?.[0] : undefined;
+        return key ? `${indent}${keys!.get(key)}${line.slice(indent.length + key.length)}` : line;
+      })
+      .join('\n');
+  };
   return {
     name: 'short-keys',
     apply: 'build',
     enforce: 'pre',
     transform(code, id) {
+      if (/Part<typeof/.test(code) && TABLE.test(id)) return inLanguage(code);
       const table = TABLE.exec(id);
       if (table && /\bTEXTS\b/.test(code)) {
         const keys = keysOf(table[1]);

@@ -1,4 +1,4 @@
-// Words that a person can see stand in src/texts: `npm run words` lists those that do not, and fails when there are any.
+// Words that a person can see stand in src/texts: `npm run words` lists those that do not, and fails if there are any.
 // What looks like words and is none (keys, classes, names of states, tags) is known by its form or by where it stands.
 import { readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -61,6 +61,8 @@ function seen(node, text) {
   for (let up = p; up && !ts.isBlock(up); up = up.parent)
     if (ts.isPropertyAssignment(up) && up.name.getText() === 'keys') return false;
   const call = parentCall(node);
+  if (call && /setAttribute$/.test(call.expression.getText()) && SPOKEN.test(call.arguments[0].text ?? ''))
+    return node !== call.arguments[0];
   if (call && UNSEEN_CALLS.test(call.expression.getText())) return false;
   if (
     ts.isPropertyAssignment(p) &&
@@ -81,8 +83,6 @@ function textOf(node) {
 }
 
 const isWords = (text) => letters.test(text) && !UNITS.test(text.trim());
-
-const seenLiteral = (node) => seen(node, textOf(node).trim());
 
 /** All visible literals of a file, as nodes. */
 function find(file) {

@@ -4,6 +4,7 @@ import { nextSpeedUnit } from '../model/units';
 import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
+import { LANGUAGES, nextLanguage, speak } from '../texts/language';
 
 /** Esc: what is nearest goes first, one thing a press. */
 function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
@@ -114,5 +115,12 @@ export const everything = inGroup('everything', [
     icon: 'ruler',
     help: 'theUnitInWhich',
     run: (c) => c.editor.setUnit(nextSpeedUnit(c.editor.speedUnit.value)),
+  },
+  {
+    id: 'language',
+    icon: 'note',
+    label: TEXTS.language(LANGUAGES[nextLanguage]),
+    help: 'theLanguageOf',
+    run: () => speak(nextLanguage),
   },
 ]);

@@ -19,6 +19,8 @@ import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { BrowserStepStore, PassingStepStore } from '../net/step-store';
 import { recall } from '../net/storage';
+import { TEXTS } from '../texts/page';
+import { LANGUAGE } from '../texts/language';
 import { followForm, insetBesideSheet } from './frame';
 import { lookAtOpened, lookWhereItWas } from './look';
 import { sayIncomplete } from './incomplete';
@@ -38,6 +40,7 @@ function makeOpening(): Opening {
   const form = new Form();
   // Colours are read off the page when the stage is made.
   document.documentElement.dataset.theme = ui.theme.peek();
+  document.documentElement.lang = LANGUAGE;
   const client = new Client();
   const editor = new Editor();
   const scenes = new SceneList(client);
@@ -47,7 +50,7 @@ function makeOpening(): Opening {
   const library = new Library(editor, file, saving, scenes, client, journal);
   const main = document.createElement('main');
   main.className = 'stage';
-  main.setAttribute('aria-label', 'Traffic scene');
+  main.setAttribute('aria-label', TEXTS.trafficScene);
   main.setAttribute('aria-busy', 'true');
   const stage = new Stage(main);
   const picture = new Picture(stage, editor);

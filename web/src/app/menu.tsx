@@ -28,6 +28,7 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     null,
     'theme',
     'unit',
+    'language',
     'shortcuts',
     'coach',
   ],

@@ -152,11 +152,11 @@ class NameList {
 
   /** Of one that nothing tells from another, to which it is likened: to one that is called by what it does. */
   likenToOther(i: number, c: Candidate): void {
-    const others = this.#names.flatMap((n, j) => (n && j !== i && !/\blike [A-F]$/.test(n.name) ? [j] : []));
+    const others = this.#names.flatMap((n, j) => (n && j !== i && !isLikened(n.name) ? [j] : []));
     const far = new Map(others.map((j) => [j, apart(this.modes[j].motion, this.modes[i].motion)]));
     others.sort((a, b) => far.get(a)! - far.get(b)!);
     for (const j of others) {
-      const likes = LIKES.map((like) => `${like} ${LETTERS[j]}`);
+      const likes = LIKES.map((like) => like(LETTERS[j]));
       if (likes.some((like) => this.#give(i, c, like))) return;
       const alone = likes.slice(1).map((like) => like.charAt(0).toUpperCase() + like.slice(1));
       if (alone.some((like) => this.#give(i, { basis: c.basis, forms: [like] }, ''))) return;
@@ -167,7 +167,9 @@ class NameList {
 /** Parts of what can be seen that are named where nothing else tells. */
 const SMALL = [0.5, 0.2] as const;
 
-const LIKES = ['like', TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
+const LIKES = [TEXTS.like, TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
+
+const isLikened = (name: string): boolean => LIKES.some((like) => [...LETTERS].some((l) => name.endsWith(like(l))));
 
 // -------------------------------------------------------------- what can be said of each
 
@@ -438,7 +440,7 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
       ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.harderBraking, TEXTS.softerBraking),
       short: [TEXTS.brakesMore, TEXTS.brakesLess],
     },
-    turns ? trait(offset, 0.5, 'wider', 'tighter') : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
+    turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
   ];
   return { traits, halfway };
 }

@@ -28,4 +28,6 @@ export const TEXTS = table('access', {
   notThereAtThe: 'not there at the start',
   goalSet: 'goal set',
   parked: 'parked',
+  withAGoal: 'With a goal',
+  inAnEvent: 'In an event',
 });

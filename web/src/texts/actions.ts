@@ -48,6 +48,8 @@ export const TEXTS = table('actions', {
   previousPart: 'Previous part of the page',
   showTheFirst: 'Show the first steps',
   kmHMphOrMS: 'km/h, mph or m/s',
+  /** Its name in itself, so that who knows no other finds it. */
+  language: (name: string) => `Language: ${name}`,
   chooseFuture: (letter: string) => `Choose future ${letter}`,
   pointAtAFuture: 'Point at a future first.',
   noGoalIsSet: 'No goal is set.',

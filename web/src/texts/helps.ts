@@ -151,6 +151,7 @@ export const HELPS = table('helps', {
   'place-pedestrian': 'Click where the pedestrian should start; several in a row, until Esc',
   workOutInOneGo: 'Work out 9 s, in one go',
   pastNineSeconds: 'Past 9 s everybody plans anew from where they are by then',
+  theLanguageOf: 'All texts in it, as far as they are translated; the page is loaded anew and shows the same',
   looksAgain: 'Everybody looks again so often and plans on from there',
 });
 

@@ -6,14 +6,11 @@ import type { Words } from './table';
 export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const;
 export type LanguageName = keyof typeof LANGUAGES;
 
-/** Area: what is said there in this language. Whatever is missing is said in English. */
-export type Language = Readonly<Record<string, Words>>;
-
 /**
  * Share of the texts that are translated, in percent. A language that the browser asks for is taken by itself from
  * COMPLETE on; below that it is there for those who choose it. A test holds these numbers to the tables.
  */
-export const TRANSLATED: Readonly<Record<LanguageName, number>> = { en: 100, de: 0 };
+export const TRANSLATED: Readonly<Record<LanguageName, number>> = { en: 100, de: 29 };
 export const COMPLETE = 95;
 
 const KEY = 'dragtraffic:language';
@@ -47,9 +44,13 @@ const chosen = kept();
 
 export const LANGUAGE = languageFor(chosen, typeof navigator === 'undefined' ? [] : (navigator.languages ?? []));
 
-/** How many of something, as this language counts them. */
+/** The forms that a text has by a number; a language that needs more of them has them in its own table. */
+export type Forms = Readonly<Partial<Record<Intl.LDMLPluralRule, string>> & { other: string }>;
+
 const rules = new Intl.PluralRules(LANGUAGE);
-export const pluralOf = (n: number): Intl.LDMLPluralRule => rules.select(n);
+
+/** The form for so many, as this language counts. */
+export const plural = (n: number, forms: Forms): string => forms[rules.select(n)] ?? forms.other;
 
 /** A title within a sentence: small letters where the language writes it so; German nouns keep their capitals. */
 export const inSentence = (title: string): string =>
@@ -61,8 +62,9 @@ type Change = (area: string, english: Words) => Words;
 async function changeOf(): Promise<Change | null> {
   if (chosen === MARKED) return (await import('./marked')).marked;
   if (LANGUAGE === 'en') return null;
-  const { de } = await import('./de/de');
-  return (area, english) => over(english, de[area]);
+  const { german } = await import('./german');
+  const words: Readonly<Record<string, Words>> = german(plural);
+  return (area, english) => over(english, words[area]);
 }
 
 /** The words of `own` in place of those of `english`. */
@@ -77,6 +79,10 @@ function over(english: Words, own: Words | undefined): Words {
 }
 
 export const change = await changeOf();
+
+/** The one after this one, in the order of the list. */
+const names = Object.keys(LANGUAGES) as LanguageName[];
+export const nextLanguage = names[(names.indexOf(LANGUAGE) + 1) % names.length];
 
 /** Says everything in another language: the page is loaded anew, and shows what it showed. */
 export function speak(name: LanguageName): void {

@@ -28,4 +28,5 @@ export const TEXTS = table('page', {
   dragging: 'Dragging',
   recordedScene: 'Recorded scene',
   nameOfTheScene: 'Name of the scene',
+  trafficScene: 'Traffic scene',
 });

@@ -1,6 +1,8 @@
 // All that a person reads stands in tables, one a part of the page, so that a script brings its own words alone. A text
-// with values in it is a function of them. Another language is a table of the same shape (`de`).
-import { change, pluralOf } from './language';
+// with values in it is a function of them. Another language is a table of the same shape (`german`).
+import { change } from './language';
+
+export { plural } from './language';
 
 /** A text, or how to make it of values; they may lie in groups. */
 export type Word = string | ((...values: never[]) => string);
@@ -22,9 +24,3 @@ export type Part<T> = {
 export function table<const T extends Words>(area: string, english: T): Said<T> {
   return (change ? change(area, english) : english) as Said<T>;
 }
-
-/** The forms that a text has by a number; a language that needs more of them has them in its own table. */
-export type Forms = Readonly<Partial<Record<Intl.LDMLPluralRule, string>> & { other: string }>;
-
-/** The form for so many. */
-export const plural = (n: number, forms: Forms): string => forms[pluralOf(n)] ?? forms.other;

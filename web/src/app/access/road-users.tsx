@@ -97,8 +97,8 @@ function Head({ filter }: { filter: { value: Filter } }) {
             </button>
           ))}
         </div>
-        {toggle('goal', 'With a goal', goal)}
-        {toggle('events', 'In an event', events)}
+        {toggle('goal', TEXTS.withAGoal, goal)}
+        {toggle('events', TEXTS.inAnEvent, events)}
       </div>
     </>
   );

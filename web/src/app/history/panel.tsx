@@ -103,7 +103,7 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
   const naming = useSignal(false);
   const who = step.agent === null ? null : editor.scene.peek()?.agents.get(step.agent)?.name;
   const place = who && !step.name.includes(who) ? who : null;
-  const words = [now ? 'now' : null, branch && tip ? TEXTS.goBackToThis : null, place].filter(Boolean).join(' · ');
+  const words = [now ? TEXTS.now : null, branch && tip ? TEXTS.goBackToThis : null, place].filter(Boolean).join(' · ');
   if (naming.value) return <StepTitle step={step} done={() => (naming.value = false)} />;
   return (
     <li

@@ -58,7 +58,8 @@ export function reportPage(r: ReportOf): string {
   return `<!doctype html>
 <html lang="${LANGUAGE}"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>${text(scene.name)}</title><style>${STYLE}</style></head><body>
-<h1>${text(scene.name)}</h1><p>${text(TEXTS.thePictureShows(seconds(r.time), seconds(scene.duration)))}</p>
+<h1>${text(scene.name)}</h1>
+<p>${text(TEXTS.thePictureShows(seconds(r.time), seconds(scene.duration)))}</p>
 <img alt="${text(TEXTS.fromAbove)}" src="${r.picture}">
 <h2>${TEXTS.result}</h2><table>${rows(facts)}</table>
 <h2>${TEXTS.whatHappens}</h2>${eventTable(r.events)}

@@ -1,4 +1,0 @@
-// German: what a person meets first.
-import type { Language } from '../language';
-
-export const de: Language = {};

@@ -1,0 +1,119 @@
+// Every text of the page stands in a table: with all of them marked, no letter is left that is not. None is cut off
+// when it is longer by a third. And German, where it is chosen.
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { buildPage, chromiumPath, Driver, launch } from './driver';
+
+let browser: Browser;
+let d: Driver;
+
+const speaking = (language: string) => (page: import('playwright-core').Page) =>
+  Promise.all([
+    page.setViewportSize({ width: 1280, height: 720 }),
+    page.addInitScript((l) => localStorage.setItem('dragtraffic:language', JSON.stringify(l)), language),
+  ]);
+
+/** What is the same in every language: keys, units, formats, letters of futures, and what the server or a file says. */
+const SAME = [
+  'DragTraffic|Ctrl|Shift|Alt|Esc|Tab|Space|Home|End|Del|Page(?:Up|Down)|[AP]M|Enter|Menu|Backspace|Delete|F\\d+|[A-F]{2,6}',
+  'km/h|mph|m/s²?|ft|px|KB|MB|ms|English|Deutsch|Waymo|SUMO',
+  '\\.[a-z0-9.]+',
+];
+
+/** Texts, names and titles on the page that hold unmarked letters; and those that are cut off. */
+const look = (): Promise<{ bare: string[]; cut: string[] }> =>
+  d.page.evaluate((same) => {
+    const known = new RegExp(`(?<![A-Za-z])(?:${same.join('|')})(?![A-Za-z])`, 'g');
+    // Names are of the scene: they stand in its file.
+    const names = /(?<![A-Za-z])(?:Car|Truck|Bus|Motorcycle|Cyclist|Pedestrian|Object) \d+/g;
+    const bareOf = (text: string): boolean => {
+      let left = text;
+      for (let was = ''; was !== left;) {
+        was = left;
+        left = left.replace(/⟦[^⟦⟧]*⟧/g, ' ');
+      }
+      return /[A-Za-z]{2}/.test(left.replace(names, ' ').replace(known, ' '));
+    };
+    const bare = new Set<string>();
+    const cut = new Set<string>();
+    for (const e of document.querySelectorAll<HTMLElement>('body *')) {
+      if (e.closest('[data-file-text], script, noscript, style')) continue;
+      for (const name of ['aria-label', 'title', 'placeholder', 'aria-valuetext', 'alt']) {
+        const said = e.getAttribute(name);
+        if (said && bareOf(said)) bare.add(`${name}: ${said}`);
+      }
+      if (!e.checkVisibility()) continue;
+      for (const n of e.childNodes)
+        if (n.nodeType === Node.TEXT_NODE && bareOf(n.textContent!))
+          bare.add(`${e.tagName}.${e.className}: ${n.textContent}`);
+      const style = getComputedStyle(e);
+      const shows =
+        !e.closest('.sr') && [...e.childNodes].some((n) => n.nodeType === Node.TEXT_NODE && n.textContent!.trim());
+      if (
+        shows &&
+        style.overflowX === 'hidden' &&
+        style.textOverflow !== 'ellipsis' &&
+        e.scrollWidth > e.clientWidth + 1
+      )
+        cut.add(`${e.tagName}.${e.className}: ${e.textContent}`);
+    }
+    return { bare: [...bare], cut: [...cut] };
+  }, SAME);
+
+describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
+  beforeAll(async () => {
+    await buildPage();
+    browser = await launch();
+  }, 60_000);
+  afterAll(() => browser?.close());
+  afterEach(async () => {
+    expect(d.errors).toEqual([]);
+    await d.close();
+  });
+
+  it('come from the tables, all of them, and none is cut off', async () => {
+    d = await Driver.open(browser, {}, '/', speaking('qps'));
+    await d.ready();
+    const found: Record<string, { bare: string[]; cut: string[] }> = {};
+    const state = async (name: string): Promise<void> => {
+      await d.settled();
+      const { bare, cut } = await look();
+      if (bare.length + cut.length) found[name] = { bare, cut };
+    };
+    await state('first view');
+    await d.select('1');
+    await state('selected');
+    const flag = await d.at(...(await d.goal()));
+    await d.drag(flag, [flag[0] - 40, flag[1] + 10]);
+    await state('drag');
+    await d.release();
+    await state('after it');
+    for (const [name, open, close] of [
+      ['menu', () => d.page.locator('[data-menu="file"]').click(), 'Escape'],
+      ['palette', () => d.key('Control+k'), 'Escape'],
+      ['shortcuts', () => d.key('?'), 'Escape'],
+      ['export', () => d.page.locator('[data-action="export"]').first().click(), 'Escape'],
+      ['share', () => d.page.locator('[data-action="share"]').first().click(), 'Escape'],
+      ['road users', () => d.key('w'), 'w'],
+      ['history', () => d.key('Control+h'), 'Control+h'],
+      ['rounds', () => d.key('k'), 'Escape'],
+      ['variants', () => d.key('v'), 'v'],
+    ] as const) {
+      await open();
+      await state(name);
+      await d.key(close);
+    }
+    expect(found).toEqual({});
+  });
+
+  it('are German where it is chosen, and the page says so', async () => {
+    d = await (await Driver.open(browser, {}, '/', speaking('de'))).ready();
+    expect(await d.page.getAttribute('html', 'lang')).toBe('de');
+    expect(await d.text('.coach')).toContain('Klicken Sie auf ein Auto');
+    expect(await d.page.locator('[data-action="undo"]').getAttribute('aria-label')).toBe('Rückgängig');
+    await d.page.locator('[data-menu="file"]').click();
+    expect(await d.text('[data-action="language"]')).toContain('Sprache: English');
+    // What is not translated is said in English.
+    expect(await d.text('[data-action="coach"]')).toContain('Die ersten Schritte zeigen');
+  });
+});
