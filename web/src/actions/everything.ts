@@ -4,6 +4,12 @@ import { nextSpeedUnit } from '../model/units';
 import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
 
+/** Steps of a map that is being made are its own. */
+const canUndo = ({ editor: { layouts, undoName } }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canUndo.value : undoName.value !== null;
+const canRedo = ({ editor: { layouts, redoName } }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canRedo.value : redoName.value !== null;
+
 /** Esc: what is nearest goes first, one thing a press. */
 function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
   if (gestures.cancel()) return;
@@ -16,7 +22,8 @@ function letGo({ editor, gestures, importing, rounds, searching, ui, variants }:
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);
     editor.pickEvent(null);
-  } else if (editor.layouts.isOpen.value) editor.layouts.close();
+  } else if (editor.layouts.way.value) editor.layouts.pickWay(null);
+  else if (editor.layouts.isOpen.value) editor.layouts.close();
   else if (rounds.isOpen.value) rounds.close();
   else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
@@ -55,8 +62,8 @@ export const everything = inGroup('Everything', [
     keys: ['Ctrl+Z'],
     icon: 'undo',
     help: 'One step back',
-    when: (c) => (c.editor.undoName.value ? true : 'Nothing to undo.'),
-    run: (c) => c.editor.undo(),
+    when: (c) => (canUndo(c) ? true : 'Nothing to undo.'),
+    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.undo() : editor.undo()),
   },
   {
     id: 'redo',
@@ -64,8 +71,8 @@ export const everything = inGroup('Everything', [
     keys: ['Ctrl+Shift+Z', 'Ctrl+Y'],
     icon: 'redo',
     help: 'One step on again',
-    when: (c) => (c.editor.redoName.value ? true : 'Nothing to redo.'),
-    run: (c) => c.editor.redo(),
+    when: (c) => (canRedo(c) ? true : 'Nothing to redo.'),
+    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.redo() : editor.redo()),
   },
   {
     id: 'shortcuts',

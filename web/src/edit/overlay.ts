@@ -14,7 +14,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
-import { ArmsOverlay } from './overlay-arms';
+import type { ArmsOverlay } from './overlay-arms';
 import { paintBeside, paintMeeting, paintTried } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
@@ -43,7 +43,7 @@ export class Overlay {
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
   private readonly hovered: HoveredOverlay;
-  private readonly arms: ArmsOverlay;
+  private arms: ArmsOverlay | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -58,7 +58,6 @@ export class Overlay {
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
     this.several = new SeveralOverlay(editor, this.labels, poseNow);
     this.hovered = new HoveredOverlay(editor);
-    this.arms = new ArmsOverlay(editor, this.labels);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -97,7 +96,8 @@ export class Overlay {
     });
     for (const r of this.panels(v)) this.labels.block(...r);
     if (making || !scene) {
-      this.arms.paint(g, v);
+      const hands = e.layouts.hands.value;
+      if (hands) (this.arms ??= new hands.ArmsOverlay(e, this.labels)).paint(g, v);
       return;
     }
     for (const r of this.below()) this.labels.keepOff(r);
