@@ -20,6 +20,8 @@ const format = (id: string, patch: Partial<FormatInfo> = {}): FormatInfo => ({
   export: true,
   many: false,
   takes_net: false,
+  notes: '',
+  loses: [],
   ...patch,
 });
 

@@ -31,6 +31,11 @@ pub struct Info {
     pub many: bool,
     /// May come with the network it belongs to ([`ImportOptions::net`]).
     pub takes_net: bool,
+    /// What a file holds, and how it is read and written.
+    pub notes: &'static str,
+    /// Codes of what a written file may lack ([`crate::loss::code`]). What it lacks of a scene is told when it is
+    /// written.
+    pub loses: &'static [&'static str],
 }
 
 /// How to read a file of any format.

@@ -26,6 +26,10 @@ pub(crate) struct MapFile {
     pub root: &'static str,
     /// Where scenes say that they come from.
     pub source: &'static str,
+    /// What a file holds, in words.
+    pub notes: &'static str,
+    /// What the writer may not carry.
+    pub loses: &'static [&'static str],
     /// The reader.
     pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
     /// The writer, where there is one.
@@ -81,6 +85,8 @@ impl Format for MapFile {
             export: self.write.is_some(),
             many: false,
             takes_net: false,
+            notes: self.notes,
+            loses: self.loses,
         }
     }
 

@@ -23,6 +23,7 @@ use crate::table::{Csv, Parquet};
 use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
 use crate::womd::rollouts::SimAgents;
+use std::fmt::Write as _;
 
 /// Ends of the names of compressed files.
 const COMPRESSED: [&str; 2] = ["gz", "zst"];
@@ -54,6 +55,29 @@ pub static FORMATS: &[&dyn Format] = &[
     &Page,
     &Mcap,
 ];
+
+/// The table of all formats in Markdown: what is read and written, what a file holds and what it may lack.
+pub fn markdown() -> String {
+    let mut table = String::from(
+        "| format | id, ends of names | read | write | notes | what a written file may lack |\n|---|---|---|---|---|---|\n",
+    );
+    let is = |yes: bool| if yes { "yes" } else { "no" };
+    for info in FORMATS.iter().map(|format| format.info()) {
+        let ends: Vec<String> = info.extensions.iter().map(|end| format!("`.{end}`")).collect();
+        let lacks = if info.export { info.loses.join(", ") } else { "-".to_owned() };
+        let lacks = if lacks.is_empty() { "nothing".to_owned() } else { lacks };
+        let (read, write) = (is(info.import), is(info.export));
+        let _ = writeln!(
+            table,
+            "| {} | `{}` {} | {read} | {write} | {} | {lacks} |",
+            info.name,
+            info.id,
+            ends.join(" "),
+            info.notes
+        );
+    }
+    table
+}
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

@@ -215,6 +215,8 @@ proptest! {
             let id = format.info().id;
             let exported = format.export(&[&scene], &ExportOptions::default()).unwrap();
             let codes: Vec<&str> = exported.losses.iter().map(|loss| loss.code).collect();
+            let undeclared = codes.iter().find(|code| !format.info().loses.contains(code));
+            prop_assert!(undeclared.is_none(), "{id} does not declare {undeclared:?}");
             // Those of whom no motion is left cannot be scored.
             if codes.contains(&"no-road-users") || codes.contains(&"single-ego") {
                 continue;

@@ -100,13 +100,20 @@ fn ends(draft: &Draft) -> Vec<Check> {
         let vehicles = lane.lane_type.carries_vehicles();
         !draft.about[*i].open[1] && !lane.successors.iter().any(|id| carries(id, vehicles))
     };
-    travelled(draft)
-        .filter(lost)
-        .map(|i| {
-            let text = format!("Lane {} leads nowhere", draft.map.lanes[i].id);
-            fault(draft, CheckKind::LanesLead, text, i, 1.0)
-        })
-        .collect()
+    // A lane for vehicles begins at the map's rim, or some lead to it.
+    let unreached = |i: &usize| {
+        let lane = &draft.map.lanes[*i];
+        let vehicles = lane.lane_type.carries_vehicles();
+        vehicles && !draft.about[*i].open[0] && !lane.predecessors.iter().any(|id| carries(id, true))
+    };
+    let told = |words: &'static str, share: f64| {
+        move |i: usize| {
+            let text = format!("Lane {} {words}", draft.map.lanes[i].id);
+            fault(draft, CheckKind::LanesLead, text, i, share)
+        }
+    };
+    let lost = travelled(draft).filter(lost).map(told("leads nowhere", 1.0));
+    lost.chain(travelled(draft).filter(unreached).map(told("is reached from nowhere", 0.0))).collect()
 }
 
 /// In words, and what it can do.

@@ -2,7 +2,7 @@
 
 use crate::curve::join;
 use crate::draft::Draft;
-use crate::parameters::{Arm, Turn};
+use crate::parameters::{Arm, Connections, Turn};
 use crate::roadway::Roadway;
 use crate::turns::{Movement, all_links};
 use scene::map::LaneType;
@@ -23,12 +23,13 @@ pub struct Bends {
 pub fn draw(
     draft: &mut Draft,
     arms: &[Arm],
+    connections: &Connections,
     roads: &[Roadway],
     bends: &[Bends],
     kerbs_m: &[[f64; 2]],
     lane_m: f64,
 ) {
-    for (from, links) in all_links(arms).into_iter().enumerate() {
+    for (from, links) in all_links(arms, connections).into_iter().enumerate() {
         for link in links {
             let (a, b) = (roads[from].left.lanes[link.lane_in], roads[link.to].right.lanes[link.lane_out]);
             let aside = [link.lane_in, link.lane_out].map(|i| (i as f64 + 0.5) * lane_m);
@@ -36,7 +37,12 @@ pub fn draw(
             let middle_m = |arm: usize| if one_way(arm) { 0.0 } else { arms[arm].median_m / 2.0 };
             let aside = [aside[0] + middle_m(from), aside[1] + middle_m(link.to)];
             let radius_m = radius(bends, kerbs_m, from, link.to, aside);
-            connect(draft, [a, b], radius_m, (from, link.to, link.turn, false));
+            let way = Movement {
+                lanes: Some([link.lane_in, link.lane_out]),
+                added: link.added,
+                ..bare(from, link.to, link.turn)
+            };
+            connect(draft, [a, b], radius_m, way);
         }
     }
     cycles(draft, arms, roads, bends, kerbs_m);
@@ -55,16 +61,16 @@ fn radius(bends: &[Bends], kerbs_m: &[[f64; 2]], from: usize, to: usize, aside_m
     bend.map_or(WIDEST_M, |radius_m| (radius_m + room[0].min(room[1])).min(WIDEST_M))
 }
 
-fn connect(
-    draft: &mut Draft,
-    [a, b]: [usize; 2],
-    radius_m: f64,
-    (from, to, turn, cycle): (usize, usize, Turn, bool),
-) {
+/// A way for cycles that is not drawn yet.
+fn bare(from: usize, to: usize, turn: Turn) -> Movement {
+    Movement { lane: 0, from, to, turn, lanes: None, added: false }
+}
+
+fn connect(draft: &mut Draft, [a, b]: [usize; 2], radius_m: f64, way: Movement) {
     let line = join(draft.end(a), draft.start(b), radius_m);
-    let lane_type = if cycle { LaneType::BikeLane } else { LaneType::SurfaceStreet };
+    let lane_type = if way.lanes.is_some() { LaneType::SurfaceStreet } else { LaneType::BikeLane };
     let lane = draft.through(a, b, line, lane_type);
-    draft.movements.push(Movement { lane, from, to, turn, cycle });
+    draft.movements.push(Movement { lane, ..way });
 }
 
 /// Cycle lanes go on straight and round the corner; where there is none on the other side, into the lane beside the
@@ -86,12 +92,12 @@ fn cycles(draft: &mut Draft, arms: &[Arm], roads: &[Roadway], bends: &[Bends], k
             let aside = [kerbs_m[from][0] - half_m(from), kerbs_m[to][1] - half_m(to)];
             let radius_m = radius(bends, kerbs_m, from, to, aside);
             if let Some(cycle_in) = cycle_in {
-                connect(draft, [cycle_in, target], radius_m, (from, to, turn, true));
+                connect(draft, [cycle_in, target], radius_m, bare(from, to, turn));
             } else if let (Some(last), Some(cycle_out)) =
                 (roads[from].left.lanes.last(), roads[to].right.cycle)
             {
                 // A cycle lane begins here.
-                connect(draft, [*last, cycle_out], radius_m, (from, to, turn, true));
+                connect(draft, [*last, cycle_out], radius_m, bare(from, to, turn));
             }
         }
     }

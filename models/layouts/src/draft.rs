@@ -1,6 +1,7 @@
 //! A map while it is drawn.
 
 use crate::curve::{self, Pose};
+use crate::parameters::{Connection, Turn};
 use crate::turns::Movement;
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, StopSign, TypedLine};
 use scene::{Signal, Vec2};
@@ -18,8 +19,26 @@ pub struct ArmPlace {
     pub end_m: [f64; 2],
     /// From the middle to the kerb beside the lanes in and beside the lanes out, metres.
     pub kerbs_m: [f64; 2],
-    /// Where its lanes in lead, from the middle of the road to the kerb.
-    pub turns: Vec<Vec<crate::Turn>>,
+    /// Where its turn lanes lead, from the middle of the road to the kerb; single connections apart.
+    pub turns: Vec<Vec<Turn>>,
+    /// Where each of its lanes in ends, metres.
+    pub ins_m: Vec<[f64; 2]>,
+    /// Where each of its lanes out begins, metres.
+    pub outs_m: Vec<[f64; 2]>,
+}
+
+/// A way through a junction that is drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Way {
+    /// From where to where.
+    #[serde(flatten)]
+    pub connection: Connection,
+    /// Id of its lane in the map.
+    pub lane: String,
+    /// The direction, as seen by who comes in.
+    pub turn: Turn,
+    /// It is there because it was added.
+    pub added: bool,
 }
 
 /// Where a kerb bends.
@@ -146,6 +165,17 @@ impl Draft {
         self.map.lanes[right].left_neighbors.push(of_right);
     }
 
+    /// Ways for motor vehicles, by the order of the parameters.
+    pub fn ways(&self) -> Vec<Way> {
+        let way = |m: &Movement| {
+            let [lane_in, lane_out] = m.lanes?;
+            let lane = self.map.lanes[m.lane].id.clone();
+            let connection = Connection { from: [m.from, lane_in], to: [m.to, lane_out] };
+            Some(Way { connection, lane, turn: m.turn, added: m.added })
+        };
+        self.movements.iter().filter_map(way).collect()
+    }
+
     /// A painted line; its id.
     pub fn line(&mut self, line_type: &str, points: Vec<Vec2>) -> String {
         let id = format!("line{}", self.map.road_lines.len() + 1);
@@ -225,6 +255,7 @@ impl Draft {
         for arm in &mut self.arms {
             flip(&mut arm.mouth_m);
             flip(&mut arm.end_m);
+            arm.ins_m.iter_mut().chain(&mut arm.outs_m).for_each(flip);
         }
         self.corners.iter_mut().for_each(|corner| flip(&mut corner.at_m));
         self

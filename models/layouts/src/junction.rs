@@ -4,7 +4,7 @@ use crate::connect::{self, Bends};
 use crate::curve::{Pose, arc, join, left_of, straight, tidy};
 use crate::draft::{ArmPlace, CornerPlace, Draft, place};
 use crate::lights::{self, Crossing};
-use crate::parameters::{Arm, Control, Junction, Traffic};
+use crate::parameters::{Arm, Connection, Connections, Control, Junction, Traffic};
 use crate::roadway::{Plan, Profile, Roadway};
 use crate::turns::{names, of_lanes};
 use scene::Vec2;
@@ -119,7 +119,8 @@ pub fn draw(junction: &Junction) -> Draft {
         .map(|corner| Bends { next: corner.arms[1], radius_m: corner.bend.map(|bend| bend.1) })
         .collect();
     let kerbs_m: Vec<[f64; 2]> = spokes.iter().map(Spoke::kerbs_m).collect();
-    connect::draw(&mut draft, &arms, &roads, &bends, &kerbs_m, junction.lane_width_m);
+    let connections = by_spoke(&junction.connections, &order);
+    connect::draw(&mut draft, &arms, &connections, &roads, &bends, &kerbs_m, junction.lane_width_m);
     let crossings = crosswalks(&mut draft, &spokes);
     if junction.sidewalk_m > 0.0 {
         sidewalks(&mut draft, &spokes, &corners, junction.sidewalk_m);
@@ -132,8 +133,18 @@ pub fn draw(junction: &Junction) -> Draft {
         }
         Control::Equal => signs(&mut draft, &spokes, |_| true),
     }
-    finish(&mut draft, &spokes, &order, &corners_of(&spokes, &corners));
+    finish(&mut draft, &spokes, &roads, &order, &corners_of(&spokes, &corners));
     draft
+}
+
+/// Connections with the arms as the spokes have them.
+fn by_spoke(connections: &Connections, order: &[usize]) -> Connections {
+    let spoke = |[arm, lane]: [usize; 2]| Some([order.iter().position(|i| *i == arm)?, lane]);
+    let moved = |list: &[Connection]| {
+        let moved = |c: &Connection| Some(Connection { from: spoke(c.from)?, to: spoke(c.to)? });
+        list.iter().filter_map(moved).collect()
+    };
+    Connections { added: moved(&connections.added), removed: moved(&connections.removed) }
 }
 
 fn corners_of(spokes: &[Spoke], corners: &[Corner]) -> Vec<(CornerPlace, [usize; 2])> {
@@ -148,7 +159,13 @@ fn corners_of(spokes: &[Spoke], corners: &[Corner]) -> Vec<(CornerPlace, [usize;
 }
 
 /// Says what the caller wants to know, in the order of the parameters.
-pub fn finish(draft: &mut Draft, spokes: &[Spoke], order: &[usize], corners: &[(CornerPlace, [usize; 2])]) {
+pub fn finish(
+    draft: &mut Draft,
+    spokes: &[Spoke],
+    roads: &[Roadway],
+    order: &[usize],
+    corners: &[(CornerPlace, [usize; 2])],
+) {
     let arms: Vec<Arm> = spokes.iter().map(|spoke| spoke.arm.clone()).collect();
     for movement in &mut draft.movements {
         movement.from = order[movement.from];
@@ -162,6 +179,8 @@ pub fn finish(draft: &mut Draft, spokes: &[Spoke], order: &[usize], corners: &[(
             end_m: place(spoke.at(spoke.end_m, 0.0)),
             kerbs_m: spoke.kerbs_m(),
             turns: of_lanes(&arms, k),
+            ins_m: roads[k].left.lanes.iter().map(|lane| place(draft.end(*lane).at)).collect(),
+            outs_m: roads[k].right.lanes.iter().map(|lane| place(draft.start(*lane).at)).collect(),
         });
     }
     draft.arms = places.into_iter().flatten().collect();

@@ -30,13 +30,14 @@ mod roundabout;
 mod turns;
 
 pub use checks::{Check, CheckKind};
-pub use draft::{ArmPlace, CornerPlace};
+pub use draft::{ArmPlace, CornerPlace, Way};
 pub use parameters::{
-    ARMS, Arm, CarPark, Control, Junction, LEAST_BETWEEN_ARMS_DEG, Merge, Program, Road, Roundabout, Traffic,
-    Turn, TurnAcross,
+    ARMS, Arm, CarPark, Connection, Connections, Control, Junction, LEAST_BETWEEN_ARMS_DEG, Merge, Program,
+    Road, Roundabout, Traffic, Turn, TurnAcross,
 };
 pub use ranges::{Fault, all as ranges};
 
+use draft::Draft;
 use scene::objects::Objects;
 use scene::{HORIZON_STEPS, LaneMap, Meta, Scene, Signal};
 use schemars::JsonSchema;
@@ -133,6 +134,16 @@ impl Template {
         }
     }
 
+    /// Its parameters as a document, those that are left out where they say nothing among them.
+    pub fn all_parameters(self) -> Value {
+        let mut own = self.layout().parameters();
+        if let (Self::ThreeArms | Self::FourArms, Value::Object(members)) = (self, &mut own) {
+            let none = serde_json::to_value(Connections::default()).unwrap_or_default();
+            members.insert("connections".into(), none);
+        }
+        own
+    }
+
     /// With some parameters in place of its own: members are laid over those of the template, lists replace lists.
     ///
     /// # Errors
@@ -220,6 +231,8 @@ pub struct Built {
     pub arms: Vec<ArmPlace>,
     /// Where the kerbs bend between them, counter-clockwise.
     pub corners: Vec<CornerPlace>,
+    /// Ways from lane to lane through a junction; none where roads meet otherwise.
+    pub ways: Vec<Way>,
 }
 
 /// Draws a layout.
@@ -255,7 +268,9 @@ pub fn build(layout: &Layout) -> Result<Built, Vec<Fault>> {
     } else {
         checks
     };
-    Ok(Built { map: draft.map, signals: draft.signals, checks, arms: draft.arms, corners: draft.corners })
+    let ways = draft.ways();
+    let Draft { map, signals, arms, corners, .. } = draft;
+    Ok(Built { map, signals, checks, arms, corners, ways })
 }
 
 /// A scene of a layout, with nobody in it. It keeps what its map was made from under [`EXTRA`].

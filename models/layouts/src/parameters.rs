@@ -147,6 +147,85 @@ impl Arm {
     }
 }
 
+/// A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
+/// of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "LaneIds", into = "LaneIds")]
+#[schemars(with = "LaneIds")]
+pub struct Connection {
+    /// Arm and lane that it comes from.
+    pub from: [usize; 2],
+    /// Arm and lane that it leads to.
+    pub to: [usize; 2],
+}
+
+/// A way through a junction by the ids of its lanes.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Connection")]
+struct LaneIds {
+    /// A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road.
+    #[schemars(regex(pattern = r"^arm[1-6]\.in[1-5]$"))]
+    from: String,
+    /// A lane away from it, such as `arm3.out1`.
+    #[schemars(regex(pattern = r"^arm[1-6]\.out[1-5]$"))]
+    to: String,
+}
+
+impl TryFrom<LaneIds> for Connection {
+    type Error = String;
+
+    fn try_from(ids: LaneIds) -> Result<Self, String> {
+        let lane = |id: &str, word: &str| {
+            let (arm, lane) = id.strip_prefix("arm")?.split_once(word)?;
+            let index = |count: &str| count.parse::<u8>().ok()?.checked_sub(1).map(usize::from);
+            Some([index(arm)?, index(lane)?])
+        };
+        match (lane(&ids.from, ".in"), lane(&ids.to, ".out")) {
+            (Some(from), Some(to)) => Ok(Self { from, to }),
+            _ => Err("ids of lanes expected, such as arm2.in1 in from and arm3.out1 in to".into()),
+        }
+    }
+}
+
+impl From<Connection> for LaneIds {
+    fn from(Connection { from, to }: Connection) -> Self {
+        Self {
+            from: format!("arm{}.in{}", from[0] + 1, from[1] + 1),
+            to: format!("arm{}.out{}", to[0] + 1, to[1] + 1),
+        }
+    }
+}
+
+impl Connection {
+    /// Lanes towards the junction and away from it that the arms have.
+    pub(crate) fn is_of(&self, arms: &[Arm]) -> [bool; 2] {
+        let lanes = |[arm, lane]: [usize; 2], count: fn(&Arm) -> u8| {
+            arms.get(arm).is_some_and(|arm| lane < usize::from(count(arm)))
+        };
+        [lanes(self.from, |arm| arm.lanes_in), lanes(self.to, |arm| arm.lanes_out)]
+    }
+}
+
+/// What a junction has and has not beside the ways that its turn lanes make.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Connections {
+    /// Ways that there are in any case.
+    #[schemars(length(max = 64))]
+    pub added: Vec<Connection>,
+    /// Ways that there are not.
+    #[schemars(length(max = 64))]
+    pub removed: Vec<Connection>,
+}
+
+impl Connections {
+    /// There are none.
+    pub fn is_empty(&self) -> bool {
+        self.added.is_empty() && self.removed.is_empty()
+    }
+}
+
 /// Roads that meet at grade.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -154,6 +233,9 @@ pub struct Junction {
     /// 3 to 6 of them, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
+    /// Single ways through the junction, beside those that the turn lanes make.
+    #[serde(skip_serializing_if = "Connections::is_empty")]
+    pub connections: Connections,
     /// Who goes first.
     pub control: Control,
     /// Lights, with `signals`.
@@ -176,6 +258,7 @@ impl Default for Junction {
         let wide = |angle_deg| Arm { cycle_lane_m: 1.8, main: true, ..Arm::leading(angle_deg, 2, 2) };
         Self {
             arms: vec![wide(3.0), Arm::leading(92.0, 2, 1), wide(182.0), Arm::leading(272.0, 1, 1)],
+            connections: Connections::default(),
             control: Control::Signals,
             program: Program::default(),
             kerb_radius_m: 8.0,

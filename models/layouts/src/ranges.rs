@@ -1,7 +1,7 @@
 //! What parameters may be: the ranges of their own schema, and arms that keep apart.
 
 use crate::parameters::{Arm, LEAST_BETWEEN_ARMS_DEG};
-use crate::{CarPark, Junction, Layout, Merge, Road, Roundabout};
+use crate::{CarPark, Connections, Junction, Layout, Merge, Road, Roundabout};
 use schemars::{JsonSchema, schema_for};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -115,6 +115,9 @@ pub fn faults(layout: &Layout) -> Vec<Fault> {
             faults.push(Fault::new(format!("/arms/{i}/lanes_in"), "an arm needs a lane in or out"));
         }
     }
+    if let (Layout::ThreeArms(junction) | Layout::FourArms(junction), true) = (layout, faults.is_empty()) {
+        connect(junction, &mut faults);
+    }
     faults.truncate(MOST_FAULTS);
     faults
 }
@@ -161,6 +164,25 @@ fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &m
 
 fn optional(schema: &Value) -> bool {
     schema["type"].as_array().is_some_and(|types| types.iter().any(|kind| kind == "null"))
+}
+
+/// Lanes that connections name are there, and none is there and not there.
+fn connect(junction: &Junction, faults: &mut Vec<Fault>) {
+    let Connections { added, removed } = &junction.connections;
+    for (list, connections) in [("added", added), ("removed", removed)] {
+        for (i, connection) in connections.iter().enumerate() {
+            for (end, is) in ["from", "to"].into_iter().zip(connection.is_of(&junction.arms)) {
+                if !is {
+                    let pointer = format!("/connections/{list}/{i}/{end}");
+                    faults.push(Fault::new(pointer, "there is no such lane"));
+                }
+            }
+            if list == "removed" && added.contains(connection) {
+                let pointer = format!("/connections/{list}/{i}");
+                faults.push(Fault::new(pointer, "it is added as well"));
+            }
+        }
+    }
 }
 
 fn keep_apart(arms: &[Arm], faults: &mut Vec<Fault>) {

@@ -74,7 +74,7 @@ pub fn draw(layout: &Roundabout) -> Draft {
             (CornerPlace { at_m: place(at), radius_m: corner.radius_m, arms: corner.arms }, corner.arms)
         })
         .collect();
-    finish(&mut draft, &spokes, &order, &places);
+    finish(&mut draft, &spokes, &roads, &order, &places);
     draft
 }
 

@@ -1,6 +1,6 @@
 //! Which lanes lead where.
 
-use crate::parameters::{Arm, Turn};
+use crate::parameters::{Arm, Connection, Connections, Turn};
 use scene::wrap_angle;
 use std::f64::consts::PI;
 
@@ -16,7 +16,10 @@ pub struct Movement {
     pub from: usize,
     pub to: usize,
     pub turn: Turn,
-    pub cycle: bool,
+    /// The lane in and the lane out, counted from the middle of the road; none for cycles.
+    pub lanes: Option<[usize; 2]>,
+    /// No turn lane makes it: it was asked for.
+    pub added: bool,
 }
 
 /// One way from a lane of an arm to a lane of another, both counted from the middle of the road.
@@ -26,6 +29,7 @@ pub struct Link {
     pub turn: Turn,
     pub lane_in: usize,
     pub lane_out: usize,
+    pub added: bool,
 }
 
 /// The direction of each other arm as seen by who comes in on one; `None` for itself.
@@ -101,15 +105,34 @@ pub fn links(arms: &[Arm], from: usize) -> Vec<Link> {
                 Turn::Left => k.min(outs - 1),
                 Turn::Straight | Turn::Right => (outs - 1).saturating_sub(ins.len() - 1 - k),
             };
-            links.push(Link { to, turn, lane_in: *lane_in, lane_out });
+            links.push(Link { to, turn, lane_in: *lane_in, lane_out, added: false });
         }
     }
     links
 }
 
-/// All ways of a junction by the arm they come from. Lanes out that nothing would lead to are reached from where the
-/// lane beside them is.
-pub fn all_links(arms: &[Arm]) -> Vec<Vec<Link>> {
+/// All ways of a junction by the arm they come from: those that its turn lanes make, but for single ones.
+pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<Link>> {
+    let mut all = usual_links(arms);
+    let is = |from: usize, link: &Link, other: &Connection| {
+        other.from == [from, link.lane_in] && other.to == [link.to, link.lane_out]
+    };
+    for (from, links) in all.iter_mut().enumerate() {
+        links.retain(|link| !connections.removed.iter().any(|other| is(from, link, other)));
+        for other in connections.added.iter().filter(|other| other.from[0] == from) {
+            if !links.iter().any(|link| is(from, link, other)) {
+                let ([_, lane_in], [to, lane_out]) = (other.from, other.to);
+                // Who turns back gives way as who turns left.
+                let turn = directions(arms, from)[to].unwrap_or(Turn::Left);
+                links.push(Link { to, turn, lane_in, lane_out, added: true });
+            }
+        }
+    }
+    all
+}
+
+/// Those that turn lanes make. Lanes out that nothing would lead to are reached from where the lane beside them is.
+fn usual_links(arms: &[Arm]) -> Vec<Vec<Link>> {
     let mut all: Vec<Vec<Link>> = (0..arms.len()).map(|from| links(arms, from)).collect();
     for to in 0..arms.len() {
         for lane_out in 0..usize::from(arms[to].lanes_out) {
@@ -164,7 +187,7 @@ mod tests {
         // From the east, right is north.
         assert_eq!(directions(&arms, 0)[1], Some(Turn::Right));
         assert_eq!(names(&arms), ["East", "North", "West", "South"]);
-        let all = all_links(&arms);
+        let all = all_links(&arms, &Connections::default());
         assert!(all.iter().flatten().any(|l| l.to == 2 && l.lane_out == 0));
     }
 

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a failed test panics")]
 
 use layouts::{
-    Arm, Built, CarPark, CheckKind, Control, Junction, Layout, Merge, Program, Road, Roundabout, TEMPLATES,
-    Template, Traffic, Turn, TurnAcross, build,
+    Arm, Built, CarPark, CheckKind, Connection, Connections, Control, Junction, Layout, Merge, Program, Road,
+    Roundabout, TEMPLATES, Template, Traffic, Turn, TurnAcross, build,
 };
 use proptest::prelude::*;
 use scene::geometry::segments::pieces;
@@ -63,8 +63,28 @@ fn junction() -> impl Strategy<Value = Junction> {
             lane_width_m,
             sidewalk_m,
             traffic,
+            ..Junction::default()
         },
     )
+}
+
+/// A junction with ways added and taken at random among its lanes, turning back included.
+fn connected() -> impl Strategy<Value = Junction> {
+    let picks = || prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>()), 0..12);
+    (junction(), picks(), picks()).prop_map(|(junction, added, removed)| {
+        let lanes = |count: fn(&Arm) -> u8| -> Vec<[usize; 2]> {
+            let of = |(i, arm): (usize, &Arm)| (0..usize::from(count(arm))).map(move |k| [i, k]).collect();
+            junction.arms.iter().enumerate().flat_map::<Vec<_>, _>(of).collect()
+        };
+        let (ins, outs) = (lanes(|arm| arm.lanes_in), lanes(|arm| arm.lanes_out));
+        let pick = |(a, b): &(prop::sample::Index, prop::sample::Index)| Connection {
+            from: *a.get(&ins),
+            to: *b.get(&outs),
+        };
+        let added: Vec<Connection> = added.iter().map(pick).collect();
+        let removed = removed.iter().map(pick).filter(|c| !added.contains(c)).collect();
+        Junction { connections: Connections { added, removed }, ..junction }
+    })
 }
 
 fn roundabout() -> impl Strategy<Value = Roundabout> {
@@ -237,7 +257,41 @@ proptest! {
     }
 
     #[test]
-    fn left_hand_traffic_is_the_mirror_image(junction in junction()) {
+    fn single_connections_are_drawn_and_lit(junction in connected()) {
+        let Connections { added, removed } = junction.connections.clone();
+        let usual = build(&Layout::FourArms(Junction { connections: Connections::default(), ..junction.clone() }));
+        let (scene, built) = layouts::scene(&Layout::FourArms(junction), "").unwrap();
+        links_join(&built)?;
+        let drawn: Vec<Connection> = built.ways.iter().map(|way| way.connection).collect();
+        let expected: Vec<Connection> = usual.unwrap().ways.iter().map(|way| way.connection).collect();
+        for (i, connection) in drawn.iter().enumerate() {
+            prop_assert!(!removed.contains(connection) && !drawn[..i].contains(connection));
+            prop_assert!(expected.contains(connection) || added.contains(connection), "{connection:?}");
+        }
+        prop_assert!(added.iter().all(|connection| drawn.contains(connection)));
+        prop_assert!(expected.iter().all(|connection| drawn.contains(connection) || removed.contains(connection)));
+        for way in &built.ways {
+            let lit = scene.signals.iter().filter(|signal| signal.lane == way.lane).count();
+            prop_assert_eq!(lit, usize::from(!scene.signals.is_empty()), "{}", way.lane);
+            prop_assert!(scene.map.lanes.iter().any(|lane| lane.id == way.lane && lane.interpolating));
+        }
+        // What is left over is found: a lane in that leads nowhere, a lane out that nobody gets to.
+        for arm in 0..built.arms.len() {
+            let (ins, outs) = (built.arms[arm].ins_m.len(), built.arms[arm].outs_m.len());
+            let dead = (0..ins).filter(|lane| drawn.iter().all(|c| c.from != [arm, *lane])).count();
+            let idle = (0..outs).filter(|lane| drawn.iter().all(|c| c.to != [arm, *lane])).count();
+            let name = format!("arm{}.", arm + 1);
+            let told = built.checks.iter().filter(|check| {
+                check.kind == CheckKind::LanesLead && check.lanes.iter().any(|lane| lane.starts_with(&name))
+            });
+            let all_told = built.checks.iter().filter(|c| c.kind == CheckKind::LanesLead).count() < 8;
+            prop_assert!(told.count() >= dead + idle || !all_told, "{name} {:?}", built.checks);
+        }
+        prop_assert!(scene.checked().is_ok());
+    }
+
+    #[test]
+    fn left_hand_traffic_is_the_mirror_image(junction in connected()) {
         let mirrored = Junction {
             arms: junction.arms.iter().map(|arm| Arm { angle_deg: -arm.angle_deg, ..arm.clone() }).collect(),
             traffic: Traffic::RightHand,
@@ -331,6 +385,37 @@ fn lights_change_and_both_roads_get_green() {
     let ways = built.signals.iter().filter(|s| s.lane.starts_with("arm")).count();
     assert!(ever(SignalState::Go) >= ways, "{} of {ways}", ever(SignalState::Go));
     assert!(ever(SignalState::Caution) > 0 && ever(SignalState::Stop) > 0);
+}
+
+#[test]
+fn connections_are_written_as_ids_of_lanes_and_refused_where_there_are_none() {
+    let with =
+        |connections: serde_json::Value| Template::FourArms.with(&json!({ "connections": connections }));
+    let way = json!({"from": "arm2.in1", "to": "arm2.out1"});
+    let layout = with(json!({"added": [way], "removed": [{"from": "arm4.in1", "to": "arm1.out2"}]})).unwrap();
+    assert_eq!(layout.parameters()["connections"]["added"], json!([way]));
+    let built = build(&layout).unwrap();
+    let back = built.ways.iter().find(|way| way.connection.from == [1, 0] && way.connection.to == [1, 0]);
+    assert_eq!(back.map(|way| way.lane.as_str()), Some("arm2.in1-arm2.out1"));
+    assert!(built.ways.iter().all(|way| way.lane != "arm4.in1-arm1.out2"));
+    let refused = |connections| {
+        let faults = with(connections).map_or_else(|fault| vec![fault], |layout| build(&layout).unwrap_err());
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        faults[0].pointer.clone()
+    };
+    assert_eq!(
+        refused(json!({"added": [{"from": "arm2.in3", "to": "arm1.out1"}]})),
+        "/connections/added/0/from"
+    );
+    assert_eq!(
+        refused(json!({"removed": [way, {"from": "arm2.in1", "to": "arm5.out1"}]})),
+        "/connections/removed/1/to"
+    );
+    assert_eq!(refused(json!({"added": [way], "removed": [way]})), "/connections/removed/0");
+    assert_eq!(refused(json!({"added": [{"from": "arm2.out1", "to": "arm1.out1"}]})), "/connections/added/0");
+    assert_eq!(refused(json!({"added": vec![way; 65]})), "/connections/added");
+    // None is not written: documents are those of before.
+    assert!(Template::FourArms.layout().parameters().get("connections").is_none());
 }
 
 #[test]

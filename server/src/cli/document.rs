@@ -55,6 +55,9 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 pub struct InfoArgs {
     /// A part of it, such as formats, weights or limits; all when absent.
     part: Option<String>,
+    /// The formats as a table in Markdown.
+    #[arg(long)]
+    markdown: bool,
 }
 
 /// Prints what `/v1/info` gives, or a part of it.
@@ -62,6 +65,12 @@ pub struct InfoArgs {
 /// # Errors
 /// Exit 2 for a part that there is not, 7 without weights.
 pub fn info(args: InfoArgs, common: &Common) -> Result<(), Failure> {
+    if args.markdown {
+        return match args.part.as_deref() {
+            Some("formats") => output::print(formats::registry::markdown().as_bytes()),
+            _ => Err(Failure::usage("--markdown is for formats: dragtraffic info formats --markdown")),
+        };
+    }
     let experts::Engine { generator, placer } = common.engine()?;
     let info = serde_json::to_value(Info::new(&generator, &placer, &Limits::default())).unwrap_or_default();
     let shown = match &args.part {

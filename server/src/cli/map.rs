@@ -121,7 +121,7 @@ fn body(args: &MapArgs) -> Result<Value, Failure> {
 fn put(parameters: &mut Value, template: &Value, setting: &Setting) -> Result<(), Failure> {
     let unknown = || Failure::usage(format!("--set {}: there is no such parameter", setting.path.join(".")));
     let template: Template = serde_json::from_value(template.clone()).map_err(|_| unknown())?;
-    let own = template.layout().parameters();
+    let own = template.all_parameters();
     let first = setting.path.first().ok_or_else(unknown)?;
     if setting.path.len() > 1 && parameters.get(first).is_none() {
         parameters[first.as_str()] = own.get(first).cloned().ok_or_else(unknown)?;
@@ -147,7 +147,13 @@ mod tests {
     #[test]
     fn settings_are_put_in_their_place() {
         let mut parameters = json!({});
-        for text in ["kerb_radius_m=6", "arms.1.angle_deg=71", "control=equal", "program.green_s=20"] {
+        for text in [
+            "kerb_radius_m=6",
+            "arms.1.angle_deg=71",
+            "control=equal",
+            "program.green_s=20",
+            r#"connections.removed=[{"from": "arm2.in1", "to": "arm1.out1"}]"#,
+        ] {
             put(&mut parameters, &json!("four-arms"), &setting(text).unwrap()).unwrap();
         }
         assert_eq!(parameters["kerb_radius_m"], 6);
@@ -157,6 +163,7 @@ mod tests {
             (&parameters["control"], &parameters["program"]["green_s"]),
             (&json!("equal"), &json!(20))
         );
+        assert_eq!(parameters["connections"]["removed"][0]["to"], "arm1.out1");
         for bad in ["arms.9.angle_deg=1", "kerb.a.b=1", "kerb_radius_m.x=1"] {
             assert!(put(&mut parameters, &json!("four-arms"), &setting(bad).unwrap()).is_err(), "{bad}");
         }

@@ -94,7 +94,7 @@ enum Command {
     #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
     /// Print version, weights, limits and formats as JSON.
-    #[command(after_help = examples!("dragtraffic info formats", "dragtraffic info weights --weights DIR"))]
+    #[command(after_help = examples!("dragtraffic info formats --markdown", "dragtraffic info weights --weights DIR"))]
     Info(document::InfoArgs),
     /// Print the completions of a shell.
     #[command(after_help = examples!("dragtraffic completions bash > ~/.local/share/bash-completion/completions/dragtraffic", "dragtraffic completions fish > ~/.config/fish/completions/dragtraffic.fish"))]

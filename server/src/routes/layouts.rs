@@ -8,10 +8,11 @@ use crate::work::{Asked, Kind};
 use axum::extract::State;
 use formats::native::{AnyDoc, MapForm, SceneDoc};
 use formats::{FieldProblem, ReadError};
-use layouts::{ArmPlace, Built, Check, CornerPlace, Fault, Layout, TEMPLATES, Template};
+use layouts::{ArmPlace, Built, Check, CornerPlace, Fault, Layout, TEMPLATES, Template, Way};
 use scene::{MAX_NAME_CHARS, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use std::time::Duration;
 
 /// What drawing a map and writing it takes, about.
@@ -47,6 +48,8 @@ pub struct MapReply {
     arms: Vec<ArmPlace>,
     /// Where kerbs bend between them.
     corners: Vec<CornerPlace>,
+    /// Ways from lane to lane where roads meet at grade.
+    ways: Vec<Way>,
 }
 
 /// A template and its own parameters.
@@ -55,7 +58,8 @@ pub struct TemplateItem {
     /// Its name for people.
     title: &'static str,
     /// The template with all its parameters.
-    layout: Layout,
+    #[schemars(with = "Layout")]
+    layout: Value,
 }
 
 /// All templates.
@@ -67,7 +71,10 @@ pub struct TemplateList {
 impl TemplateList {
     /// Those of this build.
     pub fn new() -> Self {
-        let item = |template: &Template| TemplateItem { title: template.title(), layout: template.layout() };
+        let item = |template: &Template| {
+            let layout = json!({ "template": template.name(), "parameters": template.all_parameters() });
+            TemplateItem { title: template.title(), layout }
+        };
         Self { templates: TEMPLATES.iter().map(item).collect() }
     }
 }
@@ -97,9 +104,9 @@ impl MapBody {
     /// # Errors
     /// Every fault of the parameters.
     pub fn reply(self) -> Result<MapReply, Problem> {
-        let (layout, scene, Built { checks, arms, corners, .. }) = self.run()?;
+        let (layout, scene, Built { checks, arms, corners, ways, .. }) = self.run()?;
         let scene = SceneDoc::from_scene(&scene, MapForm::Inline);
-        Ok(MapReply { scene, layout, checks, arms, corners })
+        Ok(MapReply { scene, layout, checks, arms, corners, ways })
     }
 }
 

@@ -220,6 +220,11 @@ pub fn write_part(
         .export(&[copy.as_ref().unwrap_or(scene)], &options)
         .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
     let info = found.info();
+    debug_assert!(
+        exported.losses.iter().all(|loss| info.loses.contains(&loss.code)),
+        "{:?}",
+        exported.losses
+    );
     Ok(Written {
         bytes: exported.bytes,
         media_type: info.media_type,

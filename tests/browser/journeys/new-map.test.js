@@ -65,6 +65,45 @@ journeys('new map', (stage) => {
     await drawn(e);
     assert.equal(await angle(e), 71);
 
+    // A way is pulled from its stop line to the exit in the east, and taken away; undone, it is back.
+    const { arms } = await e.page.evaluate(async () => {
+      const body = { template: 'four-arms', parameters: {} };
+      const ask = async () =>
+        (
+          await fetch('/v1/map', {
+            method: 'POST',
+            headers: { 'Content-Type': 'application/json' },
+            body: JSON.stringify(body),
+          })
+        ).json();
+      body.parameters.arms = (await ask()).layout.parameters.arms;
+      body.parameters.arms[1].angle_deg = 71;
+      return ask();
+    });
+    const rows = e.page.locator('.ways li');
+    const before = await rows.count();
+    await e.drag(await e.at(...arms[1].ins_m[0]), await e.at(...arms[0].outs_m[0]), {
+      then: async () => {
+        await drawn(e);
+        await e.picture('new-map-connecting');
+      },
+    });
+    await drawn(e);
+    assert.equal(await rows.count(), before + 1);
+    assert.match(await e.text('.ways li.on'), /Lane 1 to East, lane 1/);
+    await e.key('Delete');
+    await drawn(e);
+    assert.equal(await rows.count(), before);
+    await e.key('Control+z');
+    await drawn(e);
+    assert.equal(await rows.count(), before + 1);
+    await e.page.getByRole('button', { name: 'Remove: Lane 1 to East, lane 1' }).click();
+    await drawn(e);
+    assert.equal(await rows.count(), before);
+    await e.page.getByLabel('Connect to').selectOption({ label: 'East, lane 1' });
+    await drawn(e);
+    assert.equal(await rows.count(), before + 1);
+
     // Too near to the one in the east: refused in words, and the arm goes back to where a map could be drawn.
     await e.type('layout-arms.angle_deg', '10');
     await e.until(() => /Arms need 20° between them/.test(document.querySelector('.checks').textContent));
@@ -86,6 +125,8 @@ journeys('new map', (stage) => {
     assert.equal(parameters.arms[1].angle_deg, 71);
     assert.equal(parameters.kerb_radius_m, 10);
     assert.equal(parameters.control, 'signals');
+    assert.deepEqual(parameters.connections.added, [{ from: 'arm2.in1', to: 'arm1.out1' }]);
+    assert.ok(scene.map.lanes.some((lane) => lane.id === 'arm2.in1-arm1.out1'));
     assert.ok(scene.signals.length > 8);
 
     // Filled, and somebody is taken by the hand.

@@ -6,6 +6,12 @@ import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
 import { LANGUAGES, nextLanguage, speak } from '../texts/language';
 
+/** Steps of a map that is being made are its own. */
+const canUndo = ({ editor: { layouts, undoName } }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canUndo.value : undoName.value !== null;
+const canRedo = ({ editor: { layouts, redoName } }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canRedo.value : redoName.value !== null;
+
 /** Esc: what is nearest goes first, one thing a press. */
 function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
   if (gestures.cancel()) return;
@@ -18,7 +24,8 @@ function letGo({ editor, gestures, importing, rounds, searching, ui, variants }:
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);
     editor.pickEvent(null);
-  } else if (editor.layouts.isOpen.value) editor.layouts.close();
+  } else if (editor.layouts.way.value) editor.layouts.pickWay(null);
+  else if (editor.layouts.isOpen.value) editor.layouts.close();
   else if (rounds.isOpen.value) rounds.close();
   else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
@@ -57,8 +64,8 @@ export const everything = inGroup('everything', [
     keys: ['Ctrl+Z'],
     icon: 'undo',
     help: 'oneStepBack',
-    when: (c) => (c.editor.undoName.value ? true : TEXTS.nothingToUndo),
-    run: (c) => c.editor.undo(),
+    when: (c) => (canUndo(c) ? true : TEXTS.nothingToUndo),
+    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.undo() : editor.undo()),
   },
   {
     id: 'redo',
@@ -66,8 +73,8 @@ export const everything = inGroup('everything', [
     keys: ['Ctrl+Shift+Z', 'Ctrl+Y'],
     icon: 'redo',
     help: 'oneStepOnAgain',
-    when: (c) => (c.editor.redoName.value ? true : TEXTS.nothingToRedo),
-    run: (c) => c.editor.redo(),
+    when: (c) => (canRedo(c) ? true : TEXTS.nothingToRedo),
+    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.redo() : editor.redo()),
   },
   {
     id: 'shortcuts',

@@ -40,7 +40,6 @@ function makeParts(o: Opening): Context {
     editor,
     (a) => picture.poseNow(a),
     () => picture.taken,
-    () => stage.invalidate('overlay'),
   );
   stage.painter('overlay', (g, v) => {
     overlay.paint(g, v);

@@ -37,9 +37,7 @@ export class LayoutMaker {
 
   /** A new map, from the template that was chosen last. */
   begin(): void {
-    this.editor.playhead.pause();
-    this.editor.chooseTool('select');
-    this.editor.select(null);
+    this.#open();
     this.editor.layouts.choose(recall<TemplateName>('template') ?? FIRST_TEMPLATE);
   }
 
@@ -59,10 +57,18 @@ export class LayoutMaker {
     const base = this.file.complete();
     const layout = this.madeFrom;
     if (!base || !layout) return;
-    this.editor.playhead.pause();
-    this.editor.chooseTool('select');
-    this.editor.select(null);
+    this.#open();
     this.editor.layouts.change(layout, base);
+  }
+
+  #open(): void {
+    const { editor } = this;
+    editor.playhead.pause();
+    editor.chooseTool('select');
+    editor.select(null);
+    void editor.layouts.fetchHands().then((come) => {
+      if (!come) editor.notices.say(TEXTS.theHandlesOf);
+    });
   }
 
   #ask(wish: MapWish): void {

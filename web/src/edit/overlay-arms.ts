@@ -1,5 +1,5 @@
 // What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
-// lanes lead.
+// lanes lead, and what of it does not pass.
 import type { Vec } from '../model/geometry';
 import { num } from '../model/units';
 import { pill, type Labels } from '../draw/labels';
@@ -7,13 +7,15 @@ import type { Pen } from '../draw/pen';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { knobs, type Knob } from './gestures/arms';
-import type { Made } from './layouts';
+import { knobs } from './gestures/arms';
+import { exits, stops } from './gestures/ways';
+import type { Made, Placed } from './layouts';
 import { TEXTS } from '../texts/picture';
 
 const KNOB_PX = 9;
 const BUTTON_PX = 8;
 const HEAD_PX = 9;
+const STOP_PX = 5;
 
 export class ArmsOverlay {
   constructor(
@@ -27,6 +29,8 @@ export class ArmsOverlay {
     if (!made) return;
     const all = knobs(layouts);
     this.#paintWays(g, v, made, layouts.arm.value);
+    this.#paintStops(g, v);
+    this.#paintDrawn(g, v);
     this.#paintBefore(g, v, made);
     for (const k of all) if (k.kind === 'arm') this.#paintStem(g, v, made, k);
     for (const k of all) {
@@ -40,21 +44,73 @@ export class ArmsOverlay {
   /** Where the lanes of the arm in hand lead; those of the others are dashed. */
   #paintWays(g: Pen, v: View, made: Made, inHand: number): void {
     const c = colours();
+    const { layouts } = this.editor;
+    const under = layouts.under.value;
+    const idOf = (way: { from: string; to: string } | null): string => (way ? `${way.from}-${way.to}` : '');
+    const picked = idOf(layouts.way.value);
+    const pointed = under?.kind === 'way' ? idOf(under.way) : '';
     for (const lane of made.scene.map.lanes.values()) {
-      const from = /^arm(\d+)\.in\d+-/.exec(lane.id);
+      const from = /^arm(\d+)\.in\d+-(?!arm\d+\.out-cycle)/.exec(lane.id);
       if (!from) continue;
       const mine = Number(from[1]) - 1 === inHand;
+      const strong = lane.id === picked || lane.id === pointed;
       g.beginPath();
       lane.line.pts.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+      if (lane.id === picked) {
+        g.strokeStyle = c.surface;
+        g.lineWidth = 7;
+        g.stroke();
+      }
       g.strokeStyle = mine ? c.ok : c['ink-3'];
-      g.lineWidth = mine ? 2 : 1;
-      g.globalAlpha = mine ? 1 : 0.45;
+      g.lineWidth = strong ? 4 : mine ? 2 : 1;
+      g.globalAlpha = mine || strong ? 1 : 0.45;
       g.setLineDash(mine ? [] : [4, 4]);
       g.stroke();
       g.setLineDash([]);
       if (mine) paintHead(g, v, lane.line.pts, c.ok);
       g.globalAlpha = 1;
     }
+  }
+
+  /** Where a way can be pulled from; while one is pulled, where it can go. */
+  #paintStops(g: Pen, v: View): void {
+    const { layouts } = this.editor;
+    const c = colours();
+    const drawn = layouts.drawn.value;
+    const under = layouts.under.value;
+    for (const { arm, lane, at } of stops(layouts)) {
+      const mine = arm === layouts.arm.value;
+      const pointed = under?.kind === 'stop' && under.arm === arm && under.lane === lane;
+      if (drawn ? String(drawn.from) !== String([arm, lane]) : !mine && !pointed) continue;
+      paintDot(g, v.to(...at), pointed || drawn ? STOP_PX + 1.5 : STOP_PX, c.ok, c.surface);
+    }
+    if (!drawn) return;
+    for (const { lane, at } of exits(layouts)) {
+      const caught = String(lane) === String(drawn.to);
+      paintDot(g, v.to(...at), caught ? STOP_PX + 2.5 : STOP_PX, caught ? c.ok : c.surface, caught ? c.surface : c.ok);
+    }
+  }
+
+  /** The way that is being pulled, to where the pointer is; caught by an exit it is part of the map. */
+  #paintDrawn(g: Pen, v: View): void {
+    const { layouts } = this.editor;
+    const drawn = layouts.drawn.value;
+    const from = drawn && layouts.made.value?.arms[drawn.from[0]]?.ins_m[drawn.from[1]];
+    if (!drawn || !from) return;
+    const c = colours();
+    const [x, y] = v.to(...drawn.at);
+    if (!drawn.to) {
+      g.beginPath();
+      g.moveTo(v.x(from[0]), v.y(from[1]));
+      g.lineTo(x, y);
+      g.strokeStyle = c.ok;
+      g.lineWidth = 2;
+      g.setLineDash([5, 4]);
+      g.stroke();
+      g.setLineDash([]);
+    }
+    const words = drawn.to ? TEXTS.toExit(layouts.exitName(drawn.to)) : TEXTS.dropItOnAnExit;
+    pill(g, this.labels, x, y, words, { tries: [[14, 10]], ...(drawn.to ? { bg: c.ok, fg: c.surface } : {}) });
   }
 
   /** The old place of an arm that is turned, and the turn as an arc. */
@@ -94,7 +150,7 @@ export class ArmsOverlay {
     g.stroke();
   }
 
-  #paintStem(g: Pen, v: View, made: Made, k: Extract<Knob, { kind: 'arm' }>): void {
+  #paintStem(g: Pen, v: View, made: Made, k: Extract<Placed, { kind: 'arm' }>): void {
     const [mx, my] = made.arms[k.arm].mouth_m;
     g.beginPath();
     g.moveTo(v.x(mx), v.y(my));
@@ -104,14 +160,17 @@ export class ArmsOverlay {
     g.stroke();
   }
 
-  #paintNames(g: Pen, v: View, made: Made, all: readonly Knob[]): void {
+  #paintNames(g: Pen, v: View, made: Made, all: readonly Placed[]): void {
     const { layouts } = this.editor;
     const c = colours();
     for (const k of all) {
       const [x, y] = v.to(...k.at);
       if (k.kind === 'arm') {
         const angle = layouts.arms.value[k.arm]?.angle_deg ?? 0;
-        const words = `${made.arms[k.arm].name} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°`;
+        const turned = layouts.turned.value;
+        const length = layouts.arms.value[k.arm]?.length_m;
+        const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${num(length, 0)} m` : '';
+        const words = `${made.arms[k.arm].name} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
         const mine = k.arm === layouts.arm.value;
         pill(g, this.labels, x, y, words, {
           ...(mine ? { bg: c.ok, fg: c.surface } : {}),
@@ -125,10 +184,48 @@ export class ArmsOverlay {
       } else if (k.kind === 'kerb' && k.corner === 0)
         pill(g, this.labels, x, y, TEXTS.kerbM(num(made.corners[0].radius_m, 1)), { must: false });
     }
+    this.#paintCount(g, v);
+    this.#paintFaults(g, v, made);
     const fault = layouts.fault.value;
     const [x, y] = v.to(...(all.find((k) => k.kind === 'arm' && k.arm === layouts.arm.value)?.at ?? [0, 0]));
     if (fault) pill(g, this.labels, x, y, fault, { icon: 'triangle', bg: c.surface, fg: c.ink });
   }
+
+  /** How many lanes an arm has, where one is about to come or go. */
+  #paintCount(g: Pen, v: View): void {
+    const { layouts } = this.editor;
+    const under = layouts.under.value;
+    const arm = under?.kind === 'lane' && layouts.arms.value[under.arm];
+    if (!arm) return;
+    const [x, y] = v.to(...under.at);
+    pill(g, this.labels, x, y, TEXTS.lanesInOut(arm.lanes_in, arm.lanes_out), {
+      tries: [
+        [-86, -10],
+        [14, -10],
+      ],
+    });
+  }
+
+  /** Failed checks by their number in the list. */
+  #paintFaults(g: Pen, v: View, made: Made): void {
+    made.checks
+      .filter((check) => !check.passed)
+      .forEach(({ at_m }, i) => {
+        if (!at_m) return;
+        const [x, y] = v.to(at_m[0], at_m[1]);
+        pill(g, this.labels, x, y, `${i + 1}`, { icon: 'triangle', must: false, tries: [[-15, -10]] });
+      });
+  }
+}
+
+function paintDot(g: Pen, [x, y]: Vec, r: number, fill: string, rim: string): void {
+  g.beginPath();
+  g.arc(x, y, r, 0, Math.PI * 2);
+  g.fillStyle = fill;
+  g.fill();
+  g.strokeStyle = rim;
+  g.lineWidth = 1.5;
+  g.stroke();
 }
 
 function paintKnob(g: Pen, [x, y]: Vec, r: number, inHand: boolean): void {

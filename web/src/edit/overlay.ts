@@ -50,16 +50,13 @@ export class Overlay {
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
   private readonly hovered: HoveredOverlay;
-  /** Few make maps: what paints them comes when one is made. */
-  private arms: ArmsOverlay | Promise<void> | null = null;
+  private arms: ArmsOverlay | null = null;
 
   constructor(
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
     /** What is on the picture under it and better left to be seen. */
     private readonly below: () => readonly Rect[],
-    /** It is to be painted once more. */
-    private readonly again: () => void,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
     this.events = new EventsOverlay(editor, this.labels, poseNow);
@@ -106,7 +103,8 @@ export class Overlay {
     });
     for (const r of this.panels(v)) this.labels.block(...r);
     if (making || !scene) {
-      this.paintArms(g, v);
+      const hands = e.layouts.hands.value;
+      if (hands) (this.arms ??= new hands.ArmsOverlay(e, this.labels)).paint(g, v);
       return;
     }
     this.labels.hold();
@@ -114,15 +112,6 @@ export class Overlay {
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     g.globalAlpha = 1;
     this.labels.release();
-  }
-
-  private paintArms(g: Pen, v: View): void {
-    if (this.arms && 'paint' in this.arms) this.arms.paint(g, v);
-    else
-      this.arms ??= import('./overlay-arms').then((m) => {
-        this.arms = new m.ArmsOverlay(this.editor, this.labels);
-        this.again();
-      });
   }
 
   private paintScene(g: Pen, v: View, scene: Scene): void {

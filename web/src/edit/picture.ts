@@ -109,6 +109,10 @@ export class Picture {
         e.layouts.made.value,
         e.layouts.arm.value,
         e.layouts.turned.value,
+        e.layouts.hands.value,
+        e.layouts.way.value,
+        e.layouts.drawn.value,
+        e.layouts.under.value,
         e.layouts.fault.value,
         e.notices.toast.value,
       ];

@@ -745,13 +745,17 @@ export interface components {
         ArmPlace: {
             /** @description Where the arm leaves the map, metres. */
             end_m: number[];
+            /** @description Where each of its lanes in ends, metres. */
+            ins_m: number[][];
             /** @description From the middle to the kerb beside the lanes in and beside the lanes out, metres. */
             kerbs_m: number[];
             /** @description Where traffic towards the junction stops, in the middle of the arm, metres. */
             mouth_m: number[];
             /** @description Such as `North`. */
             name: string;
-            /** @description Where its lanes in lead, from the middle of the road to the kerb. */
+            /** @description Where each of its lanes out begins, metres. */
+            outs_m: number[][];
+            /** @description Where its turn lanes lead, from the middle of the road to the kerb; single connections apart. */
             turns: components["schemas"]["Turn"][][];
         };
         /**
@@ -1092,6 +1096,33 @@ export interface components {
              * @description Metres.
              */
             width_m?: number | null;
+        };
+        /**
+         * Connection
+         * @description A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
+         *     of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+         */
+        Connection: {
+            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            from: string;
+            /** @description A lane away from it, such as `arm3.out1`. */
+            to: string;
+        };
+        /**
+         * Connections
+         * @description What a junction has and has not beside the ways that its turn lanes make.
+         */
+        Connections: {
+            /**
+             * @description Ways that there are in any case.
+             * @default []
+             */
+            added: components["schemas"]["Connection"][];
+            /**
+             * @description Ways that there are not.
+             * @default []
+             */
+            removed: components["schemas"]["Connection"][];
         };
         /**
          * Control
@@ -1513,12 +1544,19 @@ export interface components {
             id: string;
             /** @description Can be read. */
             import: boolean;
+            /**
+             * @description Codes of what a written file may lack ([`crate::loss::code`]). What it lacks of a scene is told when it is
+             *     written.
+             */
+            loses: string[];
             /** @description Holds many scenes in one file. */
             many: boolean;
             /** @description Media type of an exported file. */
             media_type: string;
             /** @description For people. */
             name: string;
+            /** @description What a file holds, and how it is read and written. */
+            notes: string;
             /** @description May come with the network it belongs to ([`ImportOptions::net`]). */
             takes_net: boolean;
         };
@@ -2057,6 +2095,8 @@ export interface components {
              *     ]
              */
             arms: components["schemas"]["Arm"][];
+            /** @description Single ways through the junction, beside those that the turn lanes make. */
+            connections?: components["schemas"]["Connections"];
             /**
              * @description Who goes first.
              * @default signals
@@ -2460,6 +2500,8 @@ export interface components {
             layout: components["schemas"]["Layout"];
             /** @description A scene with the map and nobody in it. Its `x_layout` says what it was made from. */
             scene: components["schemas"]["SceneDoc"];
+            /** @description Ways from lane to lane where roads meet at grade. */
+            ways: components["schemas"]["Way2"][];
         };
         /**
          * Merge
@@ -4337,6 +4379,22 @@ export interface components {
          * @description Which way of a trait is wished.
          */
         Way: "more" | "less";
+        /**
+         * Way2
+         * @description A way through a junction that is drawn.
+         */
+        Way2: {
+            /** @description It is there because it was added. */
+            added: boolean;
+            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            from: string;
+            /** @description Id of its lane in the map. */
+            lane: string;
+            /** @description A lane away from it, such as `arm3.out1`. */
+            to: string;
+            /** @description The direction, as seen by who comes in. */
+            turn: components["schemas"]["Turn"];
+        };
         /**
          * WeightsInfo
          * @description Facts about one expert's weights.

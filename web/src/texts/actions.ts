@@ -11,6 +11,8 @@ export const TEXTS = table('actions', {
   search: 'Search',
   sayFirstWhat: 'Say first what is looked for.',
   pause: 'Pause',
+  removeTheConnection: 'Remove the connection',
+  noConnectionIs: 'No connection is picked.',
   starTheCase: 'Star the case',
   lookAtACase: 'Look at a case first.',
   swapPlaces: 'Swap places',

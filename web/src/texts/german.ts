@@ -35,7 +35,7 @@ const actions: Part<typeof Actions> = {
   findACase: 'Fall suchen',
   selectOneOrTwo: 'Wählen Sie zuerst einen oder zwei aus.',
   search: 'Suchen',
-  stopTheSearch: 'Suche beenden',
+  pause: 'Anhalten',
   makeItA: (kind: string) => `Art ändern: ${kind}`,
   copy: 'Kopieren',
   cut: 'Ausschneiden',

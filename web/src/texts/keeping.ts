@@ -46,4 +46,5 @@ export const TEXTS = table('keeping', {
   sharedScene: 'Shared scene',
   thisSceneCame: 'This scene came with a link. Here it is read-only.',
   makeACopy: 'Make a copy',
+  theHandlesOf: 'The handles of the map did not load. Open it again when the network is back.',
 });

@@ -72,4 +72,11 @@ export const TEXTS = table('layouts', {
   curve: 'Curve',
   schoolStreet: 'School street',
   carPark: 'Car park',
+  connections: 'Connections',
+  usualOnes: 'Usual ones',
+  laneTo: (lane: number, exit: string) => `Lane ${lane} to ${exit}`,
+  remove: (words: string) => `Remove: ${words}`,
+  fromLane: 'From lane',
+  connectTo: 'Connect to',
+  connectToMore: 'Connect to …',
 });

@@ -54,4 +54,8 @@ export const TEXTS = table('picture', {
   southWest: 'south-west',
   south: 'south',
   southEast: 'south-east',
+  exitLane: (arm: string, lane: number) => `${arm}, lane ${lane}`,
+  toExit: (exit: string) => `To ${exit}`,
+  dropItOnAnExit: 'Drop it on an exit',
+  lanesInOut: (into: number, out: number) => `${into} in, ${out} out`,
 });

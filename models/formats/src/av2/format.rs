@@ -5,6 +5,7 @@ use crate::columnar::{is_parquet, names_in};
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one,
 };
+use crate::loss;
 use crate::map_file;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};
@@ -27,6 +28,23 @@ impl Format for Argoverse {
             export: true,
             many: false,
             takes_net: true,
+            notes: "Motion of road users, with the map by `--net` or alone. Sizes are by type, as the format \
+                 has none; what is written has no map.",
+            loses: &[
+                loss::code::NO_CONDITIONS,
+                loss::code::NO_GENERATED,
+                loss::code::NO_MODES,
+                loss::code::NO_SUBTYPE,
+                loss::code::NO_ROLES,
+                loss::code::NO_NOTES,
+                loss::code::NO_MAP,
+                loss::code::NO_SIGNALS,
+                loss::code::NO_SIZES,
+                loss::code::NO_Z,
+                loss::code::NO_UNSEEN,
+                loss::code::LONG_RECORD,
+                loss::code::IDS_RENUMBERED,
+            ],
         }
     }
 

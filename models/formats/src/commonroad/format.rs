@@ -3,6 +3,7 @@
 use super::document::ROOT;
 use super::{export, import};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
+use crate::loss;
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::Scene;
@@ -22,6 +23,34 @@ impl Format for CommonRoad {
             export: true,
             many: false,
             takes_net: false,
+            notes: "2018b and 2020a are read, 2020a is written: lanelets, signs, lights with their cycles, \
+                 obstacles, planning problems, of which the first is the ego with a goal, of regions the \
+                 middle. Other steps than 0.1 s are resampled. Out, the ego (else the first road user \
+                 with a goal) is the planning problem; who comes late is beside the schema; origin and \
+                 licence are in the file.",
+            loses: &[
+                loss::code::NO_CONDITIONS,
+                loss::code::NO_GENERATED,
+                loss::code::NO_MODES,
+                loss::code::NO_SUBTYPE,
+                loss::code::NO_ROLES,
+                loss::code::NO_NOTES,
+                loss::code::NO_MAP,
+                loss::code::NO_SIGNALS,
+                loss::code::NO_SIZES,
+                loss::code::NO_TIMING,
+                loss::code::NO_Z,
+                loss::code::NO_DRIVABLE,
+                loss::code::NO_LANE_WIDTH,
+                loss::code::NO_LINES,
+                loss::code::NO_AREAS,
+                loss::code::NO_NEIGHBORS,
+                loss::code::NO_VALIDITY_GAPS,
+                loss::code::SINGLE_EGO,
+                loss::code::NO_SIGNAL_STATES,
+                loss::code::LATE_ROAD_USERS,
+                loss::code::IDS_RENUMBERED,
+            ],
         }
     }
 

@@ -32,6 +32,14 @@ impl Format for Mcap {
             export: true,
             many: false,
             takes_net: false,
+            notes: "`foxglove.SceneUpdate` ten times a second and `foxglove.FrameTransform`, as JSON.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_MODES,
+                code::NO_NOTES,
+                code::NO_JUDGEMENTS,
+                code::NO_LANE_GRAPH,
+            ],
         }
     }
 

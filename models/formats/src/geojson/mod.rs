@@ -32,6 +32,16 @@ impl Format for GeoJson {
             export: true,
             many: false,
             takes_net: false,
+            notes: "Lanes, paint, edges, areas, tracks, futures and goals, in metres of the source's frame, \
+                 which `frame` names.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_MODES,
+                code::NO_NOTES,
+                code::NO_JUDGEMENTS,
+                code::NO_LANE_GRAPH,
+                code::NO_Z,
+            ],
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{export, import};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
+use crate::loss::code;
 use crate::source::Source;
 use crate::unpack;
 use scene::Scene;
@@ -12,6 +13,7 @@ pub(crate) struct Engine {
     id: &'static str,
     name: &'static str,
     flavour: Flavour,
+    notes: &'static str,
 }
 
 /// What an engine reads.
@@ -24,11 +26,23 @@ pub(super) enum Flavour {
 }
 
 /// GPUDrive.
-pub(crate) static GPUDRIVE: Engine =
-    Engine { id: "gpudrive", name: "GPUDrive scenario (JSON)", flavour: Flavour::GpuDrive };
+pub(crate) static GPUDRIVE: Engine = Engine {
+    id: "gpudrive",
+    name: "GPUDrive scenario (JSON)",
+    flavour: Flavour::GpuDrive,
+    notes: "Road users and lights; lanes are lines without a graph: those that end where others \
+         begin are joined. Headings in degrees are known by their size and by where one goes; \
+         written in radians, with heights and ids.",
+};
 /// Nocturne.
-pub(crate) static NOCTURNE: Engine =
-    Engine { id: "nocturne", name: "Nocturne scenario (JSON)", flavour: Flavour::Nocturne };
+pub(crate) static NOCTURNE: Engine = Engine {
+    id: "nocturne",
+    name: "Nocturne scenario (JSON)",
+    flavour: Flavour::Nocturne,
+    notes: "Road users and lights; lanes are lines without a graph: those that end where others \
+         begin are joined. Headings in degrees are known by their size and by where one goes; \
+         written in degrees, in the plane.",
+};
 
 /// What kind of file it is, by how it begins.
 fn flavour(head: &[u8]) -> Option<Flavour> {
@@ -54,6 +68,28 @@ impl Format for Engine {
             export: true,
             many: false,
             takes_net: false,
+            notes: self.notes,
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_GENERATED,
+                code::NO_MODES,
+                code::NO_SUBTYPE,
+                code::NO_ROLES,
+                code::NO_LICENCE,
+                code::NO_NOTES,
+                code::NO_SIGNALS,
+                code::NO_SIZES,
+                code::NO_TIMING,
+                code::NO_LANE_GRAPH,
+                code::NO_Z,
+                code::NO_DRIVABLE,
+                code::NO_LANE_WIDTH,
+                code::NO_LANE_TYPE,
+                code::LONG_RECORD,
+                code::NO_IDS,
+                code::NO_SPEED_LIMITS,
+                code::IDS_RENUMBERED,
+            ],
         }
     }
 

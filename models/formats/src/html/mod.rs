@@ -28,6 +28,14 @@ impl Format for Page {
             export: true,
             many: false,
             takes_net: false,
+            notes: "The scene playing, with names and lights; it needs no server and no network.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_MODES,
+                code::NO_NOTES,
+                code::NO_JUDGEMENTS,
+                code::NO_LANE_GRAPH,
+            ],
         }
     }
 

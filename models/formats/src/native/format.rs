@@ -19,6 +19,8 @@ impl Format for NativeJson {
             export: true,
             many: false,
             takes_net: false,
+            notes: "Everything that a scene has; `assets/schema/scene.v1.schema.json`.",
+            loses: &[],
         }
     }
 

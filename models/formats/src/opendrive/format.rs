@@ -1,6 +1,7 @@
 //! OpenDRIVE as users import it.
 
 use super::{export, import};
+use crate::loss::code;
 use crate::map_file::MapFile;
 
 /// A map (`.xodr`, OpenDRIVE 1.4 to 1.9), plain or gzip: a scene with a map and signals, without road users. The
@@ -11,6 +12,19 @@ pub(crate) static OPENDRIVE: MapFile = MapFile {
     extensions: &["xodr", "xodr.gz"],
     root: "OpenDRIVE",
     source: "opendrive",
+    notes: "1.4 to 1.9 in, 1.7 out: lanes with their links, paint, road edges and medians, \
+         crosswalks, stop signs, left-hand traffic; signals get fixed times, as the format has \
+         none; flat across; no road users. Out, each lane is a road of its own, within 0.02 m, \
+         with crosswalks, heads and signs. Plain or gzip.",
+    loses: &[
+        code::NO_ROAD_USERS,
+        code::NO_SIGNALS,
+        code::NO_DRIVABLE,
+        code::NO_LINES,
+        code::NO_AREAS,
+        code::NO_NEIGHBORS,
+        code::GEOMETRY_APPROXIMATED,
+    ],
     read: import::read,
     write: Some(export::write),
 };

@@ -43,6 +43,25 @@ impl Format for OpenScenario {
             export: true,
             many: false,
             takes_net: false,
+            notes: "XML 1.2 with its OpenDRIVE map: every road user follows its track to the tenth of a \
+                 second, comes and leaves when it does; lights by their states.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_GENERATED,
+                code::NO_MODES,
+                code::NO_SUBTYPE,
+                code::NO_NOTES,
+                code::NO_SIGNALS,
+                code::NO_Z,
+                code::NO_DRIVABLE,
+                code::NO_LINES,
+                code::NO_AREAS,
+                code::NO_NEIGHBORS,
+                code::NO_VALIDITY_GAPS,
+                code::NO_SIGNAL_STATES,
+                code::GEOMETRY_APPROXIMATED,
+                code::NO_VELOCITY,
+            ],
         }
     }
 

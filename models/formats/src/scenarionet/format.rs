@@ -2,6 +2,7 @@
 
 use super::{export, import};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
+use crate::loss;
 use crate::source::Source;
 use crate::unpack;
 use scene::Scene;
@@ -24,6 +25,23 @@ impl Format for ScenarioNet {
             export: true,
             many: false,
             takes_net: false,
+            notes: "Road users, lanes, lights, in single precision; one file a scene, without the lists of a \
+                 data set. Read by a machine that calls nothing: a pickle that asks for more than arrays \
+                 is refused by name (`pickle-refused`).",
+            loses: &[
+                loss::code::NO_CONDITIONS,
+                loss::code::NO_GENERATED,
+                loss::code::NO_MODES,
+                loss::code::NO_SUBTYPE,
+                loss::code::NO_ROLES,
+                loss::code::NO_NOTES,
+                loss::code::NO_LANE_TYPE,
+                loss::code::NO_Z,
+                loss::code::NO_DRIVABLE,
+                loss::code::LONG_RECORD,
+                loss::code::GEOMETRY_APPROXIMATED,
+                loss::code::IDS_RENUMBERED,
+            ],
         }
     }
 

@@ -7,6 +7,7 @@ use super::out::folder::{self, CONFIGURATION, NET, RECORDING, TRIPS};
 use super::rows::Rows;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::limits::{MAX_DECODED_BYTES, memory_for};
+use crate::loss;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -75,6 +76,37 @@ impl Format for SumoFolder {
             export: true,
             many: true,
             takes_net: false,
+            notes: "Network, trips and recording with their configuration: `sumo -c` drives the trips, the \
+                 recording is the motion itself. Read from the network and the recording.",
+            loses: &[
+                loss::code::NO_CONDITIONS,
+                loss::code::NO_GENERATED,
+                loss::code::NO_MODES,
+                loss::code::NO_SUBTYPE,
+                loss::code::NO_ROLES,
+                loss::code::NO_LICENCE,
+                loss::code::NO_NOTES,
+                loss::code::NO_MAP,
+                loss::code::NO_SIGNALS,
+                loss::code::NO_SIZES,
+                loss::code::NO_TIMING,
+                loss::code::NO_LANE_GRAPH,
+                loss::code::NO_Z,
+                loss::code::NO_UNSEEN,
+                loss::code::NO_DRIVABLE,
+                loss::code::NO_LANE_WIDTH,
+                loss::code::NO_LANE_TYPE,
+                loss::code::NO_LINES,
+                loss::code::NO_AREAS,
+                loss::code::NO_NEIGHBORS,
+                loss::code::NO_SIGNAL_STATES,
+                loss::code::GEOMETRY_APPROXIMATED,
+                loss::code::NO_IDS,
+                loss::code::NO_SPEED_LIMITS,
+                loss::code::NO_VELOCITY,
+                loss::code::NO_TRIPS,
+                loss::code::IDS_RENUMBERED,
+            ],
         }
     }
 

@@ -9,6 +9,7 @@ use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, one_scene,
 };
 use crate::limits::MAX_DECODED_BYTES;
+use crate::loss::code;
 use crate::map_file::{MapFile, MapRead};
 use crate::problem::ReadError;
 use crate::source::Source;
@@ -27,6 +28,27 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
     extensions: &["net.xml", "net.xml.gz"],
     root: "net",
     source: SOURCE,
+    notes: "Lanes, crossings, sidewalks, kerbs, signals of static programs from time 0; no road \
+         users. Out, lanes side by side are an edge, ways through junctions keep their course, \
+         with right of way and lights as they change. Plain or gzip.",
+    loses: &[
+        code::NO_ROAD_USERS,
+        code::NO_NOTES,
+        code::NO_MAP,
+        code::NO_SIGNALS,
+        code::NO_LANE_GRAPH,
+        code::NO_Z,
+        code::NO_DRIVABLE,
+        code::NO_LANE_WIDTH,
+        code::NO_LANE_TYPE,
+        code::NO_LINES,
+        code::NO_AREAS,
+        code::NO_NEIGHBORS,
+        code::NO_SIGNAL_STATES,
+        code::GEOMETRY_APPROXIMATED,
+        code::NO_IDS,
+        code::NO_SPEED_LIMITS,
+    ],
     read: read_net,
     write: Some(net::write),
 };
@@ -62,6 +84,26 @@ impl Format for SumoFcd {
             export: true,
             many: true,
             takes_net: true,
+            notes: "Who is where at each step, XML or CSV in, XML out; scenes of 9.1 s at 0.1 s. Sizes are \
+                 by the name of the type, which what is written says in metres; lanes and signals come \
+                 with the network alone (`--net`). Plain or gzip.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_GENERATED,
+                code::NO_MODES,
+                code::NO_SUBTYPE,
+                code::NO_ROLES,
+                code::NO_LICENCE,
+                code::NO_NOTES,
+                code::NO_MAP,
+                code::NO_SIGNALS,
+                code::NO_SIZES,
+                code::NO_TIMING,
+                code::NO_Z,
+                code::NO_UNSEEN,
+                code::NO_VELOCITY,
+                code::IDS_RENUMBERED,
+            ],
         }
     }
 

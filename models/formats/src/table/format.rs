@@ -39,6 +39,9 @@ impl Format for Csv {
             export: true,
             many: true,
             takes_net: false,
+            notes: "A row for each road user, future and step, units in the columns' names, in the source's \
+                 frame; tables of others by `--columns`. Plain or gzip.",
+            loses: write::LOSES,
         }
     }
 
@@ -92,6 +95,9 @@ impl Format for Parquet {
             export: true,
             many: true,
             takes_net: false,
+            notes: "A row for each road user, future and step, units in the columns' names, in the source's \
+                 frame; tables of others by `--columns`. What is said of the scene is in the file.",
+            loses: write::LOSES,
         }
     }
 

@@ -258,6 +258,19 @@ fn subtype_word(subtype: Subtype) -> &'static str {
     }
 }
 
+/// What a table may not carry.
+pub(super) const LOSES: &[&str] = &[
+    code::NO_CONDITIONS,
+    code::NO_MODES,
+    code::NO_ROLES,
+    code::NO_LICENCE,
+    code::NO_NOTES,
+    code::NO_MAP,
+    code::NO_SIGNALS,
+    code::NO_JUDGEMENTS,
+    code::NO_TIMING,
+];
+
 /// What of this scene a table has no place for; `noted` where frame, licence and time stand beside the rows.
 pub(super) fn lost(scene: &Scene, motion: ExportedMotion, noted: bool) -> Vec<Loss> {
     let agents = &scene.agents;

@@ -48,6 +48,29 @@ impl Format for WomdExample {
             export: true,
             many: true,
             takes_net: false,
+            notes: "The flat form of the same: `state/...`, `roadgraph_samples/...`, \
+                 `traffic_light_state/...` in the dataset's shapes, for 128 road users, 91 steps, 16 \
+                 lights and 30 000 points. Plain or gzip.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_GENERATED,
+                code::NO_MODES,
+                code::NO_SUBTYPE,
+                code::NO_ROLES,
+                code::NO_LICENCE,
+                code::NO_NOTES,
+                code::NO_MAP,
+                code::NO_SIGNALS,
+                code::NO_ROAD_USERS,
+                code::NO_TIMING,
+                code::NO_LANE_GRAPH,
+                code::NO_SPEED_LIMITS,
+                code::NO_DRIVABLE,
+                code::NO_LANE_WIDTH,
+                code::NO_LANE_TYPE,
+                code::GEOMETRY_APPROXIMATED,
+                code::IDS_RENUMBERED,
+            ],
         }
     }
 

@@ -3,6 +3,7 @@
 use super::MAX_RECORD_BYTES;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
 use crate::limits::memory_for;
+use crate::loss;
 use crate::source::Source;
 use crate::{identities, unpack};
 use scene::Scene;
@@ -25,6 +26,22 @@ impl Format for Womd {
             export: true,
             many: true,
             takes_net: false,
+            notes: "Road users with their states, lanes and what lies beside them, lights, who is to be \
+                 predicted. Checksums are checked. Plain or gzip.",
+            loses: &[
+                loss::code::NO_CONDITIONS,
+                loss::code::NO_GENERATED,
+                loss::code::NO_MODES,
+                loss::code::NO_SUBTYPE,
+                loss::code::NO_ROLES,
+                loss::code::NO_LICENCE,
+                loss::code::NO_NOTES,
+                loss::code::NO_DRIVABLE,
+                loss::code::NO_LANE_WIDTH,
+                loss::code::NO_LANE_TYPE,
+                loss::code::LONG_RECORD,
+                loss::code::IDS_RENUMBERED,
+            ],
         }
     }
 

@@ -34,6 +34,26 @@ impl Format for SimAgents {
             export: true,
             many: true,
             takes_net: false,
+            notes: "Each sample of a scene is a rollout of 80 steps: `generate --samples 32` makes as many \
+                 as the challenge takes. Who submits it is yours to fill in.",
+            loses: &[
+                code::NO_CONDITIONS,
+                code::NO_MODES,
+                code::NO_SUBTYPE,
+                code::NO_ROLES,
+                code::NO_LICENCE,
+                code::NO_NOTES,
+                code::NO_MAP,
+                code::NO_SIGNALS,
+                code::NO_SIZES,
+                code::NO_JUDGEMENTS,
+                code::NO_TIMING,
+                code::NO_UNSEEN,
+                code::NO_VALIDITY_GAPS,
+                code::NO_VELOCITY,
+                code::NO_ROLLOUTS,
+                code::IDS_RENUMBERED,
+            ],
         }
     }
 

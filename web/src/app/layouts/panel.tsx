@@ -1,6 +1,7 @@
 // The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
 import type { ComponentChildren } from 'preact';
-import { rangeOf, TEMPLATE_TITLES } from '../../model/layouts';
+import { useState } from 'preact/hooks';
+import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/layouts';
 import { num, type Quantity } from '../../model/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
@@ -70,7 +71,7 @@ export default function LayoutPanel() {
         </div>
         <div class="grow">
           <h2>{title}</h2>
-          <p>{inSentence(TEMPLATE_TITLES[wish.template])}</p>
+          <p>{[inSentence(TEMPLATE_TITLES[wish.template]), parameters?.control].filter(Boolean).join(', ')}</p>
         </div>
       </div>
       <div class="layouts">
@@ -191,6 +192,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
         <Count label={TEXTS.lanesOut} value={arm.lanes_out} set={(v) => set({ lanes_out: v })} />
       </Row>
       {layouts.wish.value?.template === 'roundabout' ? null : <TurnLanes index={index} arm={arm} />}
+      <Connections arm={index} />
       {number('length_m')}
       {number('speed_limit_kmh')}
       {(['cycle_lane_m', 'crosswalk_m', 'median_m'] as const).map((key) =>
@@ -252,30 +254,31 @@ const SIGNS = { left: '↰', straight: '↑', right: '↱' } as const;
 /** Where each lane leads; a click on a sign adds or takes it. */
 function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
   const { layouts } = useApp().editor;
-  const shown = arm.turns ?? layouts.made.value?.arms[index]?.turns ?? [];
-  if (!shown.length) return null;
-  const toggle = (lane: number, turn: (typeof TURNS)[number]) =>
-    layouts.setArm(index, {
-      turns: shown.map((t, i) =>
-        i !== lane
-          ? [...t]
-          : t.includes(turn)
-            ? t.filter((x) => x !== turn)
-            : TURNS.filter((x) => x === turn || t.includes(x)),
-      ),
-    });
+  // What turn lanes say, and what is there with single connections.
+  const said = arm.turns ?? layouts.made.value?.arms[index]?.turns ?? [];
+  if (!said.length) return null;
+  const there = (lane: number, turn: (typeof TURNS)[number]): boolean =>
+    layouts.ways.value.some((w) => w.turn === turn && String(laneOf(w.from)) === String([index, lane]));
+  const toggle = (lane: number, turn: (typeof TURNS)[number]) => {
+    const is = there(lane, turn);
+    layouts.setTurns(
+      index,
+      lane,
+      said.map((t, i) => (i !== lane ? [...t] : TURNS.filter((x) => (x === turn ? !is : there(lane, x))))),
+    );
+  };
   return (
     <Row label={TEXTS.turnLanes}>
       <span class="turns">
-        {shown.map((turns, lane) => (
+        {said.map((_, lane) => (
           <span key={lane} role="group" aria-label={TEXTS.lane(lane + 1)}>
             {TURNS.map((turn) => (
               <button
                 key={turn}
                 type="button"
-                aria-pressed={turns.includes(turn)}
+                aria-pressed={there(lane, turn)}
                 aria-label={TEXTS.lane2(lane + 1, turn)}
-                class={turns.includes(turn) ? 'on' : ''}
+                class={there(lane, turn) ? 'on' : ''}
                 onClick={() => toggle(lane, turn)}
               >
                 {SIGNS[turn]}
@@ -285,6 +288,93 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
         ))}
       </span>
     </Row>
+  );
+}
+
+/** Single ways of the arm in hand: picked, taken away, added; the same as on the picture. */
+function Connections({ arm }: { arm: number }) {
+  const { layouts } = useApp().editor;
+  const [lane, setLane] = useState(0);
+  const places = layouts.made.value?.arms ?? [];
+  const ins = places[arm]?.ins_m.length ?? 0;
+  if (!layouts.connects || !ins) return null;
+  const own = layouts.ways.value.filter((w) => laneOf(w.from)[0] === arm);
+  const from = Math.min(lane, ins - 1);
+  const free = places.flatMap((place, to) =>
+    place.outs_m.flatMap((_, out) => {
+      const way = connectionOf([arm, from], [to, out]);
+      return own.some((w) => sameWay(w, way)) ? [] : [{ way, name: layouts.exitName([to, out]) }];
+    }),
+  );
+  const changed = [...layouts.connections.added, ...layouts.connections.removed].some((w) => laneOf(w.from)[0] === arm);
+  return (
+    <div class="ways" role="group" aria-label={TEXTS.connections}>
+      <div class="line">
+        <span>{TEXTS.connections}</span>
+        {changed ? (
+          <button type="button" class="btn line" onClick={() => layouts.set(layouts.usualWays(arm))}>
+            {TEXTS.usualOnes}
+          </button>
+        ) : null}
+      </div>
+      <ul>
+        {own.map((way) => {
+          const words = TEXTS.laneTo(laneOf(way.from)[1] + 1, layouts.exitName(laneOf(way.to)));
+          const picked = !!layouts.way.value && sameWay(way, layouts.way.value);
+          return (
+            <li key={way.lane} class={picked ? 'on' : ''}>
+              <button
+                type="button"
+                aria-pressed={picked}
+                onClick={() => layouts.pickWay(picked ? null : { from: way.from, to: way.to })}
+                onPointerEnter={() => layouts.point({ kind: 'way', arm, way: { from: way.from, to: way.to } })}
+                onPointerLeave={() => layouts.point(null)}
+              >
+                <i aria-hidden="true">{SIGNS[way.turn]}</i>
+                {words}
+              </button>
+              <button type="button" class="x" aria-label={TEXTS.remove(words)} onClick={() => layouts.removeWay(way)}>
+                <Icon name="x" size={14} />
+              </button>
+            </li>
+          );
+        })}
+      </ul>
+      {free.length ? (
+        <div class="add">
+          <select
+            class="field pick"
+            aria-label={TEXTS.fromLane}
+            value={from}
+            onChange={(e) => setLane(Number(e.currentTarget.value))}
+          >
+            {Array.from({ length: ins }, (_, i) => (
+              <option key={i} value={i}>
+                {TEXTS.lane(i + 1)}
+              </option>
+            ))}
+          </select>
+          <select
+            class="field pick"
+            aria-label={TEXTS.connectTo}
+            value=""
+            onChange={(e) => {
+              const added = free.find(({ way }) => way.to === e.currentTarget.value)?.way;
+              if (!added) return;
+              layouts.addWay(added);
+              layouts.pickWay(added);
+            }}
+          >
+            <option value="">{TEXTS.connectToMore}</option>
+            {free.map(({ way, name }) => (
+              <option key={way.to} value={way.to}>
+                {name}
+              </option>
+            ))}
+          </select>
+        </div>
+      ) : null}
+    </div>
   );
 }
 
@@ -367,6 +457,7 @@ function Checks() {
   const { editor, stage } = useApp();
   const made = editor.layouts.made.value;
   const fault = editor.layouts.fault.value;
+  const failed = made?.checks.filter((c) => !c.passed) ?? [];
   return (
     <section class="sect last" aria-label={TEXTS.checks}>
       <h3>{TEXTS.checks}</h3>
@@ -382,7 +473,7 @@ function Checks() {
                   stage.glide.by((v) => Object.assign(v, { cx: x, cy: y }));
                 }}
               >
-                {c.text}
+                <b>{failed.indexOf(c) + 1}</b> {c.text}
               </button>
             ) : (
               c.text

@@ -1,13 +1,16 @@
-// A map that is being made, under the pointer: arms are turned, lanes come and go, kerbs bend wider.
+// A map that is being made, under the pointer: arms are turned and made longer, lanes come and go and are connected,
+// kerbs bend wider.
 import { clamp, type Point, type Vec } from '../../model/geometry';
+import { laneOf } from '../../model/layouts';
 import type { Arm } from '../../net/types';
-import type { Layouts } from '../layouts';
+import type { Knob, Layouts, Placed } from '../layouts';
 import type { View } from '../../draw/view';
 import type { Chart, State } from './chart';
 import { Panning } from './panning';
 import type { Press } from './pressed';
 import type { Tool } from './tools';
 import { TEXTS } from '../../texts/gestures';
+import { Connecting, stops, wayAt } from './ways';
 
 /** The knob of an arm lies so far out from its stop line, its lane buttons and those that take lanes away, metres. */
 const KNOB_M = 9;
@@ -21,20 +24,20 @@ const REACH_TOUCH_PX = 24;
 const STICKS_DEG = 3;
 const MOST_LANES = 5;
 const KERB_M: readonly [number, number] = [3, 20];
-
-/** What can be taken hold of. */
-export type Knob =
-  | { readonly kind: 'arm'; readonly arm: number; readonly at: Vec }
-  | { readonly kind: 'lane'; readonly arm: number; readonly side: 'in' | 'out'; readonly by: 1 | -1; readonly at: Vec }
-  | { readonly kind: 'kerb'; readonly corner: number; readonly at: Vec };
+const LENGTH_M: readonly [number, number] = [40, 200];
+/** So far in or out an arm that is turned keeps its length, metres. */
+const KEEPS_LENGTH_M = 6;
+/** Two clicks within this time and distance are a double click. */
+const DOUBLE_MS = 400;
+const DOUBLE_PX = 6;
 
 /** All knobs of the map that is being made, in metres. */
-export function knobs(layouts: Layouts): Knob[] {
+export function knobs(layouts: Layouts): Placed[] {
   const made = layouts.made.value;
   const arms = layouts.arms.value;
   if (!made || arms.length !== made.arms.length) return [];
   const inLeft = layouts.parameters.value?.traffic === 'left-hand' ? -1 : 1;
-  const all: Knob[] = made.corners.map((c, corner) => ({ kind: 'kerb', corner, at: [c.at_m[0], c.at_m[1]] }));
+  const all: Placed[] = made.corners.map((c, corner) => ({ kind: 'kerb', corner, at: [c.at_m[0], c.at_m[1]] }));
   made.arms.forEach((place, arm) => {
     const [mx, my] = place.mouth_m;
     const long = Math.hypot(place.end_m[0] - mx, place.end_m[1] - my) || 1;
@@ -48,22 +51,26 @@ export function knobs(layouts: Layouts): Knob[] {
       const aside = sign * (kerb + ASIDE_M);
       if (lanes < MOST_LANES) all.push({ kind: 'lane', arm, side, by: 1, at: at(MORE_M, aside) });
       const last = arms[arm].lanes_in + arms[arm].lanes_out === 1;
-      if (arm === layouts.arm.value && lanes > 0 && !last)
-        all.push({ kind: 'lane', arm, side, by: -1, at: at(FEWER_M, aside) });
+      const shown = arm === layouts.arm.value || arm === armOf(layouts.under.value);
+      if (shown && lanes > 0 && !last) all.push({ kind: 'lane', arm, side, by: -1, at: at(FEWER_M, aside) });
     }
     all.push({ kind: 'arm', arm, at: at(KNOB_M, 0) });
   });
   return all;
 }
 
+/** The arm that something belongs to. */
+const armOf = (knob: Knob | null): number | null => (knob && 'arm' in knob ? knob.arm : null);
+
 function knobAt(chart: Chart, p: Point, touch: boolean): Knob | null {
   const v: View = chart.surface.view;
+  const { layouts } = chart.editor;
   const reach = touch ? REACH_TOUCH_PX : REACH_PX;
-  const far = (k: Knob): number => Math.hypot(v.x(k.at[0]) - p.x, v.y(k.at[1]) - p.y);
-  const near = knobs(chart.editor.layouts)
-    .filter((k) => far(k) <= reach)
-    .sort((a, b) => far(a) - far(b));
-  return near[0] ?? null;
+  const far = (k: Placed): number => Math.hypot(v.x(k.at[0]) - p.x, v.y(k.at[1]) - p.y);
+  const near = [...knobs(layouts), ...stops(layouts)].filter((k) => far(k) <= reach).sort((a, b) => far(a) - far(b));
+  if (near[0]) return near[0];
+  const way = wayAt(layouts, v, p, touch);
+  return way ? { kind: 'way', arm: laneOf(way.from)[0], way } : null;
 }
 
 /** What is refused is not kept: the last map that could be drawn is the one in hand. */
@@ -76,14 +83,19 @@ class TurningArm implements State {
   readonly name = 'turning an arm';
   readonly followsModifiers = true;
   readonly #before: Arm;
+  /** How far out it was taken hold of, metres. */
+  readonly #out: number;
 
   constructor(
     private readonly chart: Chart,
     private readonly arm: number,
+    press: Point,
   ) {
     const { layouts } = chart.editor;
     this.#before = layouts.arms.peek()[arm];
+    this.#out = Math.hypot(...chart.surface.view.from(press.x, press.y));
     layouts.take(arm);
+    layouts.hold();
     layouts.turn({ index: arm, before: this.#before });
   }
 
@@ -94,6 +106,7 @@ class TurningArm implements State {
   leave(): void {
     this.chart.surface.setCursor('');
     this.chart.editor.layouts.turn(null);
+    this.chart.editor.layouts.letGo();
   }
 
   move(): void {
@@ -102,17 +115,21 @@ class TurningArm implements State {
     const [x, y] = chart.surface.view.from(chart.at.x, chart.at.y);
     const others = layouts.arms.peek().filter((_, i) => i !== this.arm);
     const angle_deg = snapped((Math.atan2(y, x) * 180) / Math.PI, others, chart.modifiers);
-    if (angle_deg !== layouts.arms.peek()[this.arm].angle_deg) layouts.setArm(this.arm, { angle_deg });
+    const by = Math.hypot(x, y) - this.#out;
+    const past = Math.sign(by) * Math.max(0, Math.abs(by) - KEEPS_LENGTH_M);
+    const length_m = past ? clamp(Math.round(this.#before.length_m + past), ...LENGTH_M) : this.#before.length_m;
+    const now = layouts.arms.peek()[this.arm];
+    if (angle_deg !== now.angle_deg || length_m !== now.length_m) layouts.setArm(this.arm, { angle_deg, length_m });
   }
 
   up(): void {
     this.move();
-    this.chart.rest();
     keepDrawn(this.chart.editor.layouts);
+    this.chart.rest();
   }
 
   cancel(): boolean {
-    this.chart.editor.layouts.setArm(this.arm, this.#before);
+    this.chart.editor.layouts.putBack();
     return true;
   }
 }
@@ -137,7 +154,6 @@ class BendingKerb implements State {
   readonly name = 'bending a kerb';
   readonly #from: Vec;
   readonly #radius: number;
-  readonly #before: number;
   /** Which way the knob goes when the radius grows, and how far for a metre. */
   readonly #way: Vec;
 
@@ -155,7 +171,11 @@ class BendingKerb implements State {
     this.#way = [x / long / per, y / long / per];
     this.#from = chart.surface.view.from(chart.at.x, chart.at.y);
     this.#radius = corner.radius_m;
-    this.#before = layouts.parameters.peek()!.kerb_radius_m!;
+    layouts.hold();
+  }
+
+  leave(): void {
+    this.chart.editor.layouts.letGo();
   }
 
   move(): void {
@@ -173,10 +193,21 @@ class BendingKerb implements State {
   }
 
   cancel(): boolean {
-    this.chart.editor.layouts.set({ kerb_radius_m: this.#before });
+    this.chart.editor.layouts.putBack();
     return true;
   }
 }
+
+const CURSORS: Readonly<Record<Knob['kind'], string>> = {
+  arm: 'grab',
+  kerb: 'grab',
+  lane: 'pointer',
+  stop: 'crosshair',
+  way: 'pointer',
+};
+
+/** The last click on free ground. */
+let clicked: Point & { t: number } = { x: 0, y: 0, t: -Infinity };
 
 /** What the pointer does while a map is being made, whatever tool is chosen in the rail. */
 export const MAKE: Tool = {
@@ -187,19 +218,28 @@ export const MAKE: Tool = {
   help: 'crossingsRoundabouts',
   cursor: '',
   picks: false,
-  hover: (chart) => chart.surface.setCursor(knobAt(chart, chart.at, false) ? 'grab' : ''),
+  hover: (chart) => {
+    const knob = knobAt(chart, chart.at, false);
+    chart.editor.layouts.point(knob);
+    chart.surface.setCursor(knob ? CURSORS[knob.kind] : '');
+  },
   drag(chart, press): State {
     const knob = knobAt(chart, press, press.touch);
-    if (knob?.kind === 'arm') return new TurningArm(chart, knob.arm);
+    if (knob?.kind === 'arm') return new TurningArm(chart, knob.arm, press);
     if (knob?.kind === 'kerb') return new BendingKerb(chart, knob);
+    if (knob?.kind === 'stop') return new Connecting(chart, knob, press.touch);
     return new Panning(chart, press);
   },
-  click(chart: Chart, press: Press): void {
+  click(chart: Chart, press: Press, timeStamp: number): void {
     const { layouts } = chart.editor;
     const knob = knobAt(chart, press, press.touch);
-    if (!knob || knob.kind === 'kerb') return;
-    layouts.take(knob.arm);
-    if (knob.kind === 'arm') return;
+    if (knob?.kind === 'way') layouts.pickWay(knob.way);
+    else if (knob && knob.kind !== 'kerb') layouts.take(knob.arm);
+    if (!knob) {
+      layouts.pickWay(null);
+      onGround(chart, press, timeStamp);
+    }
+    if (knob?.kind !== 'lane') return;
     const arm = layouts.arms.peek()[knob.arm];
     layouts.setArm(
       knob.arm,
@@ -207,3 +247,14 @@ export const MAKE: Tool = {
     );
   },
 };
+
+/** A double click beyond the junction adds an arm that leads there. */
+function onGround(chart: Chart, { x, y }: Press, t: number): void {
+  const { layouts } = chart.editor;
+  const again = t - clicked.t < DOUBLE_MS && Math.hypot(x - clicked.x, y - clicked.y) < DOUBLE_PX;
+  clicked = { x, y, t: again ? -Infinity : t };
+  const mouths = layouts.made.peek()?.arms.map((a) => Math.hypot(...a.mouth_m)) ?? [];
+  const [mx, my] = chart.surface.view.from(x, y);
+  if (again && mouths.length && Math.hypot(mx, my) > Math.min(...mouths))
+    layouts.addArm((Math.atan2(my, mx) * 180) / Math.PI);
+}

@@ -5,9 +5,8 @@ import type { Editor } from '../editor';
 import { agentsAt, hitTest, type HitContext } from '../hit';
 import type { Overlay } from '../overlay';
 import type { Picture } from '../picture';
-import { MAKE } from './arms';
 import { Chart, type MenuOn, type Modifiers, type Previews } from './chart';
-import { toolOf } from './tools';
+import { toolOf, type Tool, type ToolName } from './tools';
 
 const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
 /** Zoom a pixel of wheel; pinching on a trackpad arrives as a wheel with Ctrl. */
@@ -61,9 +60,16 @@ export class Gestures {
         this.onMenu?.(at, on, future);
       },
       tapped: (fingers) => this.onTap?.(fingers),
-      tool: (name) => (editor.layouts.isOpen.peek() && name !== 'pan' ? MAKE : toolOf(name)),
+      tool: (name) => this.#tool(name),
     });
     this.#listen(stage.element);
+  }
+
+  /** On a map that is being made its own, whatever is chosen in the rail. */
+  #tool(name: ToolName): Tool {
+    const { layouts } = this.editor;
+    if (!layouts.isOpen.peek() || name === 'pan') return toolOf(name);
+    return layouts.hands.peek()?.MAKE ?? toolOf('pan');
   }
 
   #listen(el: HTMLElement): void {
@@ -171,7 +177,8 @@ export class Gestures {
   }
 
   #doubleClick(e: MouseEvent): void {
-    // Whoever places or measures clicks fast.
+    // Whoever places or measures clicks fast; on a map that is being made it adds an arm.
+    if (this.editor.layouts.isOpen.peek()) return;
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
     if (hitTest(this.#context(false), x, y).kind !== 'none') return;
