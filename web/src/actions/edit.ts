@@ -99,7 +99,7 @@ export const edit = inGroup('Edit', [
     ...mirroring,
     when: (c) => {
       const [one, ...more] = c.editor.chosenOnes;
-      return one && !more.length && !one.goal.pos
+      return one && !more.length && !one.goal.pos && !one.goal.via.length
         ? 'One alone is mirrored by its goal. Set one first.'
         : mirroring.when!(c);
     },

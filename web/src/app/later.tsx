@@ -9,12 +9,14 @@ import { NOT_LOADED } from './incomplete';
 /** In the order in which they are likely to be wanted. */
 const PARTS = {
   agent: () => import('./inspector/agent-panel').then((m) => m.AgentPanel),
+  handles: () => import('./inspector/agent-panel').then((m) => m.Sliders),
   palette: () => import('./dialogs/palette').then((m) => m.Palette),
   'context menu': () => import('./context-menu').then((m) => m.ContextMenu),
   events: () => import('./inspector/events-panel').then((m) => m.EventsPanel),
   several: () => import('./inspector/several-panel').then((m) => m.SeveralPanel),
   place: () => import('./hud/place-panel').then((m) => m.PlacePanel),
   points: () => import('./timeline/point-fields').then((m) => m.PointFields),
+  scenes: () => import('./scenes/drawer').then((m) => m.Drawer),
   fill: () => import('./hud/fill-panel').then((m) => m.default),
   history: () => import('./history/panel').then((m) => m.HistoryPanel),
   'empty scene': () => import('./hud/empty-scene').then((m) => m.EmptyScene),

@@ -45,7 +45,7 @@ export class VerdictOverlay {
       const { width, alpha } = modeStyle(m.probability, most);
       // The worst is painted last, on top.
       for (const fault of [...(m.about?.faults ?? [])].reverse()) {
-        if (fault.kind === 'goal_missed') continue;
+        if (fault.kind === 'goal_missed' || fault.kind === 'via_missed') continue;
         paintBroken(g, v, stretchOf(f, i, fault), {
           width: i === chosen ? Math.max(width, 3.2) : width,
           alpha: i === chosen ? 1 : Math.max(0.45, 0.85 * alpha),

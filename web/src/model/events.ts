@@ -172,6 +172,7 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   harsh_braking: 'Hard braking',
   harsh_steering: 'Hard steering',
   near_miss: 'Near miss',
+  via_missed: 'Via point missed',
   goal_missed: 'Goal missed',
 };
 
@@ -269,6 +270,7 @@ const FACTS: Partial<Record<FaultKind, string>> = {
   off_road: 'Past the edge',
   harsh_braking: 'Braking',
   harsh_steering: 'Sideways',
+  via_missed: 'Away from the via point',
   goal_missed: 'Left to the goal',
 };
 

@@ -45,6 +45,8 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return f.extent === null || f.extent > GAP_M
         ? `close call with ${somebody(f, nameOf)}`
         : `${metres(f.extent, 1)} to ${somebody(f, nameOf)}`;
+    case 'via_missed':
+      return f.extent === null ? 'past the via point' : `${metres(f.extent, 1)} from the via point`;
     case 'goal_missed':
       return f.extent === null ? 'short' : `${metres(f.extent)} short`;
   }
@@ -182,6 +184,8 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
       const whom = somebody(worst, said.who.nameOf);
       return group(`near:${worst.with}`, `nearly hit ${whom}`, `nearly hits ${whom}`);
     }
+    case 'via_missed':
+      return group(worst.kind, 'miss a via point', 'misses a via point');
     case 'goal_missed': {
       if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
       return group('short', 'do not get there', 'does not get there');

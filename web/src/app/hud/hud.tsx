@@ -98,6 +98,8 @@ const TIPS = {
     ['Alt', 'fine'],
   ],
   time: [['Shift', 'whole seconds']],
+  via: [['Alt', 'no snapping']],
+  ring: [['Shift', 'half metres']],
 } as const;
 
 const AT_KERB = [

@@ -13,8 +13,12 @@ import { Changes } from './changes';
 import { FuturesSection } from './futures-section';
 import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
+import { ViasSection } from './vias-section';
 import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
+
+// Beside it in one script: who is selected has both at once.
+export { Sliders } from '../access/sliders';
 
 export function AgentPanel({ id }: { id: string }) {
   const agent = useAgent(id);
@@ -28,6 +32,7 @@ export function AgentPanel({ id }: { id: string }) {
             <Hint agent={agent} />
             <Warnings agent={agent} />
             <StartSection agent={agent} />
+            <ViasSection agent={agent} />
             <GoalSection agent={agent} />
           </Locked>
           <FuturesSection agent={agent} />
