@@ -130,7 +130,12 @@ fn condition_cases() -> Vec<Case> {
             422,
             "out-of-range",
         ),
-        case("five via points", with("/conditions/0/via", vec![json!({"x_m": 1, "y_m": 1}); 5].into()), 422, "invalid-field"),
+        case(
+            "five via points",
+            with("/conditions/0/via", vec![json!({"x_m": 1, "y_m": 1}); 5].into()),
+            422,
+            "invalid-field",
+        ),
         case("conditions of a stranger", with("/conditions/ghost", json!({})), 422, "unknown-agent"),
         case("stranger to regenerate", with("/agents/0", json!("ghost")), 422, "unknown-agent"),
         case("nobody to regenerate", with("/agents", json!([])), 422, "invalid-field"),

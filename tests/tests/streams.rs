@@ -54,7 +54,10 @@ fn via_points_are_passed_reported_and_stored() {
     assert_eq!(answer.status, 200, "{}", answer.text());
     let passed = &answer.json()["resolved"]["0"]["via"][0];
     assert_eq!(passed["passed"], json!(true), "{passed}");
-    assert!(passed["distance_m"].as_f64().unwrap() <= 1.0 && (passed["time_s"].as_f64().unwrap() - 4.5).abs() <= 0.5);
+    assert!(
+        passed["distance_m"].as_f64().unwrap() <= 1.0
+            && (passed["time_s"].as_f64().unwrap() - 4.5).abs() <= 0.5
+    );
     body["conditions"]["0"]["via"] = json!([{"x_m": 60.0, "y_m": 40.0}]);
     let missed = server.send(&ask(&body, "application/json")).unwrap().json();
     assert_eq!(missed["resolved"]["0"]["via"][0]["passed"], json!(false));

@@ -3,6 +3,7 @@ import type { Pen } from './pen';
 import { roundRect } from './sprites';
 import type { Vec } from '../model/geometry';
 import { colours, type ColourName } from './theme';
+import type { View } from './view';
 
 /** Where a pennant stands on screen, and whose it is. */
 export interface Pennant {
@@ -75,6 +76,9 @@ export function paintLock(g: Pen, x: number, y: number): void {
   g.stroke();
 }
 
+/** A ring is never so small that it cannot be taken apart from the diamond in it, in pixels. */
+export const ringRadius = (v: View, metres: number): number => Math.max(metres * v.z, 16 * v.grip);
+
 /** A via point: a diamond, and the dashed ring of its tolerance around it. */
 export function viaRing(
   g: Pen,
@@ -85,7 +89,7 @@ export function viaRing(
   const c = colours();
   const ring = (width: number, colour: string, dash: number[]): void => {
     g.beginPath();
-    g.arc(x, y, Math.max(radius, 9 * look.k), 0, Math.PI * 2);
+    g.arc(x, y, radius, 0, Math.PI * 2);
     g.strokeStyle = colour;
     g.lineWidth = width;
     g.setLineDash(dash);

@@ -10,7 +10,7 @@ import type { Editor, Grip, HandleName, Part } from './editor';
 import type { StopBar } from './overlay-stops';
 import type { RoadSign } from './overlay-verdicts';
 import { frameAround, poseShown } from './frame';
-import { onPennant, type Pennant } from '../draw/marks';
+import { onPennant, ringRadius, type Pennant } from '../draw/marks';
 
 export type Hit =
   | { kind: 'grip'; grip: Grip }
@@ -131,7 +131,7 @@ function viaAt(v: View, a: Agent, x: number, y: number): Grip | null {
   const away = a.goal.via.map((via) => Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y));
   const at = away.findIndex((d) => d <= 10);
   if (at >= 0) return { part: 'goal', handle: 'via', index: at };
-  const ring = away.findIndex((d, i) => Math.abs(d - a.goal.via[i].tolerance * v.z) <= 5);
+  const ring = away.findIndex((d, i) => Math.abs(d - ringRadius(v, a.goal.via[i].tolerance)) <= 5);
   return ring < 0 ? null : { part: 'goal', handle: 'ring', index: ring };
 }
 
@@ -161,7 +161,7 @@ function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | nu
     const away = Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y);
     offer({ part: 'goal', handle: 'via', index }, away);
     // A finger inside the ring takes the point, unless it is nearer to the ring.
-    offer({ part: 'goal', handle: 'ring', index }, Math.abs(away - via.tolerance * v.z) + 6);
+    offer({ part: 'goal', handle: 'ring', index }, Math.abs(away - ringRadius(v, via.tolerance)) + 6);
   });
   const start = startPose(a);
   if (!start || editor.time.value > 0.05) return best;

@@ -1,5 +1,5 @@
 // Via points on the picture: a diamond at the place, and a dashed ring as wide as its tolerance.
-import { viaRing } from '../draw/marks';
+import { ringRadius, viaRing } from '../draw/marks';
 import { pill, tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { colours } from '../draw/theme';
@@ -24,10 +24,10 @@ export function paintVias(g: Pen, labels: Labels, v: View, e: Editor, a: Agent):
     const missed = at?.ok === false;
     const colour = missed ? c['near-text'] : c.goal;
     const inHand = e.viaInHand.value === i;
-    viaRing(g, [x, y], via.tolerance * v.z, { colour, hollow: missed, inHand, k: v.grip });
+    viaRing(g, [x, y], ringRadius(v, via.tolerance), { colour, hollow: missed, inHand, k: v.grip });
     labels.block(x - 10 * v.grip, y - 10 * v.grip, 20 * v.grip, 20 * v.grip);
     if (drag?.handle === 'ring' && drag.index === i) {
-      tag(g, labels, [x + via.tolerance * v.z, y], `± ${metres(via.tolerance, 1)}`, {
+      tag(g, labels, [x + ringRadius(v, via.tolerance), y], `± ${metres(via.tolerance, 1)}`, {
         tries: [
           [8, -10],
           [8, 10],

@@ -103,7 +103,11 @@ fn what_is_missed_is_said() {
 fn via_points_hold_over_several_windows() {
     for interval in [30, 60, 90] {
         for (vias, goal, time_s) in [
-            (vec![via(-10.0, -1.75, 1.0, None), via(50.0, -1.75, 1.0, None)], Some((90.0, -1.75)), Some(18.0)),
+            (
+                vec![via(-10.0, -1.75, 1.0, None), via(50.0, -1.75, 1.0, None)],
+                Some((90.0, -1.75)),
+                Some(18.0),
+            ),
             (vec![via(60.0, -1.75, 1.0, Some(14.0))], None, None),
             (vec![via(1.75, 30.0, 1.0, None)], Some((1.75, 70.0)), Some(16.0)),
         ] {
@@ -118,7 +122,11 @@ fn via_points_hold_over_several_windows() {
             let answer = run(&GENERATOR, request);
             let resolved = &answer.resolved["1"];
             assert!(resolved.via.iter().all(|v| v.passed), "{interval} {goal:?}: {:?}", resolved.via);
-            assert!(goal.is_none() || matches!(resolved.reach, ReachReport::Reached { .. }), "{interval} {goal:?}: {:?}", resolved.reach);
+            assert!(
+                goal.is_none() || matches!(resolved.reach, ReachReport::Reached { .. }),
+                "{interval} {goal:?}: {:?}",
+                resolved.reach
+            );
         }
     }
 }

@@ -101,7 +101,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
         </div>
         <button
           type="button"
-          class="drop"
+          class="off"
           aria-label={`Remove ${name.toLowerCase()}`}
           title="Remove"
           onClick={() => run(removeVia(agent.peek(), i))}

@@ -36,7 +36,8 @@ export class ViaMove implements Move {
   to(at: Point, mods: Modifiers): Command {
     const [x, y] = this.view.from(at.x, at.y);
     if (this.grip.handle === 'ring') {
-      const metres = Math.hypot(x - this.#from[0], y - this.#from[1]);
+      const away = ([px, py]: Vec): number => Math.hypot(px - this.#from[0], py - this.#from[1]);
+      const metres = this.agent.goal.via[this.#index].tolerance + away([x, y]) - away(this.#grab);
       return widenVia(this.agent, this.#index, mods.shift ? Math.round(metres * 2) / 2 : metres)!;
     }
     const wanted: Vec = [this.#from[0] + x - this.#grab[0], this.#from[1] + y - this.#grab[1]];
