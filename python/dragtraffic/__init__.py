@@ -10,7 +10,7 @@ are those of the command line, to the last digit. Units are in the names: metres
     0
 """
 
-from ._conditions import Condition, Goal, Start, Velocity
+from ._conditions import Condition, Goal, Start, Velocity, Via
 from ._program import DragTrafficError, program, version
 from ._scene import Scene, open, open_all
 
@@ -21,6 +21,7 @@ __all__ = [
     "Scene",
     "Start",
     "Velocity",
+    "Via",
     "open",
     "open_all",
     "program",

@@ -53,6 +53,16 @@ class Goal:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Via:
+    """A place on the way: no farther than ``tolerance_m`` (1 when free), at ``time_s`` where that is fixed."""
+
+    x_m: float
+    y_m: float
+    tolerance_m: float | None = None
+    time_s: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Condition:
     """All that is fixed about one road user."""
 
@@ -61,6 +71,7 @@ class Condition:
     length_m: float | None = None
     width_m: float | None = None
     type: Literal["vehicle", "pedestrian", "cyclist"] | None = None
+    via: tuple[Via, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """As the program reads it."""
@@ -77,6 +88,11 @@ def _document(value: Any) -> dict[str, Any]:
         fixed = getattr(value, field.name)
         if fixed is None or fixed == ():
             continue
-        nested = isinstance(fixed, (Goal, Start, Velocity))
-        made[field.name] = _document(fixed) if nested else list(fixed) if isinstance(fixed, tuple) else fixed
+        made[field.name] = _value(fixed)
     return made
+
+
+def _value(fixed: Any) -> Any:
+    if isinstance(fixed, (Goal, Start, Velocity, Via)):
+        return _document(fixed)
+    return [_value(part) for part in fixed] if isinstance(fixed, tuple) else fixed

@@ -7,7 +7,7 @@ from pathlib import Path
 import dragtraffic
 import pandas
 import pytest
-from dragtraffic import Condition, Goal, Scene, Start, Velocity
+from dragtraffic import Condition, Goal, Scene, Start, Velocity, Via
 
 ROOT = Path(__file__).resolve().parents[2]
 CROSSING = ROOT / "assets/scenes/demo-crossing.json"
@@ -73,11 +73,12 @@ def test_frames_hold_every_step(turned: Scene) -> None:
 def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
     goal = Goal(ahead_m=20.0, left_m=0.0, velocity=Velocity(ahead_mps=5.0, left_mps=0.0))
     start = Start(speed_mps=3.0)
-    condition = Condition(goal=goal, start=start, length_m=6.0)
+    condition = Condition(goal=goal, start=start, length_m=6.0, via=(Via(x_m=1.0, y_m=2.0, tolerance_m=5.0),))
     assert condition.document() == {
         "goal": {"ahead_m": 20.0, "left_m": 0.0, "velocity": {"ahead_mps": 5.0, "left_mps": 0.0}},
         "start": {"speed_mps": 3.0},
         "length_m": 6.0,
+        "via": [{"x_m": 1.0, "y_m": 2.0, "tolerance_m": 5.0}],
         "frame": "agent",
     }
     made = scene.generate(conditions={"6": condition})

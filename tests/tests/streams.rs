@@ -44,6 +44,38 @@ fn endless(client: &str, revision: u64) -> Value {
 }
 
 #[test]
+fn via_points_are_passed_reported_and_stored() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = generate(1);
+    // The next lane half way, at a time of its own, and another place that nobody gets to in time.
+    let via = json!([{"x_m": -20.0, "y_m": 3.5, "tolerance_m": 1.0, "time_s": 4.5}]);
+    body["conditions"]["0"]["via"] = via.clone();
+    let answer = server.send(&ask(&body, "application/json")).unwrap();
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    let passed = &answer.json()["resolved"]["0"]["via"][0];
+    assert_eq!(passed["passed"], json!(true), "{passed}");
+    assert!(
+        passed["distance_m"].as_f64().unwrap() <= 1.0
+            && (passed["time_s"].as_f64().unwrap() - 4.5).abs() <= 0.5
+    );
+    body["conditions"]["0"]["via"] = json!([{"x_m": 60.0, "y_m": 40.0}]);
+    let missed = server.send(&ask(&body, "application/json")).unwrap().json();
+    assert_eq!(missed["resolved"]["0"]["via"][0]["passed"], json!(false));
+    let modes = missed["samples"][0]["agents"]["0"]["modes"].as_array().unwrap();
+    let says = |mode: &Value| mode["faults"].as_array().unwrap().iter().any(|f| f["kind"] == "via_missed");
+    assert!(modes.iter().all(says), "every future says that it misses the place");
+    assert!(missed["warnings"].as_array().unwrap().iter().any(|w| w["code"] == "via-missed"));
+    // A stored scene keeps them.
+    let mut scene = street(1, 91);
+    scene["agents"][0]["conditions"] = json!({"via": via});
+    let stored = server.send(&Request::new("POST", "/v1/scenes").json(&scene)).unwrap();
+    assert_eq!(stored.status, 201, "{}", stored.text());
+    let id = stored.json()["id"].as_str().unwrap().to_owned();
+    let back = server.send(&Request::new("GET", &format!("/v1/scenes/{id}"))).unwrap().json();
+    assert_eq!(back["agents"][0]["conditions"]["via"], via);
+}
+
+#[test]
 fn three_representations_have_equal_samples() {
     let server = Server::start(&[]).unwrap();
     let body = generate(4);

@@ -22,6 +22,7 @@ import { History } from '../src/model/history';
 import type { Agent, GoalSpec, Scene, StartSpec } from '../src/model/scene';
 import { LENGTHS, REPLANS, sceneKey } from '../src/model/scene';
 import { crossing } from './helpers';
+import { via } from '../src/model/via';
 
 const number = fc.double({ min: -200, max: 200, noNaN: true });
 const pos = fc.option(fc.tuple(number, number).map(([x, y]) => [x, y] as const));
@@ -35,6 +36,7 @@ const goal: fc.Arbitrary<GoalSpec> = fc.record({
   heading: fc.option(number),
   speed: fc.option(number),
   time: fc.double({ min: 1, max: 20, noNaN: true }),
+  via: fc.array(fc.tuple(number, number), { maxLength: 4 }).map((all) => all.map((p) => via(p))),
   mayCross: fc.array(fc.string(), { maxLength: 3 }),
 });
 

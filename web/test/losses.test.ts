@@ -35,7 +35,9 @@ describe('losses', () => {
   it('speaks of the scene at hand, the worst first', () => {
     const scene = crossing();
     const a = [...scene.agents.values()].find((b) => b.kind === 'car')!;
-    const changed = setGoal(a, { pos: [0, 0], heading: null, speed: null, time: 9, mayCross: [] }).apply(scene);
+    const changed = setGoal(a, { pos: [0, 0], heading: null, speed: null, time: 9, mayCross: [], via: [] }).apply(
+      scene,
+    );
     const losses = lossesOf('no-notes, no-conditions,no-road-users', changed);
     expect(losses.map((l) => l.what)).toEqual(['Road users', 'Goals', 'Names and notes']);
     expect(losses[0].how).toContain(`all ${scene.agents.size}`);

@@ -42,8 +42,8 @@ pub use placement::Placer;
 pub use planning::world::Planning;
 pub use request::{
     Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, Limiting, NearestState,
-    ReachReport, React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, Shown, Source, Stages,
-    Timings, Warning, WarningCode,
+    ReachReport, React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source,
+    Stages, Timings, Warning, WarningCode,
 };
 pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

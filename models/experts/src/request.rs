@@ -352,6 +352,23 @@ pub struct ByRoad {
     pub distance_m: f64,
 }
 
+/// How a future passes a via point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ResolvedVia {
+    /// Where it lies, metres.
+    pub x_m: f64,
+    /// Where it lies, metres.
+    pub y_m: f64,
+    /// How near was asked, metres.
+    pub tolerance_m: f64,
+    /// It is passed within its tolerance, and at its time where that is fixed.
+    pub passed: bool,
+    /// How near the future comes, metres.
+    pub distance_m: f64,
+    /// Scene time then, seconds.
+    pub time_s: f64,
+}
+
 /// Every condition field of one road user as it was used.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
@@ -368,6 +385,9 @@ pub struct Resolved {
     pub goal: ResolvedGoal,
     /// Verdict on the goal.
     pub reach: ReachReport,
+    /// How its shown future passes each via point, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub via: Vec<ResolvedVia>,
     /// Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
     /// road leads to in the same time.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -391,6 +411,8 @@ pub enum WarningCode {
     StartOverlaps,
     /// A log that ends was carried on.
     Extrapolated,
+    /// The shown future misses a via point.
+    ViaMissed,
 }
 
 impl WarningCode {
@@ -402,6 +424,7 @@ impl WarningCode {
             Self::StartOffRoad => "start-off-road",
             Self::StartOverlaps => "start-overlaps",
             Self::Extrapolated => "extrapolated",
+            Self::ViaMissed => "via-missed",
         }
     }
 }

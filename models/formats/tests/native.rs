@@ -132,6 +132,31 @@ fn edges_that_may_be_crossed_come_back_and_are_bounded() {
 }
 
 #[test]
+fn via_points_come_back_in_order_and_are_held_to_their_ranges() {
+    let read = |list: &str| resolve(&format!("{{\"goal\":{{\"time_s\":8}},\"via\":[{list}]}}"));
+    let found = read(r#"{"x_m":1,"y_m":2},{"x_m":30,"y_m":2,"tolerance_m":5,"time_s":4.04}"#).unwrap();
+    let told: Vec<_> = found.via.iter().map(|v| (v.position.x, v.tolerance_m, v.time_s)).collect();
+    assert_eq!(told, [(1.0, 1.0, None), (30.0, 5.0, Some(4.0))]);
+    let doc = ConditionsDoc::from_conditions(&found);
+    let context = Context { agent_type: AgentType::Vehicle, start: None, window: Window::default() };
+    assert_eq!(doc.resolve("", &context).unwrap().via, found.via);
+    let five = [r#"{"x_m":1,"y_m":2}"#; 5].join(",");
+    for (list, at, code) in [
+        (five.as_str(), "", "invalid-field"),
+        (r#"{"x_m":1e9,"y_m":2}"#, "/0/x_m", "out-of-range"),
+        (r#"{"x_m":4000,"y_m":2}"#, "/0/x_m", "out-of-range"),
+        (r#"{"x_m":1,"y_m":2,"tolerance_m":0.4}"#, "/0/tolerance_m", "out-of-range"),
+        (r#"{"x_m":1,"y_m":2,"tolerance_m":5.1}"#, "/0/tolerance_m", "out-of-range"),
+        (r#"{"x_m":1,"y_m":2,"time_s":0.2}"#, "/0/time_s", "out-of-range"),
+        (r#"{"x_m":1,"y_m":2,"time_s":8}"#, "/0/time_s", "invalid-field"),
+        (r#"{"x_m":1,"y_m":2,"time_s":4},{"x_m":2,"y_m":2,"time_s":4}"#, "/1/time_s", "invalid-field"),
+    ] {
+        let problem = read(list).unwrap_err().remove(0);
+        assert_eq!((problem.pointer, problem.code), (format!("/conditions/1/via{at}"), code), "{list}");
+    }
+}
+
+#[test]
 fn agent_frame_equals_scene_frame() {
     let (sin, cos) = 0.5_f64.sin_cos();
     let here = resolve(

@@ -88,6 +88,7 @@ fn traffic(count: usize) -> Vec<Actor<'static>> {
             log: None,
             generated: true,
             may_cross: &[],
+            via: &[],
             goal: Goal::default(),
             reference: None,
             modes: &[],

@@ -1,6 +1,6 @@
-//! What a user fixes about a road user: start and goal, each field free (`None`) or fixed.
+//! What a user fixes about a road user: start and goal, each field free (`None`) or fixed, and the places between.
 
-use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Vec2};
+use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Vec2, Via};
 use serde::Serialize;
 
 /// Most road edges that one road user may be allowed to drive over.
@@ -62,6 +62,9 @@ pub struct Conditions {
     /// Ids of the road edges that it may drive over on its way to the goal, at most [`MAX_CROSSED_EDGES`].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub may_cross: Vec<String>,
+    /// Places that it passes on its way, in this order, at most [`MAX_VIAS`](crate::MAX_VIAS).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub via: Vec<Via>,
 }
 
 impl Conditions {

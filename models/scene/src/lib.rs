@@ -44,6 +44,7 @@ pub mod score;
 pub mod shared;
 mod shown;
 pub mod signal;
+pub mod via;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
 pub use condition::{Conditions, Goal, MAX_CROSSED_EDGES, Start};
@@ -59,6 +60,7 @@ pub use scene::{Meta, Origin, Scene, SceneError, Timing};
 pub use shared::Shared;
 pub use shown::Shown;
 pub use signal::{Signal, SignalState};
+pub use via::{DEFAULT_VIA_TOLERANCE_M, MAX_VIAS, Passing, VIA_TOLERANCE_M, Via};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).
 pub const STEP_S: f64 = 0.1;

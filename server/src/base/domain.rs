@@ -4,7 +4,8 @@
 use experts::request::{DEFAULTS, Defaults};
 use formats::native::Ranges;
 use scene::limits::Limits;
-use scene::{AgentType, Size, Subtype};
+use scene::via::VIA_WITHIN_S;
+use scene::{AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_VIAS, Size, Subtype, VIA_TOLERANCE_M};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -93,11 +94,24 @@ impl ConditionRanges {
     }
 }
 
+/// What via points may ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ViaRanges {
+    /// Of one road user.
+    most: usize,
+    /// Both ends are allowed.
+    tolerance_m: (f64, f64),
+    default_tolerance_m: f64,
+    /// So far from its time one may be passed.
+    within_s: f64,
+}
+
 /// All of them, as `assets/domain.json` has them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Domain {
     limits: KindLimits,
     condition_ranges: ConditionRanges,
+    via: ViaRanges,
     defaults: Defaults,
     /// By kind of layout and parameter.
     layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
@@ -107,7 +121,13 @@ impl Domain {
     /// Those of this build.
     pub fn current() -> Self {
         let (limits, condition_ranges) = (KindLimits::current(), ConditionRanges::current());
-        Self { limits, condition_ranges, defaults: DEFAULTS, layout_ranges: layouts::ranges() }
+        let via = ViaRanges {
+            most: MAX_VIAS,
+            tolerance_m: VIA_TOLERANCE_M,
+            default_tolerance_m: DEFAULT_VIA_TOLERANCE_M,
+            within_s: VIA_WITHIN_S,
+        };
+        Self { limits, condition_ranges, via, defaults: DEFAULTS, layout_ranges: layouts::ranges() }
     }
 }
 

@@ -2,13 +2,21 @@
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove, cyclistOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
-import { turn } from '../support/editor.js';
+import { distance, turn } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
 /** Pixels from the rear of a box to the knob that turns it, and from its nose to where the speed arrow begins. */
 const STALK = 24,
   GAP = 5;
 const SHORTEST_RIDER_PX = 17;
+
+/** Half way along the future of somebody that the generator shows, in metres. */
+async function middleOf(e, { id }) {
+  const answer = e.wire.asked.findLast((a) => a.event('final')?.samples[0].agents[id]).event('final');
+  const { chosen, modes } = answer.samples[0].agents[id];
+  const { x_m, y_m } = modes[chosen];
+  return [x_m[x_m.length >> 1], y_m[y_m.length >> 1]];
+}
 
 journeys('goals and values', (stage) => {
   it('says why a goal is out of reach and mends it with one click', { timeout: 60_000 }, async () => {
@@ -50,6 +58,63 @@ journeys('goals and values', (stage) => {
       assert.match(await e.text('.hint'), /Too far for 2\.0 s/);
     }
   });
+
+  it(
+    'leads a car over a place on its way: put, dragged, widened, timed and taken away',
+    { timeout: 90_000 },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      const car = await carOnTheMove(e);
+      await e.choose(car.id);
+      const on = await middleOf(e, car);
+      await e.page.keyboard.down('Shift');
+      await e.page.mouse.click(...(await e.at(...on)));
+      await e.page.keyboard.up('Shift');
+      await e.settled();
+      const asked = () => e.wire.last().body.conditions[car.id].via[0];
+      const answered = () => e.wire.asked.findLast((a) => a.event('final'))?.event('final').resolved[car.id].via[0];
+      assert.ok(distance({ x: asked().x_m, y: asked().y_m }, { x: on[0], y: on[1] }) < 1, 'where the path was clicked');
+      assert.equal(asked().tolerance_m, 1);
+      assert.ok(answered().passed, JSON.stringify(answered()));
+      assert.match(await e.text('.toast'), new RegExp(`Via point of ${car.name} added`));
+
+      // To the side by hand: the futures follow.
+      const at = await e.at(asked().x_m, asked().y_m);
+      const heading = car.start.heading;
+      const side = await e.at(asked().x_m - 1.2 * Math.sin(heading), asked().y_m + 1.2 * Math.cos(heading));
+      const mark = e.wire.asked.length;
+      await e.page.keyboard.down('Alt');
+      await e.drag(at, side);
+      assert.ok(e.wire.since(mark).length > 0, 'asked while the hand moves');
+      await e.release();
+      await e.page.keyboard.up('Alt');
+      assert.ok(answered().passed, JSON.stringify(answered()));
+      await e.picture('via-point');
+
+      await e.type('via-0-tolerance', '2.5');
+      assert.equal(asked().tolerance_m, 2.5);
+      const fixed = e.page.getByRole('switch', { name: 'Via point time fixed' });
+      await fixed.click();
+      await e.settled();
+      const time = asked().time_s;
+      assert.ok(time > 0.5 && time < 9, `${time} s`);
+      const slider = e.page.getByRole('slider', { name: 'Via point time' });
+      await slider.focus();
+      await e.key('Shift+ArrowUp');
+      await e.settled();
+      assert.ok(Math.abs(asked().time_s - time - 1) < 0.06, `${asked().time_s} s after ${time} s`);
+
+      await e.page.getByRole('slider', { name: 'Via point position' }).focus();
+      await e.key('Delete');
+      await e.settled();
+      assert.equal(await e.page.locator('.viarows').count(), 0);
+      await e.key('Control+z');
+      await e.settled();
+      assert.equal(await e.page.locator('.viarows').count(), 1);
+      assert.equal(asked().tolerance_m, 2.5);
+    },
+  );
 
   it('takes typed, freed and dragged values, and undoes and redoes all of them', { timeout: 90_000 }, async () => {
     const e = await stage.open();

@@ -103,7 +103,9 @@ export const edit = inGroup('edit', [
     ...mirroring,
     when: (c) => {
       const [one, ...more] = c.editor.chosenOnes;
-      return one && !more.length && !one.goal.pos ? TEXTS.oneAloneIsMirrored : mirroring.when!(c);
+      return one && !more.length && !one.goal.pos && !one.goal.via.length
+        ? TEXTS.oneAloneIsMirrored
+        : mirroring.when!(c);
     },
   },
   {

@@ -6,6 +6,7 @@ import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
 import { leaveToCross, roadWay } from '../edit/ways-out';
 import { clearGoals } from '../edit/several';
+import { addVia, removeVia, roomForVia } from '../edit/vias';
 import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
@@ -66,6 +67,26 @@ function take({ editor }: Context, a: Agent, i: number): void {
   if (command) editor.run(command);
 }
 
+function viaInHand({ editor }: Context): { a: Agent; i: number } | null {
+  const a = editor.agent.value;
+  const i = editor.viaInHand.value;
+  return a && i !== null ? { a, i } : null;
+}
+
+/** On the future that the menu or the pointer is on; else half way along the one in force. */
+function putVia(c: Context): void {
+  const { editor, ui, gestures, stage } = c;
+  const a = editor.agent.peek();
+  if (!a) return;
+  const future = pointed(c);
+  const at = ui.contextMenu.peek() ?? gestures.pointer;
+  const near = future !== null && at ? stage.view.from(at.x, at.y) : null;
+  const added = addVia(editor, a, near, future ?? undefined);
+  if (!added) return;
+  editor.run(added.command);
+  editor.takeVia(added.index);
+}
+
 const clearing: Pick<Action, 'when' | 'run'> = {
   ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : clearGoal(all[0]))),
   when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : TEXTS.noGoalIsSet),
@@ -117,6 +138,34 @@ export const goal = inGroup('goal', [
     icon: 'x',
     help: 'theGenerator',
     ...clearing,
+  },
+  {
+    id: 'add-via',
+    label: 'Add a via point',
+    keys: ['I'],
+    icon: 'via',
+    help: 'A place to pass on the way: where a future is pointed at, else half way. Shift and a click on a path, too',
+    when(c) {
+      const a = c.editor.agent.value;
+      const free = hasFree(c);
+      if (free !== true || !a) return free;
+      return c.editor.futures.value ? roomForVia(a) : 'It has no futures yet.';
+    },
+    run: (c) => putVia(c),
+  },
+  {
+    id: 'remove-via',
+    label: 'Remove the via point',
+    keys: ['Del', 'Backspace'],
+    icon: 'trash',
+    help: 'The one that was taken last',
+    onOffer: (c) => viaInHand(c) !== null,
+    when: (c) => (viaInHand(c) === null ? 'Take a via point first.' : hasFree(c)),
+    run(c) {
+      const found = viaInHand(c);
+      const command = found && removeVia(found.a, found.i);
+      if (command) c.editor.run(command);
+    },
   },
   {
     id: 'toggle-field',

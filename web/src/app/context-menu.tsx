@@ -28,6 +28,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     ...DOES,
     null,
     'set-goal',
+    'add-via',
     'clear-goal',
     'reset-agent',
     null,
@@ -54,8 +55,8 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'find-case',
     'zoom-selection',
   ],
-  future: ['future-choose', 'future-play', 'future-compare', null, 'future-best', 'set-goal'],
-  goal: ['clear-goal', 'toggle-goal-speed', null, 'zoom-selection', 'reset-agent'],
+  future: ['future-choose', 'future-play', 'future-compare', null, 'add-via', 'future-best', 'set-goal'],
+  goal: ['clear-goal', 'toggle-goal-speed', null, 'remove-via', null, 'zoom-selection', 'reset-agent'],
   ground: [
     'paste',
     null,

@@ -10,7 +10,6 @@ import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { fetchRest, Later } from './later';
 import { AppProvider, useApp } from './parts/app-context';
-import { Drawer } from './scenes/drawer';
 import { Sheet } from './sheet/sheet';
 import { Timeline } from './timeline/timeline';
 import { TopBar } from './topbar';
@@ -48,7 +47,7 @@ function OverPicture() {
       <HandleSliders />
       <Hud />
       {making ? <Later part="templates" /> : null}
-      {drawer === 'scenes' ? <Drawer /> : null}
+      {drawer === 'scenes' ? <Later part="scenes" /> : null}
       {drawer === 'history' ? <Later part="history" /> : null}
     </>
   );

@@ -1,7 +1,9 @@
 // Small marks beside road users: the pennant at a goal, the lock of one that is not to be moved.
 import type { Pen } from './pen';
 import { roundRect } from './sprites';
+import type { Vec } from '../model/geometry';
 import { colours, type ColourName } from './theme';
+import type { View } from './view';
 
 /** Where a pennant stands on screen, and whose it is. */
 export interface Pennant {
@@ -71,5 +73,45 @@ export function paintLock(g: Pen, x: number, y: number): void {
   g.lineWidth = 1.2;
   g.beginPath();
   g.arc(x, y - 1, 2, Math.PI, 0);
+  g.stroke();
+}
+
+/** A ring is never so small that it cannot be taken apart from the diamond in it, in pixels. */
+export const ringRadius = (v: View, metres: number): number => Math.max(metres * v.z, 16 * v.grip);
+
+/** A via point: a diamond, and the dashed ring of its tolerance around it. */
+export function viaRing(
+  g: Pen,
+  [x, y]: Vec,
+  radius: number,
+  look: { colour: string; hollow: boolean; inHand: boolean; k: number },
+): void {
+  const c = colours();
+  const ring = (width: number, colour: string, dash: number[]): void => {
+    g.beginPath();
+    g.arc(x, y, radius, 0, Math.PI * 2);
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.setLineDash(dash);
+    g.stroke();
+    g.setLineDash([]);
+  };
+  ring(look.inHand ? 5 : 4, c.halo, []);
+  ring(look.inHand ? 2.4 : 1.6, look.colour, [4, 3.5]);
+  const r = 7.5 * look.k;
+  g.beginPath();
+  g.moveTo(x, y - r);
+  g.lineTo(x + r, y);
+  g.lineTo(x, y + r);
+  g.lineTo(x - r, y);
+  g.closePath();
+  g.lineJoin = 'round';
+  g.strokeStyle = c.halo;
+  g.lineWidth = 5;
+  g.stroke();
+  g.fillStyle = look.hollow ? c.surface : look.colour;
+  g.fill();
+  g.strokeStyle = look.colour;
+  g.lineWidth = 2;
   g.stroke();
 }

@@ -26,10 +26,12 @@ import { TEXTS } from '../texts/generation';
 
 export type Part = 'start' | 'goal';
 export type Field = 'pos' | 'heading' | 'speed';
-export type HandleName = 'body' | 'heading' | 'speed' | 'time';
+export type HandleName = 'body' | 'heading' | 'speed' | 'time' | 'via' | 'ring';
 export interface Grip {
   readonly part: Part;
   readonly handle: HandleName;
+  /** Which of the via points. */
+  readonly index?: number;
 }
 /** What the pointer is over: one of the three, or nothing. */
 export interface Pointed {
@@ -129,6 +131,7 @@ export class Editor {
   readonly #hoverFuture = signal<number | null>(null);
   readonly #hoverGrip = signal<Grip | null>(null);
   readonly #focusPart = signal<Part>('start');
+  readonly #viaInHand = signal<number | null>(null);
   readonly #lastField = signal<{ part: Part; field: Field }>({ part: 'goal', field: 'speed' });
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
@@ -160,6 +163,11 @@ export class Editor {
   readonly hoverGrip: ReadonlySignal<Grip | null> = this.#hoverGrip;
   /** The part that keys move. */
   readonly focusPart: ReadonlySignal<Part> = this.#focusPart;
+  /** The via point that keys are about; null where there is none. */
+  readonly viaInHand = computed<number | null>(() => {
+    const i = this.#viaInHand.value;
+    return i !== null && i < (this.agent.value?.goal.via.length ?? 0) ? i : null;
+  });
   readonly lastField: ReadonlySignal<{ part: Part; field: Field }> = this.#lastField;
   readonly tool: ReadonlySignal<ToolName> = this.#tool;
   /** Ends of the measuring line, in metres. */
@@ -397,6 +405,7 @@ export class Editor {
     batch(() => {
       this.playhead.pause();
       this.#focusPart.value = grip.part;
+      this.#viaInHand.value = grip.index ?? null;
       this.#history?.begin();
       this.#drag.value = { grip, laneName: null, laneId: null, stop: null, lag: null };
       this.answers.dragBegan();
@@ -471,6 +480,7 @@ export class Editor {
       this.#hoverFuture.value = null;
       this.#selectedEvent.value = null;
       this.#focusPart.value = 'start';
+      this.#viaInHand.value = null;
       this.answers.forgetLook();
     });
     const a = this.agent.peek();
@@ -502,6 +512,12 @@ export class Editor {
   /** Keys move this part from now on. */
   activate(part: Part): void {
     this.#focusPart.value = part;
+    this.#viaInHand.value = null;
+  }
+
+  /** Keys are about this via point from now on, or about none. */
+  takeVia(index: number | null): void {
+    this.#viaInHand.value = index;
   }
 
   /** The field that "fixed or free" is about from now on. */

@@ -10,7 +10,7 @@ import type { Editor, Grip, HandleName, Part } from './editor';
 import type { StopBar } from './overlay-stops';
 import type { RoadSign } from './overlay-verdicts';
 import { frameAround, poseShown } from './frame';
-import { onPennant, type Pennant } from '../draw/marks';
+import { onPennant, ringRadius, type Pennant } from '../draw/marks';
 
 export type Hit =
   | { kind: 'grip'; grip: Grip }
@@ -111,6 +111,8 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   if (c.touch) return gripForFinger(c, a, x, y);
   const { view: v, editor } = c;
   const r = 11;
+  const via = viaAt(v, a, x, y);
+  if (via) return via;
   const goal = editor.goalPose(a);
   if (goal) {
     const g = handlePoints(v, a, goal);
@@ -126,6 +128,15 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   if (near(s.tip, x, y, r)) return { part: 'start', handle: 'speed' };
   if (near(s.knob, x, y, r)) return { part: 'start', handle: 'heading' };
   return onBox(v, a, start, x, y) ? { part: 'start', handle: 'body' } : null;
+}
+
+/** The diamond of a via point, or its ring where that is not the same place. */
+function viaAt(v: View, a: Agent, x: number, y: number): Grip | null {
+  const away = a.goal.via.map((via) => Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y));
+  const at = away.findIndex((d) => d <= 10);
+  if (at >= 0) return { part: 'goal', handle: 'via', index: at };
+  const ring = away.findIndex((d, i) => Math.abs(d - ringRadius(v, a.goal.via[i].tolerance)) <= 5);
+  return ring < 0 ? null : { part: 'goal', handle: 'ring', index: ring };
 }
 
 /** The handle nearest to a finger: it covers more than one, and what it is on is nearer than what lies beside. */
@@ -150,6 +161,12 @@ function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | nu
       point('goal', 'heading', g.knob);
     }
   }
+  a.goal.via.forEach((via, index) => {
+    const away = Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y);
+    offer({ part: 'goal', handle: 'via', index }, away);
+    // A finger inside the ring takes the point, unless it is nearer to the ring.
+    offer({ part: 'goal', handle: 'ring', index }, Math.abs(away - ringRadius(v, via.tolerance)) + 6);
+  });
   const start = startPose(a);
   if (!start || editor.time.value > 0.05) return best;
   const s = handlePoints(v, a, start);

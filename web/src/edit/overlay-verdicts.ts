@@ -46,7 +46,7 @@ export class VerdictOverlay {
       const { width, alpha } = modeStyle(m.probability, most);
       // The worst is painted last, on top.
       for (const fault of [...(m.about?.faults ?? [])].reverse()) {
-        if (fault.kind === 'goal_missed' || fault.time > until) continue;
+        if (fault.kind === 'goal_missed' || fault.kind === 'via_missed' || fault.time > until) continue;
         const stretch = stretchOf(f, i, fault);
         paintBroken(
           g,

@@ -24,6 +24,7 @@ import { HoveredOverlay } from './overlay-hovered';
 import { paintStops, type StopBar } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
+import { paintVias } from './overlay-via';
 import { saidOf } from './rounds/said';
 import { TEXTS } from '../texts/picture';
 
@@ -238,6 +239,7 @@ export class Overlay {
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
+    paintVias(g, this.labels, v, e, a);
     this.stops = paintStops(g, this.labels, v, e, a);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);

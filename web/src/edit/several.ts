@@ -1,12 +1,19 @@
 // Changes of one road user or of many at once, each one step of the history.
 import { wrapAngle, type Vec } from '../model/geometry';
-import { addAgents, nameAs, patchAgents, removeAgents, type AgentPatch, type Command } from '../model/commands';
+import {
+  addAgents,
+  nameAs,
+  patchAgents,
+  removeAgents,
+  withoutGoal,
+  type AgentPatch,
+  type Command,
+} from '../model/commands';
 import { topSpeed } from '../model/domain';
 import { countWords, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
 import { copyOf, settle, type Newcomer } from '../model/newcomer';
 import {
   canMove,
-  freeGoal,
   hasGoal,
   newIds,
   startPose,
@@ -16,6 +23,7 @@ import {
   type Scene,
   type StartSpec,
 } from '../model/scene';
+import { shiftedVias } from '../model/via';
 import { freeShift, standing } from './room';
 import { shifted } from '../model/newcomer';
 import { TEXTS } from '../texts/moves';
@@ -69,7 +77,9 @@ export function moveAll(all: readonly Agent[], dx: number, dy: number, goals = f
       if (!p) return null;
       const patch = started(a, { pos: at(p.x + dx, p.y + dy) });
       const g = a.goal.pos;
-      return goals && g ? { ...patch, goal: Object.freeze({ ...a.goal, pos: at(g[0] + dx, g[1] + dy) }) } : patch;
+      if (!goals || (!g && !a.goal.via.length)) return patch;
+      const via = shiftedVias(a.goal.via, (x, y) => [x + dx, y + dy]);
+      return { ...patch, goal: Object.freeze({ ...a.goal, pos: g && at(g[0] + dx, g[1] + dy), via }) };
     },
     fold,
   );
@@ -132,7 +142,8 @@ export function mirrorAll(all: readonly Agent[]): Command | null {
     if (!p) return null;
     const g = a.goal;
     const heading = g.heading === null ? null : across(g.heading);
-    const aim = g.pos ? aimed(a, { pos: over(g.pos), heading }) : null;
+    const via = shiftedVias(g.via, (x, y) => over([x, y]));
+    const aim = g.pos || via.length ? aimed(a, { pos: g.pos && over(g.pos), heading, via }) : null;
     const start = all.length > 1 ? started(a, { pos: over([p.x, p.y]), heading: across(p.heading) }) : null;
     return start || aim ? { ...start, ...aim } : null;
   });
@@ -218,7 +229,7 @@ export function fasterAll(all: readonly Agent[], steps: number): Command | null 
 
 export const clearGoals = (all: readonly Agent[]): Command | null =>
   changeAll(all, TEXTS.goalsOfCleared(all.length, whoWords(all)), (a) =>
-    hasGoal(a.goal) ? { goal: freeGoal(), chosen: null } : null,
+    hasGoal(a.goal) ? { goal: withoutGoal(a), chosen: null } : null,
   );
 
 export const lockAll = (all: readonly Agent[], locked: boolean): Command | null =>

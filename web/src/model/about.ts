@@ -44,6 +44,7 @@ export const FAULT_KINDS: readonly FaultKind[] = [
   'harsh_braking',
   'harsh_steering',
   'near_miss',
+  'via_missed',
   'goal_missed',
 ];
 
@@ -52,8 +53,13 @@ export type Mark = 'collision' | 'rule' | 'near' | 'short' | 'ok';
 
 const MARKS: readonly Mark[] = ['collision', 'rule', 'near', 'short', 'ok'];
 
-const kindMark = (kind: FaultKind): Mark =>
-  kind === 'collision' ? 'collision' : kind === 'near_miss' ? 'near' : kind === 'goal_missed' ? 'short' : 'rule';
+const KIND_MARKS: Partial<Record<FaultKind, Mark>> = {
+  collision: 'collision',
+  near_miss: 'near',
+  via_missed: 'short',
+  goal_missed: 'short',
+};
+const kindMark = (kind: FaultKind): Mark => KIND_MARKS[kind] ?? 'rule';
 
 export const faultMark = (f: Pick<Fault, 'kind'>): Mark => kindMark(f.kind);
 

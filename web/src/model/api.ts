@@ -1091,6 +1091,8 @@ export interface components {
              * @enum {unknown}
              */
             type?: "vehicle" | "pedestrian" | "cyclist" | null;
+            /** @description Places that it passes on its way, in this order; always in the frame `scene`. */
+            via?: components["schemas"]["ViaDoc"][];
             /**
              * Format: double
              * @description Metres.
@@ -1371,7 +1373,7 @@ export interface components {
          * FaultKind
          * @description What can be wrong with a motion, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "via_missed" | "goal_missed";
         /**
          * Features
          * @description A motion of one road user, or of several together, in such terms.
@@ -3218,6 +3220,8 @@ export interface components {
             start: components["schemas"]["ResolvedStart"];
             /** @description Expert that ran. */
             type: components["schemas"]["AgentType"];
+            /** @description How its shown future passes each via point, in their order. */
+            via?: components["schemas"]["ResolvedVia"][];
             /** @description Across the heading. */
             width_m: components["schemas"]["Field"];
         };
@@ -3242,6 +3246,39 @@ export interface components {
             speed_mps: components["schemas"]["Field"];
             x_m: components["schemas"]["Field"];
             y_m: components["schemas"]["Field"];
+        };
+        /**
+         * ResolvedVia
+         * @description How a future passes a via point.
+         */
+        ResolvedVia: {
+            /**
+             * Format: double
+             * @description How near the future comes, metres.
+             */
+            distance_m: number;
+            /** @description It is passed within its tolerance, and at its time where that is fixed. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Scene time then, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description How near was asked, metres.
+             */
+            tolerance_m: number;
+            /**
+             * Format: double
+             * @description Where it lies, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where it lies, metres.
+             */
+            y_m: number;
         };
         /**
          * Road
@@ -4358,6 +4395,33 @@ export interface components {
          */
         Verdict: "keep" | "reject";
         /**
+         * ViaDoc
+         * @description A place that a road user passes on its way.
+         */
+        ViaDoc: {
+            /**
+             * Format: double
+             * @description Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
+             *     those before it and no later than the goal. Snapped to 0.1.
+             */
+            time_s?: number | null;
+            /**
+             * Format: double
+             * @description Passed no farther away than this, metres; 1 when absent.
+             */
+            tolerance_m?: number | null;
+            /**
+             * Format: double
+             * @description Box centre, metres, scene frame.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre, metres, scene frame.
+             */
+            y_m: number;
+        };
+        /**
          * Warning
          * @description Something unlikely that was done anyway.
          */
@@ -4373,7 +4437,7 @@ export interface components {
          * WarningCode
          * @description What is unlikely.
          */
-        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated";
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed";
         /**
          * Way
          * @description Which way of a trait is wished.

@@ -2,6 +2,7 @@
 import { KIND_NAMES } from './kinds';
 import type { Profile } from './profile';
 import { kindOf } from './read';
+import { inOrder, type Via } from './via';
 import {
   durationOf,
   freeGoal,
@@ -86,8 +87,11 @@ const one = (name: string, id: string, patch: AgentPatch, fold?: string): Comman
 /** New demands make an earlier pick among six futures meaningless, so it goes back to the generator. */
 export const setStart = (a: Agent, start: StartSpec, what = TEXTS.start): Command =>
   one(TEXTS.ofChanged(what, a.name), a.id, { start: Object.freeze(start), chosen: null }, 'start');
+/** A via point whose time is not before the goal's any more has none. */
+const kept = (goal: GoalSpec): GoalSpec => Object.freeze({ ...goal, via: inOrder(goal.via, goal.time) });
+
 export const setGoal = (a: Agent, goal: GoalSpec, what = TEXTS.goal): Command =>
-  one(TEXTS.ofMoved(what, a.name), a.id, { goal: Object.freeze(goal), chosen: null }, 'goal');
+  one(TEXTS.ofMoved(what, a.name), a.id, { goal: kept(goal), chosen: null }, 'goal');
 /** A goal that was decided on: a step of its own, however soon after another change of the goal. */
 export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   ...setGoal(a, goal),
@@ -120,7 +124,13 @@ export function setCurve(a: Agent, index: number | null, profile: Profile | null
   return one(TEXTS.speedCurveOfChanged(a.name), a.id, patch);
 }
 export const clearGoal = (a: Agent): Command =>
-  one(TEXTS.goalOfCleared(a.name), a.id, { goal: freeGoal(), chosen: null });
+  one(TEXTS.goalOfCleared(a.name), a.id, { goal: withoutGoal(a), chosen: null });
+/** A goal that asks for nothing; the places on the way stay. */
+export const withoutGoal = (a: Agent): GoalSpec =>
+  Object.freeze({ ...freeGoal(), via: inOrder(a.goal.via, freeGoal().time) });
+/** Places on the way, in their order. */
+export const setVias = (a: Agent, all: readonly Via[], name: string, fold?: string): Command =>
+  one(name, a.id, { goal: Object.freeze({ ...a.goal, via: Object.freeze(all) }), chosen: null }, fold);
 
 /** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
 export function recorded(a: Agent): AgentPatch {

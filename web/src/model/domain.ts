@@ -28,6 +28,9 @@ const RANGES = domain.condition_ranges as unknown as Record<Exclude<AgentType, '
 
 export const DEFAULTS = domain.defaults;
 
+/** What places on the way may ask for. */
+export const VIAS = domain.via;
+
 /** By type, and for vehicles by what the scene calls them: one without a word of its own is a car. */
 export function limitsOf(a: Pick<Agent, 'type' | 'subtype'>): Limits {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return LIMITS[a.type];

@@ -173,6 +173,7 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   harsh_braking: TEXTS.hardBraking,
   harsh_steering: TEXTS.hardSteering,
   near_miss: TEXTS.nearMiss,
+  via_missed: TEXTS.viaMissed,
   goal_missed: TEXTS.goalMissed,
 };
 
@@ -270,6 +271,7 @@ const FACTS: Partial<Record<FaultKind, string>> = {
   off_road: TEXTS.pastTheEdge,
   harsh_braking: TEXTS.braking,
   harsh_steering: TEXTS.sideways,
+  via_missed: TEXTS.awayFromTheVia,
   goal_missed: TEXTS.leftToTheGoal,
 };
 

@@ -41,7 +41,7 @@ export function faultPlaces(f: Futures, visible: readonly number[], chosen: numb
   const clusters: Found[][] = [];
   for (const index of visible)
     for (const fault of f.modes[index]?.about?.faults ?? []) {
-      if (fault.kind === 'goal_missed' && index !== chosen) continue;
+      if ((fault.kind === 'goal_missed' || fault.kind === 'via_missed') && index !== chosen) continue;
       const found = { index, fault, along: placesAlong(f.modes[index].motion, fault) };
       const near = clusters.filter((c) => c.some((o) => together(o, found)));
       const merged = [...near.flat(), found];

@@ -65,12 +65,15 @@ export interface GoalJson extends StartJson {
   time_s?: number | null;
   may_cross?: string[];
 }
+/** A place on the way. */
+export type ViaJson = Schemas['ViaDoc'];
 export interface ConditionJson {
   type?: 'vehicle' | 'pedestrian' | 'cyclist' | null;
   length_m?: number;
   width_m?: number;
   start?: StartJson;
   goal?: GoalJson;
+  via?: ViaJson[];
 }
 export interface AgentJson {
   id: string;

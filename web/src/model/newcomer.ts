@@ -4,6 +4,7 @@ import { KIND_NAMES, PLACED_KINDS, typeOfKind, type PlacedKind, type Preset } fr
 import { rangesOf } from './domain';
 import { motionFrom, poseAtStep, type Motion } from './motion';
 import { freeGoal, logStartSpec, type Agent, type GoalSpec, type Others } from './scene';
+import { readVias, shiftedVias } from './via';
 import { trackJson } from './write';
 
 export interface Newcomer {
@@ -97,7 +98,13 @@ export function shifted(n: Newcomer, dx: number, dy: number): Newcomer {
   return {
     ...n,
     pose: { ...pose, x: pose.x + dx, y: pose.y + dy },
-    goal: goal && Object.freeze({ ...goal, pos: goal.pos ? pos : null }),
+    goal:
+      goal &&
+      Object.freeze({
+        ...goal,
+        pos: goal.pos ? pos : null,
+        via: shiftedVias(goal.via, (x, y) => [x + dx, y + dy]),
+      }),
   };
 }
 
@@ -173,6 +180,13 @@ function readOne(v: unknown): Newcomer | null {
   };
 }
 
+/** A place on the way as the clipboard has it, as a file would. */
+function asJson(v: unknown): unknown {
+  const o = (v ?? {}) as Record<string, unknown>;
+  const p = Array.isArray(o.pos) ? o.pos : [];
+  return { x_m: p[0], y_m: p[1], tolerance_m: o.tolerance, time_s: o.time };
+}
+
 function readGoal(v: unknown): GoalSpec | null {
   if (typeof v !== 'object' || v === null) return null;
   const o = v as Record<string, unknown>;
@@ -186,5 +200,6 @@ function readGoal(v: unknown): GoalSpec | null {
     time: finite(o.time, 0.5, 20) ?? freeGoal().time,
     // Edges belong to a map, and this may be another one.
     mayCross: freeGoal().mayCross,
+    via: readVias(Array.isArray(o.via) ? o.via.map(asJson) : null),
   });
 }

@@ -38,6 +38,7 @@ import {
   type StartSpec,
 } from './scene';
 import type { Pose, Vec } from './geometry';
+import { readVias } from './via';
 import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
 import { TEXTS } from '../texts/reading';
 
@@ -220,7 +221,8 @@ function readStart(c: ConditionJson, log: Pose | null): StartSpec {
 
 function readGoal(c: ConditionJson): GoalSpec {
   const g = c.goal;
-  if (!g) return freeGoal();
+  const via = readVias(c.via);
+  if (!g) return via.length ? Object.freeze({ ...freeGoal(), via }) : freeGoal();
   const pos: Vec | null = g.x_m == null || g.y_m == null ? null : Object.freeze([g.x_m, g.y_m] as const);
   return Object.freeze({
     pos,
@@ -228,6 +230,7 @@ function readGoal(c: ConditionJson): GoalSpec {
     speed: g.speed_mps ?? null,
     time: g.time_s ?? GOAL_TIME,
     mayCross: Object.freeze([...(g.may_cross ?? [])]),
+    via,
   });
 }
 

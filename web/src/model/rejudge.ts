@@ -7,6 +7,7 @@ import type { Agent } from './scene';
 import type { Collision, Future, Futures, NearMiss, Score } from './futures';
 import type { FaultJson } from './json';
 import { endPose, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
+import { passed } from './via';
 
 /** Meetings of the same two closer together than this are one. */
 const SAME_S = 1.5;
@@ -62,6 +63,9 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
     const { time } = goal;
     if (extent > REACHED_M) broken.push({ kind: 'goal_missed', time, until: time, at, extent, with: null, edge: null });
   }
+  passed(goal.via, f.motion).forEach(({ time, away: extent, ok }) => {
+    if (!ok) broken.push({ kind: 'via_missed', time, until: time, at: place(time), extent, with: null, edge: null });
+  });
   const about = { ...NOTHING_SAID, faults: broken };
   const judged = withMeetingsOf(score, id, { ...f, about });
   const faults = [...judged.about!.faults];

@@ -8,6 +8,7 @@ import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
 import type { Profile } from './profile';
 import type { Variant, VariantState } from './variants';
+import { NO_VIAS, type Via } from './via';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
 export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
@@ -23,6 +24,8 @@ export interface GoalSpec extends StartSpec {
   readonly time: number;
   /** Ids of the road edges that it may go over on its way there. */
   readonly mayCross: readonly string[];
+  /** Places on the way there, or on the way that the generator chooses. */
+  readonly via: readonly Via[];
 }
 
 export interface Agent {
@@ -119,7 +122,7 @@ export const durationOf = (length: Length, steps: number): number =>
 const NO_EDGES: readonly string[] = Object.freeze([]);
 
 export const freeGoal = (time = GOAL_TIME): GoalSpec =>
-  Object.freeze({ pos: null, heading: null, speed: null, time, mayCross: NO_EDGES });
+  Object.freeze({ pos: null, heading: null, speed: null, time, mayCross: NO_EDGES, via: NO_VIAS });
 
 export function logStartSpec(p: Pose | null): StartSpec {
   return Object.freeze(
@@ -152,7 +155,7 @@ export const kindChanged = (a: Agent): boolean => a.type !== a.logType || a.subt
 
 /** Has the user asked anything of this road user that the log could take back? */
 export const changedByHand = (a: Agent): boolean =>
-  hasGoal(a.goal) || a.chosen !== null || startChanged(a) || sizeChanged(a) || kindChanged(a);
+  hasGoal(a.goal) || a.goal.via.length > 0 || a.chosen !== null || startChanged(a) || sizeChanged(a) || kindChanged(a);
 
 /** Is anything asked of this road user? One without a log has nothing else to follow. */
 export const touched = (a: Agent): boolean => a.placed || changedByHand(a);

@@ -46,6 +46,8 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return f.extent === null || f.extent > GAP_M
         ? TEXTS.closeCallWith(somebody(f, nameOf))
         : TEXTS.to(metres(f.extent, 1), somebody(f, nameOf));
+    case 'via_missed':
+      return f.extent === null ? TEXTS.pastTheVia : TEXTS.fromTheVia(metres(f.extent, 1));
     case 'goal_missed':
       return f.extent === null ? TEXTS.short2 : TEXTS.short(metres(f.extent));
   }
@@ -183,6 +185,8 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
       const whom = somebody(worst, said.who.nameOf);
       return group(`near:${worst.with}`, TEXTS.nearlyHit(whom), TEXTS.nearlyHits(whom));
     }
+    case 'via_missed':
+      return group(worst.kind, TEXTS.missAVia, TEXTS.missesAVia);
     case 'goal_missed': {
       if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
       return group('short', TEXTS.doNotGetThere, TEXTS.doesNotGetThere);

@@ -32,6 +32,7 @@ import {
   type Scene,
 } from './scene';
 import type { Futures, MotionSet } from './futures';
+import { viasJson } from './via';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
 export function conditionOf(a: Agent): ConditionJson {
@@ -59,6 +60,7 @@ export function conditionOf(a: Agent): ConditionJson {
     if (a.goal.speed !== null) g.speed_mps = a.goal.speed;
     c.goal = g;
   }
+  if (a.goal.via.length) c.via = viasJson(a.goal.via);
   return c;
 }
 

@@ -38,4 +38,6 @@ export const TEXTS = table('events', {
   rulesBroken: (n: number) => plural(n, { one: `${n} rule broken`, other: `${n} rules broken` }),
   nearMisses: (n: number) => plural(n, { one: `${n} near miss`, other: `${n} near misses` }),
   goalsMissed: (n: number) => plural(n, { one: `${n} goal missed`, other: `${n} goals missed` }),
+  viaMissed: 'Via point missed',
+  awayFromTheVia: 'Away from the via point',
 });

@@ -91,4 +91,5 @@ export const TEXTS = table('hud', {
   done2: 'done',
   makingVariants: (done: number, of: number) => `Making variants: ${done} of ${of}`,
   searching: (tried: number, of: number, found: number) => `Searching: ${tried} of ${of} · ${found} found`,
+  halfMetres: 'half metres',
 });

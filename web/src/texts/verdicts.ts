@@ -71,4 +71,8 @@ export const TEXTS = table('verdicts', {
   walks: 'walks',
   go: 'go',
   goes: 'goes',
+  pastTheVia: 'past the via point',
+  fromTheVia: (distance: string) => `${distance} from the via point`,
+  missAVia: 'miss a via point',
+  missesAVia: 'misses a via point',
 });

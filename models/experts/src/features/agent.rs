@@ -9,6 +9,7 @@ use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
 use crate::planning::crossing::{Kerb, kerb};
 use crate::planning::lights::{Gate, gates, sets_off};
+use crate::planning::through::Waypoint;
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
@@ -28,6 +29,8 @@ pub struct AgentPlan {
     pub model: MotionModel,
     /// What it must meet.
     pub target: Target,
+    /// The via points that it must pass in this window.
+    pub vias: Vec<Waypoint>,
     /// [`MODES`] of them.
     pub anchors: Vec<Anchor>,
     /// Red lights on each anchor's path.
@@ -103,6 +106,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         present,
         model,
         target,
+        vias: world.waypoints(who),
         anchors,
         lights,
         kerbs,
@@ -116,9 +120,14 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
 }
 
 impl AgentPlan {
+    /// Nothing is asked of it: no goal, and nowhere to pass.
+    pub fn is_free(&self) -> bool {
+        self.target.is_free() && self.vias.is_empty()
+    }
+
     /// It stands before a red light that is known to turn green, and nothing else is asked of it.
     pub fn sets_off(&self) -> bool {
-        self.target.is_free()
+        self.is_free()
             && self.model.start_speed_mps() < STANDING_MPS
             && self.lights.iter().any(|gates| sets_off(gates))
     }

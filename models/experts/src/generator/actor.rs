@@ -131,7 +131,7 @@ impl Actor {
     /// Goes on from a state that an earlier window reached: what rolls backwards does so until it stands.
     pub(super) fn goes_on(&mut self, parked: bool) {
         let plan = &mut self.plan;
-        self.stays_parked = parked && plan.target.is_free();
+        self.stays_parked = parked && plan.is_free();
         let start = &plan.present.start;
         let ahead_mps = start.velocity().dot(&direction(start.heading_rad));
         if plan.model.kind == Kind::Drive && ahead_mps < -1e-3 {
@@ -159,7 +159,7 @@ impl Actor {
 
     /// Rest is all that it can do.
     pub(super) fn only_rests(&self) -> bool {
-        self.rests && (self.stays_parked || !self.plan.target.is_free())
+        self.rests && (self.stays_parked || !self.plan.is_free())
     }
 
     /// Nobody can make it move otherwise: it rests, or a person picked its future.

@@ -4,6 +4,7 @@ use super::KnownMap;
 use super::actor::Actor;
 use super::candidates::{Candidate, Origin};
 use super::choice::{Choosable, medoid_costs, swept};
+use super::passing::vias_missed;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
 use super::trajectory::PER_INSTANT;
@@ -50,7 +51,7 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .iter()
             .map(|c| tuning.deviating + deviation_m(&c.motion.states, kept) / tuning.deviation_m)
             .collect(),
-        None => central(candidates, by.around, tuning),
+        None => central(actor, candidates, by.around, tuning),
     };
     let broken = |c: &Candidate| match &c.motion.states {
         // What is given costs nothing by itself.
@@ -77,8 +78,9 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
     candidates.iter().zip(costs).zip(&broken).map(option).collect()
 }
 
-/// How far each candidate is from all alternatives by their probability, and whether it misses its goal.
-fn central(candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning) -> Vec<f64> {
+/// How far each candidate is from all alternatives by their probability, and whether it misses its goal or a via
+/// point.
+fn central(actor: &Actor, candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning) -> Vec<f64> {
     let all: Vec<&Trajectory> = candidates.iter().map(|c| &c.motion.states).collect();
     let extra = |c: &Candidate| {
         if around.is_some() && c.origin.slot() == around { tuning.around } else { 0.0 }
@@ -86,7 +88,10 @@ fn central(candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning
     let alternatives = candidates.iter().filter(|c| c.origin.is_alternative());
     let weighted: Vec<(&Trajectory, f64)> =
         alternatives.map(|c| (&c.motion.states, c.probability + extra(c))).collect();
-    let missed = |c: &Candidate| if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
+    let missed = |c: &Candidate| {
+        let goal = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
+        goal + tuning.goal_missed * vias_missed(&actor.plan, &c.motion.states) as f64
+    };
     medoid_costs(&all, &weighted).into_iter().zip(candidates).map(|(cost, c)| cost + missed(c)).collect()
 }
 

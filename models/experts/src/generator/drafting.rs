@@ -80,7 +80,7 @@ impl Window<'_> {
         }
         actor.set_modes(modes, probability);
         actor.stays_probability = stays_in_the_world(f64::from(output.stays[row]));
-        let free = actor.plan.target.is_free();
+        let free = actor.plan.is_free();
         let waits = actor.plan.sets_off();
         let stays = !free || (actor.stays_probability > STAYS_ABOVE && !waits) || actor.is_parked();
         actor.rests = actor.stays_parked || (may_rest(&actor.plan, self.number) && stays);

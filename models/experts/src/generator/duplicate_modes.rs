@@ -61,7 +61,7 @@ pub(super) fn replace(
     probability: &mut [f64; MODES],
     tuning: &DuplicateTuning,
 ) {
-    if !plan.target.is_free() {
+    if !plan.is_free() {
         return;
     }
     let rule = Rule::of(plan.present.agent_type, tuning);

@@ -17,6 +17,7 @@ mod ideas;
 mod kerb;
 mod noise;
 mod overlaps;
+mod passing;
 mod reacting;
 mod report;
 mod repulsion;

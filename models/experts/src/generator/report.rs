@@ -5,12 +5,13 @@ use super::actor::Actor;
 use super::trajectory::Motion;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{
-    Field, Intermediate, NearestState, ReachReport, Resolved, ResolvedGoal, ResolvedStart, Source, Warning,
-    WarningCode,
+    Field, Intermediate, NearestState, ReachReport, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia,
+    Source, Warning, WarningCode,
 };
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};
-use scene::{AgentId, AgentType, Conditions, STEP_S, State, wrap_angle};
+use scene::via::passings;
+use scene::{AgentId, AgentType, Conditions, Passing, STEP_S, State, Via, wrap_angle};
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {
@@ -33,6 +34,8 @@ pub(super) struct Outcome<'a> {
     pub(super) due_step: usize,
     /// State of its shown future then (or at the end, for a goal later than that).
     pub(super) end: State,
+    /// All states of its shown future, the start first.
+    pub(super) states: Vec<State>,
     /// Verdict of the last window before the goal was due.
     pub(super) reach: ReachReport,
     /// Where earlier windows were sent.
@@ -41,7 +44,7 @@ pub(super) struct Outcome<'a> {
 
 /// Fields and verdict of one road user; `world` is that of the first window.
 pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
-    let Outcome { present, conditions, due_step, end, reach, intermediate } = outcome;
+    let Outcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
     let agent = world.agent(present);
     let logged = agent.state_at(world.step).is_some();
     let start = |value: f64, fixed: bool| {
@@ -80,9 +83,32 @@ pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
             time_s: Field { value: due_step as f64 * STEP_S, from: due_from },
         },
         reach,
+        via: vias(&conditions.via, world.step, &states),
         by_road: None,
         intermediate,
     }
+}
+
+/// How a motion that begins at a scene step passes via points.
+fn vias(vias: &[Via], step: usize, states: &[State]) -> Vec<ResolvedVia> {
+    let passed = passings(vias, step as f64 * STEP_S, states);
+    let report = |(via, at): (&Via, &Passing)| ResolvedVia {
+        x_m: via.position.x,
+        y_m: via.position.y,
+        tolerance_m: via.tolerance_m,
+        passed: via.is_passed(at),
+        distance_m: at.distance_m,
+        time_s: at.time_s,
+    };
+    vias.iter().zip(&passed).map(report).collect()
+}
+
+/// Where a via point is missed, in words; they are counted from 1.
+pub(super) fn missed_words(number: usize, via: &ResolvedVia) -> String {
+    let ResolvedVia { tolerance_m, distance_m, time_s, .. } = via;
+    format!(
+        "Via point {number} is passed {distance_m:.1} m away at {time_s:.1} s; at most {tolerance_m:.1} m was asked."
+    )
 }
 
 /// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:

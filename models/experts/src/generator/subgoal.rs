@@ -4,7 +4,7 @@ use crate::planning::world::{AgentAtStart, World};
 use crate::request::NearestState;
 use scene::motion::{Kind, MotionModel};
 use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};
-use scene::{Goal, HORIZON_STEPS, STEP_S, Vec2};
+use scene::{Goal, HORIZON_STEPS, STEP_S, Vec2, Via};
 
 /// A later window needs so many steps to turn into a heading that no place goes with.
 const TURN_STEPS: usize = 30;
@@ -13,13 +13,81 @@ const THERE_M: f64 = 0.05;
 
 /// The state at the window's end on the way to a goal that is due `left` steps after the window's start,
 /// more than a window has. The way is the lanes' where they lead to the goal, else a straight line; the
-/// acceleration along it is constant (or changes evenly where the goal fixes the speed too).
-pub(super) fn subgoal(world: &World<'_>, who: &AgentAtStart, goal: &Goal, left: usize) -> NearestState {
+/// acceleration along it is constant (or changes evenly where the goal fixes the speed too). It leads through the via
+/// points; how many of them lie before that state comes with it.
+pub(super) fn subgoal(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    goal: &Goal,
+    vias: &[Via],
+    left: usize,
+) -> (NearestState, usize) {
     let model = world.model(who);
     let v0 = model.start_speed_mps();
     let Some(position) = goal.position else {
-        return changing(who, v0, goal, left);
+        return (changing(who, v0, goal, left), vias.len());
     };
+    if !vias.is_empty() {
+        return through(world, who, &model, (goal, position), vias, left);
+    }
+    (on_the_way(world, who, &model, goal, position, left), 0)
+}
+
+/// The same on the way through via points. Those with a time after the window are what there is to be in time for.
+fn through(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    (goal, position): (&Goal, Vec2),
+    vias: &[Via],
+    left: usize,
+) -> (NearestState, usize) {
+    let free = Goal::default();
+    let mut points = vec![who.start.position()];
+    let mut from = who.clone();
+    let mut at_m = Vec::with_capacity(vias.len());
+    let places = vias.iter().map(|via| (via.position, &free)).chain([(position, goal)]);
+    for (place, asked) in places {
+        let leg = path_to(world, &from, model, asked, place);
+        points.extend(leg.points().iter().skip(1));
+        at_m.push(Polyline::new(points.iter().copied()).length_m());
+        let end = leg.last();
+        let velocity = end.direction() * model.start_speed_mps();
+        (from.start.x_m, from.start.y_m, from.start.heading_rad) =
+            (end.position.x, end.position.y, end.heading_rad);
+        (from.start.vx_mps, from.start.vy_mps) = (velocity.x, velocity.y);
+    }
+    let path = Polyline::new(points);
+    let step = |via: &Via| via.time_s.map(|t| ((t / STEP_S).round() as usize).saturating_sub(world.step));
+    // The first thing to be in time for that lies beyond the window, and the last that lies in it.
+    let timed = || vias.iter().zip(&at_m).filter_map(|(via, at)| Some((step(via)?, *at)));
+    let next = timed().find(|(step, _)| *step > HORIZON_STEPS);
+    let passed_m = timed().filter(|(step, _)| *step <= HORIZON_STEPS).last().map_or(0.0, |(_, at)| at);
+    let (due, length_m, end_mps) = match next {
+        Some((due, at)) => (due, at, None),
+        None => (left, path.length_m(), goal.speed_mps),
+    };
+    let (along_m, speed_mps) = travelled(model.start_speed_mps(), model, length_m, end_mps, due);
+    let along_m = along_m.max(passed_m);
+    let pose = path.sample(along_m);
+    let state =
+        NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps };
+    // One that is all but reached is passed in this window.
+    let on_the_way =
+        vias.iter().zip(&at_m).filter(|(via, at)| **at <= along_m + 0.5 * via.tolerance_m).count();
+    (state, on_the_way)
+}
+
+/// The same without any.
+fn on_the_way(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    goal: &Goal,
+    position: Vec2,
+    left: usize,
+) -> NearestState {
+    let v0 = model.start_speed_mps();
     let distance_m = (position - who.start.position()).norm();
     if distance_m < THERE_M && v0 < THERE_M {
         return NearestState {
@@ -29,8 +97,8 @@ pub(super) fn subgoal(world: &World<'_>, who: &AgentAtStart, goal: &Goal, left: 
             speed_mps: 0.0,
         };
     }
-    let path = path_to(world, who, &model, goal, position);
-    let (along_m, speed_mps) = travelled(v0, &model, path.length_m(), goal.speed_mps, left);
+    let path = path_to(world, who, model, goal, position);
+    let (along_m, speed_mps) = travelled(v0, model, path.length_m(), goal.speed_mps, left);
     let pose = path.sample(along_m);
     NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps }
 }

@@ -1,6 +1,7 @@
 //! From route coordinates to motion: residual knots on an anchor, to positions, to control knots, to a
 //! rollout that meets the goal and the limits.
 
+use super::passing::{led, projected};
 use super::slot::Slot;
 use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::lights::Waiting;
@@ -70,7 +71,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
         last = along.max(last);
         *place = (last, across);
     }
-    at_lights(plan, slot, out)
+    at_lights(plan, slot, led(plan, slot, out))
 }
 
 /// Progress and offset at the instants, waiting at red lights. Whoever waits is beside the path where it would
@@ -102,7 +103,7 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
     };
     let held = waiting.obeying(&progress);
     // One mode may still not see the green.
-    let leaves = plan.target.is_free() && slot != Slot::FIRST;
+    let leaves = plan.is_free() && slot != Slot::FIRST;
     let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
     let Some(held) = left.or(held) else { return wanted };
     beside_at(&wanted, &held)
@@ -267,7 +268,7 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Mot
     let target = projected_onto(plan);
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };
-        let motion = project(&plan.model, &knots, &along, None);
+        let motion = projected(plan, &knots, &along);
         let off = |(i, (place, _)): (usize, &(Vec2, f64))| {
             (motion.trajectory[(i + 1) * PER_INSTANT].position - place).norm()
         };
@@ -277,7 +278,7 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Mot
             return motion.into();
         }
     }
-    let motion = project(&plan.model, &knots, &target, None);
+    let motion = projected(plan, &knots, &target);
     if motion.reach.is_reached() {
         return motion.into();
     }
@@ -342,7 +343,7 @@ pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Motion {
 pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Motion) -> Motion {
     let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
-    let rests = plan.target.is_free() && may_rest(plan, window) && motion.states.iter().all(creeps);
+    let rests = plan.is_free() && may_rest(plan, window) && motion.states.iter().all(creeps);
     if rests { rest(plan) } else { motion }
 }
 
@@ -350,7 +351,9 @@ pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Motion) -> 
 /// its jitter; what an earlier window brought here has to have come to rest by its own motion.
 pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
     let standing_mps = if window == 0 { 0.3 } else { 0.05 };
-    plan.present.start.speed_mps() < standing_mps && GoalError::of(&still(plan), &plan.target).is_met()
+    plan.vias.is_empty()
+        && plan.present.start.speed_mps() < standing_mps
+        && GoalError::of(&still(plan), &plan.target).is_met()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 use super::MODES;
 use super::profile::{Caps, Progress, cruising, reaching_speed};
+use super::through::anchors_through;
 use super::to_goal::anchors_to_goal;
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
@@ -42,13 +43,15 @@ pub struct Anchor {
     pub identity: u64,
     /// Which timing of its path this is, and of how many.
     pub timing: (usize, usize),
+    /// Metres along the path at which it passes each via point of the window.
+    pub passes_m: Vec<f64>,
 }
 
 /// Names of timings on one path; more than there are modes.
 const TIMINGS: u64 = 8;
 
 /// Slots of each path when there are 1 to 6 of them.
-const SLOTS: [[usize; MODES]; MODES] = [
+pub(super) const SLOTS: [[usize; MODES]; MODES] = [
     [6, 0, 0, 0, 0, 0],
     [3, 3, 0, 0, 0, 0],
     [2, 2, 2, 0, 0, 0],
@@ -71,6 +74,10 @@ pub(super) struct Way {
 
 /// The six anchors of a road user.
 pub fn anchors(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, target: &Target) -> Vec<Anchor> {
+    let vias = world.waypoints(who);
+    if !vias.is_empty() {
+        return anchors_through(world, who, model, target, &vias);
+    }
     match target.position {
         Some(goal) => anchors_to_goal(world, who, model, target, goal),
         None => anchors_ahead(world, who, model, target),
@@ -111,7 +118,7 @@ fn walking_speed(v0: f64, timing: usize, count: usize) -> f64 {
     [v0, 0.0, 0.6 * v0 + 0.2, 1.3 * v0, 1.35, 0.3][timing % 6]
 }
 
-fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<Way> {
+pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<Way> {
     let v0 = model.start_speed_mps();
     let graph = &world.graph;
     let walking = model.kind == Kind::Walk;
@@ -187,7 +194,7 @@ fn bent(who: &AgentAtStart, model: &MotionModel, length: f64, bend: f64, tuning:
 }
 
 /// Speed off every lane, m/s.
-fn assumed_speed(agent_type: AgentType) -> f64 {
+pub(super) fn assumed_speed(agent_type: AgentType) -> f64 {
     match agent_type {
         AgentType::Pedestrian => 1.6,
         AgentType::Cyclist => 5.0,
@@ -232,6 +239,21 @@ impl Way {
         self.path = Polyline::new(points.copied());
     }
 
+    /// This way and a further one, which begins where this one ends.
+    pub(super) fn followed_by(&self, leg: &Self) -> Self {
+        let points = self.path.points().iter().chain(leg.path.points().iter().skip(1));
+        let kind = if self.kind == leg.kind { self.kind } else { PathKind::Joined };
+        Self {
+            path: Polyline::new(points.copied()),
+            caps_mps: self.caps_mps.iter().chain(leg.caps_mps.iter().skip(1)).copied().collect(),
+            limit_mps: leg.limit_mps,
+            kind,
+            route: self.route.clone(),
+            identity: self.identity.wrapping_mul(1_000_003).wrapping_add(leg.identity),
+            pace: None,
+        }
+    }
+
     pub(super) fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
         Anchor {
             path: self.path.clone(),
@@ -241,6 +263,7 @@ impl Way {
             route: self.route.clone(),
             identity: self.identity.wrapping_mul(TIMINGS).wrapping_add(timing.0 as u64),
             timing,
+            passes_m: Vec::new(),
         }
     }
 }

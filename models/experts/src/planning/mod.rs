@@ -1,7 +1,7 @@
 //! The planning prior: what can be said of a road user's futures before any network speaks.
 //!
 //! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`crossing`] how
-//! walkers cross lanes, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
+//! walkers cross lanes, [`through`] how one gets to places on the way, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
 //! in the plane back to those numbers.
 
 pub mod anchors;
@@ -18,6 +18,7 @@ mod road_tests;
 pub mod smooth;
 #[cfg(test)]
 mod tests;
+pub mod through;
 mod to_goal;
 pub mod world;
 

@@ -55,6 +55,29 @@ pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> 
     integrate(v0, caps, 4.0, wish)
 }
 
+/// A progress that goes on from a step, where it is `from_mps` fast, as [`cruising`] does.
+pub fn cruising_from(
+    progress: &Progress,
+    step: usize,
+    from_mps: f64,
+    speed_mps: f64,
+    caps: &Caps<'_>,
+) -> Progress {
+    let mut out = *progress;
+    let mut speed = from_mps;
+    for i in step.min(HORIZON_STEPS)..HORIZON_STEPS {
+        let wish = if speed_mps > speed {
+            (speed + 1.5 * STEP_S).min(speed_mps)
+        } else {
+            (speed - 2.5 * STEP_S).max(speed_mps)
+        };
+        let next = wish.min(caps.at(out[i])).max(speed - 4.0 * STEP_S).max(0.0);
+        out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
+        speed = next;
+    }
+    out
+}
+
 /// As far as speeding up by `rate_mps2` to `top_mps` leads, under the caps.
 pub fn fastest(v0: f64, rate_mps2: f64, top_mps: f64, caps: &Caps<'_>) -> Progress {
     integrate(v0, caps, 8.0, |t| (v0 + rate_mps2 * t).min(top_mps.max(v0)))

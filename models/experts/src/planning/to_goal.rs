@@ -18,9 +18,9 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 use std::sync::Arc;
 
 /// Most ways that get anchors.
-const MOST_WAYS: usize = 3;
+pub(super) const MOST_WAYS: usize = 3;
 /// The first path to a goal gets more of the slots than the others.
-const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
+pub(super) const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
 /// Goals may be missed by this much along a way that counts as fast enough, metres.
 const ARRIVING_M: f64 = 0.5;
 /// A way may be driven faster through its bends than is comfortable, when time presses.
@@ -38,7 +38,7 @@ pub(super) fn anchors_to_goal(
     target: &Target,
     goal: Vec2,
 ) -> Vec<Anchor> {
-    let candidates = paths_to_goal(world, who, model, target, goal);
+    let candidates = paths_to_goal(world, who, model, target, goal, target.step < HORIZON_STEPS);
     let seconds = target.step as f64 * STEP_S;
     let v0 = model.start_speed_mps();
     let mut out = Vec::with_capacity(MODES);
@@ -64,7 +64,7 @@ pub(super) fn anchors_to_goal(
 }
 
 /// Progress of the goal along a path that ends at it (or goes on beyond it).
-fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
+pub(super) fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
     let foot = path.project(goal);
     let beyond = (goal - path.last().position).dot(&path.last().direction());
     if foot.s_m >= path.length_m() - 1e-6 && beyond > 0.0 { path.length_m() + beyond } else { foot.s_m }
@@ -85,12 +85,14 @@ struct Trip<'a, 'w> {
     ground: Arc<Drivable>,
 }
 
-fn paths_to_goal(
+/// Ways to a goal position, the first the one to take; `goes_on` says whether they lead on along the lanes.
+pub(super) fn paths_to_goal(
     world: &World<'_>,
     who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
     goal: Vec2,
+    goes_on: bool,
 ) -> Vec<Way> {
     if model.kind == Kind::Walk {
         let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
@@ -113,7 +115,7 @@ fn paths_to_goal(
     let trip = Trip { world, who, model, target, goal, query, least, least_path, ground: world.ground(who) };
     let mut ways = trip.by_the_road(trip.usual());
     ways.truncate(MOST_WAYS);
-    if target.step < HORIZON_STEPS {
+    if goes_on {
         ways.iter_mut().for_each(|way| trip.go_on(way));
     }
     ways

@@ -1,13 +1,14 @@
 //! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
 
 use super::lights::StopLine;
+use super::through::Waypoint;
 use crate::tuning::{self, Tuning};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed::{LaneSignal, Obstacle};
 use scene::routes::{LaneGraph, Pose};
 use scene::score::Drivable;
-use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, Scene, Size, State, Vec2};
+use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, Scene, Size, State, Vec2, Via};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -155,6 +156,24 @@ impl<'a> World<'a> {
     /// Asks something else of a road user in this window. Nothing that is worked out so far depends on goals.
     pub fn aim(&mut self, agent: usize, goal: Goal) {
         self.conditions[agent].goal = goal;
+    }
+
+    /// Asks a road user to pass these places in this window.
+    pub fn lead(&mut self, agent: usize, via: Vec<Via>) {
+        self.conditions[agent].via = via;
+    }
+
+    /// The via points that a present road user is to pass in this window.
+    pub fn waypoints(&self, present: &AgentAtStart) -> Vec<Waypoint> {
+        let asked = &self.conditions[present.index];
+        let steps = |time_s: f64| (time_s / scene::STEP_S).round() as isize - self.step as isize;
+        let last = if asked.goal.position.is_some() { self.target(present).step } else { HORIZON_STEPS + 1 };
+        let waypoint = |via: &Via| {
+            let step = via.time_s.map(steps).filter(|step| (1..last as isize).contains(step));
+            let step = step.map(|step| step as usize);
+            Waypoint { via: Via { time_s: step.map(|step| step as f64 * scene::STEP_S), ..*via }, step }
+        };
+        asked.via.iter().map(waypoint).collect()
     }
 
     /// What is fixed about a road user's goal, as a target of the window.

@@ -93,8 +93,12 @@ impl Lost {
         let agents = &scene.agents;
         let ego = problem.and_then(|problem| agents.get(problem.agent));
         let fixed = ego.is_some_and(|ego| {
-            let Conditions { agent_type, length_m, width_m, may_cross, .. } = &ego.conditions;
-            agent_type.is_some() || length_m.is_some() || width_m.is_some() || !may_cross.is_empty()
+            let Conditions { agent_type, length_m, width_m, may_cross, via, .. } = &ego.conditions;
+            agent_type.is_some()
+                || length_m.is_some()
+                || width_m.is_some()
+                || !may_cross.is_empty()
+                || !via.is_empty()
         });
         let roles = agents.iter().filter(|agent| agent.role.is_some()).count();
         let is_ego = ego.is_some_and(|ego| ego.role.as_deref() == Some(EGO));

@@ -158,6 +158,27 @@ pub struct GoalDoc {
     pub may_cross: Vec<String>,
 }
 
+/// A place that a road user passes on its way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ViaDoc {
+    /// Box centre, metres, scene frame.
+    #[schemars(range(min = -10000.0, max = 10000.0))]
+    pub x_m: f64,
+    /// Box centre, metres, scene frame.
+    #[schemars(range(min = -10000.0, max = 10000.0))]
+    pub y_m: f64,
+    /// Passed no farther away than this, metres; 1 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.5, max = 5.0))]
+    pub tolerance_m: Option<f64>,
+    /// Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
+    /// those before it and no later than the goal. Snapped to 0.1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.45, max = 80.05))]
+    pub time_s: Option<f64>,
+}
+
 /// All that a user fixes about one road user. A number fixes a field, null or absence frees it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -180,6 +201,10 @@ pub struct ConditionsDoc {
     /// Goal fields.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<GoalDoc>,
+    /// Places that it passes on its way, in this order; always in the frame `scene`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 4))]
+    pub via: Vec<ViaDoc>,
     /// Frame of the goal; replies are always in `scene`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "frames")]

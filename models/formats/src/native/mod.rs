@@ -18,7 +18,7 @@ mod value;
 
 pub use agent::{AgentDoc, TrackDoc};
 pub use any::{AnyDoc, MAX_VALUES};
-pub use conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc};
+pub use conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc, ViaDoc};
 pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, SignalDoc, TimeDoc, VERSION};
 pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
 pub use json::from_json;

@@ -1,9 +1,12 @@
 //! Conditions from document to domain: every field checked, goals turned into the scene frame.
 
-use super::conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc};
+use super::conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc, ViaDoc};
 use crate::problem::{FieldProblem, Problems, code};
 use scene::geometry::rotate;
-use scene::{AgentType, Conditions, Goal, MAX_CROSSED_EDGES, STEP_S, Start, State, Vec2, wrap_angle};
+use scene::{
+    AgentType, Conditions, DEFAULT_VIA_TOLERANCE_M, Goal, MAX_CROSSED_EDGES, MAX_VIAS, STEP_S, Start, State,
+    VIA_TOLERANCE_M, Vec2, Via, wrap_angle,
+};
 use serde::Serialize;
 
 pub use crate::limits::MAX_GOAL_DISTANCE_M;
@@ -113,16 +116,57 @@ impl ConditionsDoc {
             let detail = format!("{} ids; at most {MAX_CROSSED_EDGES} expected", may_cross.len());
             problems.invalid(format!("{pointer}/goal/may_cross"), detail);
         }
+        let window = context.window;
+        let via = self.vias(&format!("{pointer}/via"), origin.position, goal.time_s, window, &mut problems);
         if problems.0.is_empty() {
-            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal, may_cross })
+            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal, may_cross, via })
         } else {
             Err(problems.0)
         }
     }
 
+    /// Via points, each in reach of the start and later than the one before; `due_s` is the goal's time.
+    fn vias(
+        &self,
+        pointer: &str,
+        start: Option<Vec2>,
+        due_s: Option<f64>,
+        window: Window,
+        problems: &mut Problems,
+    ) -> Vec<Via> {
+        if self.via.len() > MAX_VIAS {
+            problems.invalid(pointer, format!("{} points; at most {MAX_VIAS} expected", self.via.len()));
+            return Vec::new();
+        }
+        let mut before_s = f64::NEG_INFINITY;
+        let mut read = |(k, doc): (usize, &ViaDoc)| {
+            let pointer = format!("{pointer}/{k}");
+            let names = ("x_m", "y_m", COORDINATE_M);
+            let position = pair(&pointer, names, (Some(doc.x_m), Some(doc.y_m)), problems)?;
+            if let Some(start) = start {
+                check_distance(&format!("{pointer}/x_m"), "via point", (position - start).norm(), problems);
+            }
+            let tolerance_m = doc.tolerance_m.unwrap_or(DEFAULT_VIA_TOLERANCE_M);
+            problems.range(&format!("{pointer}/tolerance_m"), VIA_TOLERANCE_M, tolerance_m);
+            let time_s = doc.time_s.and_then(|t| goal_time(&pointer, t, window, problems));
+            if let Some(time_s) = time_s {
+                if time_s <= before_s {
+                    problems
+                        .invalid(format!("{pointer}/time_s"), "later than the via point before it expected");
+                }
+                if due_s.is_some_and(|due_s| time_s >= due_s) {
+                    problems.invalid(format!("{pointer}/time_s"), "earlier than the goal's time expected");
+                }
+                before_s = time_s;
+            }
+            Some(Via { position, tolerance_m, time_s })
+        };
+        self.via.iter().enumerate().filter_map(&mut read).collect()
+    }
+
     /// The document of domain conditions, in the scene frame.
     pub fn from_conditions(conditions: &Conditions) -> Self {
-        let Conditions { agent_type, length_m, width_m, start, goal, may_cross } = conditions;
+        let Conditions { agent_type, length_m, width_m, start, goal, may_cross, via } = conditions;
         let start_doc = StartDoc {
             x_m: start.position.map(|p| p.x),
             y_m: start.position.map(|p| p.y),
@@ -145,8 +189,16 @@ impl ConditionsDoc {
             width_m: *width_m,
             start: (start_doc != StartDoc::default()).then_some(start_doc),
             goal: (goal_doc != GoalDoc::default()).then_some(goal_doc),
+            via: via.iter().map(ViaDoc::from).collect(),
             frame: None,
         }
+    }
+}
+
+impl From<&Via> for ViaDoc {
+    fn from(via: &Via) -> Self {
+        let Via { position, tolerance_m, time_s } = *via;
+        Self { x_m: position.x, y_m: position.y, tolerance_m: Some(tolerance_m), time_s }
     }
 }
 
@@ -194,7 +246,7 @@ impl Reader {
         refuse(pointer, &foreign, "needs \"frame\": \"agent\"", problems);
         let position = pair(pointer, ("x_m", "y_m", COORDINATE_M), (doc.x_m, doc.y_m), problems);
         if let (Some(goal), Some(start)) = (position, origin.position) {
-            check_distance(&format!("{pointer}/x_m"), (goal - start).norm(), problems);
+            check_distance(&format!("{pointer}/x_m"), "goal", (goal - start).norm(), problems);
         }
         let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
         let (speed_mps, course) =
@@ -220,7 +272,7 @@ impl Reader {
         let heading = origin.heading_rad.unwrap_or(0.0);
         let position = match (offset, origin.position) {
             (Some(offset), Some(start)) => {
-                check_distance(&format!("{pointer}/ahead_m"), offset.norm(), problems);
+                check_distance(&format!("{pointer}/ahead_m"), "goal", offset.norm(), problems);
                 let goal = start + rotate(offset, heading);
                 let far = goal.x.abs().max(goal.y.abs());
                 problems.range(&format!("{pointer}/ahead_m"), COORDINATE_M, far).then_some(goal)
@@ -309,11 +361,12 @@ fn wrap(value: f64) -> f64 {
     if inside { value + 0.0 } else { wrap_angle(value) }
 }
 
-fn check_distance(pointer: &str, distance_m: f64, problems: &mut Problems) {
+fn check_distance(pointer: &str, what: &str, distance_m: f64, problems: &mut Problems) {
     if distance_m > MAX_GOAL_DISTANCE_M {
         let mut problem = FieldProblem::range(pointer, 0.0, MAX_GOAL_DISTANCE_M, distance_m);
-        problem.detail =
-            format!("the goal is {distance_m:.1} m from the start, at most {MAX_GOAL_DISTANCE_M} m expected");
+        problem.detail = format!(
+            "the {what} is {distance_m:.1} m from the start, at most {MAX_GOAL_DISTANCE_M} m expected"
+        );
         problems.push(problem);
     }
 }

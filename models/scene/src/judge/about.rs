@@ -25,6 +25,8 @@ pub enum FaultKind {
     HarshSteering,
     /// Another is met all but; `extent` is the gap, metres.
     NearMiss,
+    /// A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.
+    ViaMissed,
     /// The goal is not met; `extent` is what is left, metres.
     GoalMissed,
 }

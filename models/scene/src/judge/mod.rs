@@ -19,7 +19,8 @@ use crate::score::report::{RedLight, Stretch};
 use crate::score::road::{RoadScore, score_road};
 use crate::score::signals::{StopLine, crossed_at_red, stop_lines};
 use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
-use crate::{AgentType, LaneMap, STEP_S, Signal, State};
+use crate::via::passings;
+use crate::{AgentType, LaneMap, Passing, STEP_S, Signal, State, Via};
 use std::ops::Range;
 
 /// A wheel that touches the kerb is no event: metres past the edge.
@@ -97,6 +98,7 @@ impl<'a> Judge<'a> {
         let red = crossed_at_red(&self.input, actor, &self.lines);
         let red = recorded::beyond_log(&self.input, actor, &self.lines, red);
         found.extend(red.into_iter().map(|r| at_red(actor, r)));
+        found.extend(self.vias_missed(actor));
         found.extend(self.goal_missed(actor));
         found
     }
@@ -150,6 +152,19 @@ impl<'a> Judge<'a> {
         road.off_road.clear();
         road.wrong_way.clear();
         road
+    }
+
+    fn vias_missed(&self, actor: &Actor<'_>) -> Vec<Fault> {
+        let first = self.input.steps.start;
+        let states: Vec<State> =
+            (first..self.input.steps.end).map_while(|i| actor.state(i)).copied().collect();
+        let passed = passings(actor.via, first as f64 * STEP_S, &states);
+        let missed = actor.via.iter().zip(passed).filter(|(via, passing)| !via.is_passed(passing));
+        let fault = |(_, at): (&Via, Passing)| {
+            let state = State { x_m: at.place.x, y_m: at.place.y, ..State::default() };
+            new(FaultKind::ViaMissed, (at.time_s, at.time_s), &state, Some(at.distance_m))
+        };
+        missed.map(fault).collect()
     }
 
     fn goal_missed(&self, actor: &Actor<'_>) -> Option<Fault> {

@@ -12,7 +12,7 @@ pub mod walk;
 mod whiten;
 
 pub use fit::{Sampled, fit};
-pub use project::{GoalError, Limiting, Projection, Reach, Target, project};
+pub use project::{GoalError, Limiting, Pass, Projection, Reach, Target, project, project_through};
 pub use tension::Tension;
 pub use whiten::knot_covariance_factor;
 

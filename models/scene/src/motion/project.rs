@@ -9,7 +9,7 @@ use super::walk::{position_row, velocity_row};
 use super::whiten::Whitening;
 use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::direction;
-use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
+use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, MAX_VIAS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
 /// What must hold at one step; `None` leaves a field free. Scene frame.
@@ -134,7 +134,10 @@ const FREE_ITERATIONS: usize = 4;
 /// Scaled residual at which iteration stops.
 const TOLERANCE: f64 = 2e-4;
 
-type Row4 = SMatrix<f64, 4, CONTROLS>;
+/// Rows of a target: x, y, heading, speed.
+const TARGET_ROWS: usize = 4;
+/// Rows of a target and of as many places on the way as may be asked.
+const THROUGH_ROWS: usize = TARGET_ROWS + 2 * MAX_VIAS;
 type Controls = SVector<f64, CONTROLS>;
 
 /// Projects `near` onto the motions that meet `target`. `warm` (an answer to a slightly different
@@ -151,7 +154,8 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
     let mut best: Option<(f64, MotionModel, Knots, Trajectory)> = None;
     for (variant, first_guess) in attempts(model, &near, &target, warm) {
-        let knots = solve(&variant, &near, first_guess(&variant, &near, &target, warm), &target);
+        let guess = first_guess(&variant, &near, &target, warm);
+        let knots = solve::<TARGET_ROWS>(&variant, &near, guess, &target, &[]);
         let knots = calm_after(&variant, knots, &near, &target);
         let trajectory = variant.rollout(&knots);
         let residuals = GoalError::of(&trajectory[target.step], &target);
@@ -165,12 +169,49 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     }
     let (_, variant, knots, trajectory) =
         best.unwrap_or_else(|| (f64::MAX, *model, near, model.rollout(&near)));
-    let residuals = GoalError::of(&trajectory[target.step], &target);
+    judged(&variant, knots, trajectory, &target)
+}
+
+/// A place that a motion is at on its way to a target, at a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pass {
+    /// 1 ..= [`HORIZON_STEPS`].
+    pub step: usize,
+    /// Box centre, metres, scene frame.
+    pub position: Vec2,
+    /// Only how far it is to the side of this heading counts, radians: it may be there earlier or later.
+    pub across_rad: Option<f64>,
+}
+
+/// The motion near `near` that is at these places, at most [`MAX_VIAS`], on its way to the target, as nearly as the
+/// limits allow; `guess` is where the search begins.
+pub fn project_through(
+    model: &MotionModel,
+    near: &Knots,
+    guess: &Knots,
+    target: &Target,
+    passes: &[Pass],
+) -> Projection {
+    let near = model.legal(near);
+    let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
+    // Who stands at its goal on foot turns there.
+    let turns = model.kind == Kind::Walk && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
+    let turn_to = target.heading_rad.filter(|_| turns).map(|heading_rad| (target.step, heading_rad));
+    let model = MotionModel { turn_to, ..*model };
+    let knots = solve::<THROUGH_ROWS>(&model, &near, *guess, &target, &passes[..passes.len().min(MAX_VIAS)]);
+    let knots = if target.is_free() { knots } else { calm_after(&model, knots, &near, &target) };
+    let trajectory = model.rollout(&knots);
+    judged(&model, knots, trajectory, &target)
+}
+
+/// A motion with the verdict on its target.
+fn judged(model: &MotionModel, knots: Knots, trajectory: Trajectory, target: &Target) -> Projection {
+    let residuals = GoalError::of(&trajectory[target.step], target);
     let reach = if residuals.is_met() {
         Reach::Reached(residuals)
     } else {
         let nearest = trajectory[target.step];
-        let (limiting, needs) = explain(&variant, &knots, &target);
+        let (limiting, needs) = explain(model, &knots, target);
         Reach::Unreachable { nearest, residuals, limiting, needs }
     };
     Projection { knots, trajectory, reach }
@@ -240,28 +281,81 @@ fn attempts(
 }
 
 /// Target minus value, and the value's derivatives; rows that are not asked are zero and inactive.
-struct Linear {
-    residual: SVector<f64, 4>,
-    jacobian: Row4,
-    active: [bool; 4],
+struct Linear<const ROWS: usize> {
+    residual: SVector<f64, ROWS>,
+    jacobian: SMatrix<f64, ROWS, CONTROLS>,
+    active: [bool; ROWS],
 }
 
-impl Linear {
+impl<const ROWS: usize> Linear<ROWS> {
+    fn none() -> Self {
+        Self { residual: SVector::zeros(), jacobian: SMatrix::zeros(), active: [false; ROWS] }
+    }
+
     fn norm(&self) -> f64 {
         self.residual.norm()
     }
-}
 
-fn linearise(model: &MotionModel, knots: &Knots, target: &Target) -> Linear {
-    match model.kind {
-        Kind::Drive => linearise_drive(model, knots, target),
-        Kind::Walk => linearise_walk(model, knots, target),
+    /// Asks for what a pass wants in its two rows: `here` is the place of the motion then, `change` how it changes
+    /// with the knots, both in the start's frame.
+    fn pass(
+        &mut self,
+        model: &MotionModel,
+        k: usize,
+        pass: &Pass,
+        here: [f64; 2],
+        change: [[f64; CONTROLS]; 2],
+    ) {
+        let wanted = model.to_local(pass.position);
+        let off = [wanted.x - here[0], wanted.y - here[1]];
+        let axes = match pass.across_rad {
+            Some(heading_rad) => {
+                let (sin, cos) = (heading_rad - model.start.heading_rad).sin_cos();
+                [Some([-sin, cos]), None]
+            }
+            None => [Some([1.0, 0.0]), Some([0.0, 1.0])],
+        };
+        for (i, axis) in axes.into_iter().flatten().enumerate() {
+            let row = TARGET_ROWS + 2 * k + i;
+            self.active[row] = true;
+            self.residual[row] = axis[0] * off[0] + axis[1] * off[1];
+            for c in 0..CONTROLS {
+                self.jacobian[(row, c)] = axis[0] * change[0][c] + axis[1] * change[1][c];
+            }
+        }
     }
 }
 
-fn linearise_drive(model: &MotionModel, knots: &Knots, target: &Target) -> Linear {
-    let mut out = Linear { residual: SVector::zeros(), jacobian: Row4::zeros(), active: [false; 4] };
-    let Some(s) = sensitivities(model, knots, &[target.step]).pop() else { return out };
+fn linearise<const ROWS: usize>(
+    model: &MotionModel,
+    knots: &Knots,
+    target: &Target,
+    passes: &[Pass],
+) -> Linear<ROWS> {
+    match model.kind {
+        Kind::Drive => linearise_drive(model, knots, target, passes),
+        Kind::Walk => linearise_walk(model, knots, target, passes),
+    }
+}
+
+fn linearise_drive<const ROWS: usize>(
+    model: &MotionModel,
+    knots: &Knots,
+    target: &Target,
+    passes: &[Pass],
+) -> Linear<ROWS> {
+    let mut out = Linear::none();
+    let mut steps: Vec<usize> = passes.iter().map(|pass| pass.step).chain([target.step]).collect();
+    steps.sort_unstable();
+    steps.dedup();
+    let found = sensitivities(model, knots, &steps);
+    let at = |step: usize| steps.iter().position(|s| *s == step).and_then(|i| found.get(i));
+    for (k, pass) in passes.iter().enumerate() {
+        if let Some(s) = at(pass.step) {
+            out.pass(model, k, pass, [s.value[0], s.value[1]], [s.jacobian[0], s.jacobian[1]]);
+        }
+    }
+    let Some(s) = at(target.step) else { return out };
     let heading_goal = target.heading_rad.map(|h| wrap_angle(h - model.start.heading_rad));
     let local = target.position.map(|p| model.to_local(p));
     let goals = [local.map(|p| p.x), local.map(|p| p.y), heading_goal, target.speed_mps];
@@ -278,11 +372,23 @@ fn linearise_drive(model: &MotionModel, knots: &Knots, target: &Target) -> Linea
     out
 }
 
-fn linearise_walk(model: &MotionModel, knots: &Knots, target: &Target) -> Linear {
-    let mut out = Linear { residual: SVector::zeros(), jacobian: Row4::zeros(), active: [false; 4] };
+fn linearise_walk<const ROWS: usize>(
+    model: &MotionModel,
+    knots: &Knots,
+    target: &Target,
+    passes: &[Pass],
+) -> Linear<ROWS> {
+    let mut out = Linear::none();
     let apply = |row: &[f64; KNOTS], channel: &[f64; KNOTS]| -> f64 {
         row.iter().zip(channel).map(|(r, u)| r * u).sum()
     };
+    for (k, pass) in passes.iter().enumerate() {
+        let row = position_row(pass.step);
+        let mut change = [[0.0; CONTROLS]; 2];
+        change[0][..KNOTS].copy_from_slice(&row);
+        change[1][KNOTS..].copy_from_slice(&row);
+        out.pass(model, k, pass, [apply(&row, &knots.first), apply(&row, &knots.second)], change);
+    }
     let position = position_row(target.step);
     let velocity = velocity_row(target.step);
     if let Some(goal) = target.position {
@@ -336,9 +442,9 @@ fn linearise_walk(model: &MotionModel, knots: &Knots, target: &Target) -> Linear
 }
 
 /// Smallest whitened change from `wanted` that meets the linearised target.
-fn gauss_newton_step(
-    linear: &Linear,
-    residual: &SVector<f64, 4>,
+fn gauss_newton_step<const ROWS: usize>(
+    linear: &Linear<ROWS>,
+    residual: &SVector<f64, ROWS>,
     to_wanted: &Controls,
     free: &[bool; CONTROLS],
     whitening: &Whitening,
@@ -353,8 +459,8 @@ fn gauss_newton_step(
     }
     let white = whitening.whitened(&jacobian);
     let mut normal = white * white.transpose();
-    let damping = 1e-6 * normal.trace() / 4.0 + 1e-6;
-    for row in 0..4 {
+    let damping = 1e-6 * normal.trace() / ROWS as f64 + 1e-6;
+    for row in 0..ROWS {
         normal[(row, row)] += damping + if linear.active[row] { 0.0 } else { 1.0 };
     }
     let wanted = residual - jacobian * pull;
@@ -380,12 +486,18 @@ fn inside(wanted: &Controls, legal: &Controls) -> [bool; CONTROLS] {
     std::array::from_fn(|i| (wanted[i] - legal[i]).abs() < 1e-12)
 }
 
-fn solve(model: &MotionModel, near: &Knots, first_guess: Knots, target: &Target) -> Knots {
+fn solve<const ROWS: usize>(
+    model: &MotionModel,
+    near: &Knots,
+    first_guess: Knots,
+    target: &Target,
+    passes: &[Pass],
+) -> Knots {
     let near = pack(near);
     let mut knots = model.legal(&first_guess);
     let whitening = Whitening::new(model, typical_speed(model, target));
     let everything = [true; CONTROLS];
-    let mut linear = linearise(model, &knots, target);
+    let mut linear: Linear<ROWS> = linearise(model, &knots, target, passes);
     for iteration in 0..ITERATIONS {
         let norm = linear.norm();
         if norm < TOLERANCE {
@@ -405,10 +517,10 @@ fn solve(model: &MotionModel, near: &Knots, first_guess: Knots, target: &Target)
             let residual = linear.residual - linear.jacobian * (held - u);
             held + gauss_newton_step(&linear, &residual, &((near - held) * pull), &free, &whitening)
         };
-        let mut best: Option<(Knots, Linear)> = None;
+        let mut best: Option<(Knots, Linear<ROWS>)> = None;
         for length in [1.0, 0.4, 0.1] {
             let trial = model.legal(&unpack(&(u + (full - u) * length)));
-            let trial_linear = linearise(model, &trial, target);
+            let trial_linear = linearise(model, &trial, target, passes);
             let trial_norm = trial_linear.norm();
             if trial_norm < best.as_ref().map_or(norm, |b| b.1.norm()) {
                 best = Some((trial, trial_linear));

@@ -57,8 +57,11 @@ impl Whitening {
     }
 
     /// `J S` of a Jacobian by knots.
-    pub(crate) fn whitened(&self, jacobian: &SMatrix<f64, 4, CONTROLS>) -> SMatrix<f64, 4, CONTROLS> {
-        let mut out = SMatrix::<f64, 4, CONTROLS>::zeros();
+    pub(crate) fn whitened<const ROWS: usize>(
+        &self,
+        jacobian: &SMatrix<f64, ROWS, CONTROLS>,
+    ) -> SMatrix<f64, ROWS, CONTROLS> {
+        let mut out = SMatrix::<f64, ROWS, CONTROLS>::zeros();
         let first = jacobian.fixed_columns::<KNOTS>(0) * self.first;
         let second = jacobian.fixed_columns::<KNOTS>(KNOTS) * self.second;
         out.fixed_columns_mut::<KNOTS>(0).copy_from(&first);

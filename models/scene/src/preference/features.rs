@@ -162,8 +162,10 @@ impl Trait {
 
 /// A rule is broken, or the goal is not met: nobody wants to choose among such.
 pub(super) fn is_broken(future: &Future) -> bool {
-    use FaultKind::{Collision, GoalMissed, OffRoad, OverMedian, RedLight, WrongWay};
-    let broken = |kind| matches!(kind, Collision | RedLight | WrongWay | OverMedian | OffRoad | GoalMissed);
+    use FaultKind::{Collision, GoalMissed, OffRoad, OverMedian, RedLight, ViaMissed, WrongWay};
+    let missed = |kind| matches!(kind, ViaMissed | GoalMissed);
+    let broken =
+        |kind| missed(kind) || matches!(kind, Collision | RedLight | WrongWay | OverMedian | OffRoad);
     future.about.faults.iter().any(|fault| broken(fault.kind))
 }
 

@@ -3,7 +3,7 @@
 use super::drivable::Drivable;
 use crate::geometry::obb::OrientedBox;
 use crate::geometry::ttc::LOOK_AHEAD_S;
-use crate::{Agent, AgentType, Future, Goal, LaneMap, Scene, Signal, Size, State, Subtype, Track};
+use crate::{Agent, AgentType, Future, Goal, LaneMap, Scene, Signal, Size, State, Subtype, Track, Via};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -165,6 +165,8 @@ pub struct Actor<'a> {
     pub goal: Goal,
     /// Road edges that it may drive over.
     pub may_cross: &'a [String],
+    /// Places that it was asked to pass; none for recorded motion.
+    pub via: &'a [Via],
     /// Motion to compare with, if any.
     pub reference: Option<&'a Track>,
     /// All futures, for the best of them against the reference; empty: the track alone.
@@ -184,6 +186,7 @@ impl<'a> Actor<'a> {
             generated: false,
             goal: Goal::default(),
             may_cross: &[],
+            via: &[],
             reference: None,
             modes: &[],
         }
@@ -199,6 +202,7 @@ impl<'a> Actor<'a> {
             generated: true,
             goal: conditions.goal,
             may_cross: &conditions.may_cross,
+            via: &conditions.via,
             reference: Some(&agent.track),
             modes,
             ..Self::of_kept(agent)

@@ -103,6 +103,7 @@ fn is_same(a: &Actor<'_>, b: &Actor<'_>) -> bool {
     };
     about(a) == about(b)
         && a.may_cross == b.may_cross
+        && a.via == b.via
         && tracks(Some(&a.track), Some(&b.track))
         && tracks(a.log, b.log)
         && tracks(a.reference, b.reference)

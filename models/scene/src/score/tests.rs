@@ -48,6 +48,7 @@ pub(crate) fn straight(
         generated: true,
         goal: Goal::default(),
         may_cross: &[],
+        via: &[],
         reference: None,
         modes: &[],
     }

@@ -50,6 +50,7 @@ fn conditions(
     casting: Option<&Casting>,
 ) -> Result<BTreeMap<String, Value>, Failure> {
     known(scene, "--goal", &args.goal)?;
+    known(scene, "--via", &args.via)?;
     known(scene, "--start", &args.start)?;
     known(scene, "--size", &args.size)?;
     known(scene, "--type", &args.agent_type)?;
@@ -83,6 +84,13 @@ fn conditions(
     for given in &args.goal {
         let asked = &given.value;
         change(&given.id, &|doc| (doc.goal, doc.frame) = (Some(asked.goal.clone()), Some(asked.frame)));
+    }
+    // What the flag says stands in place of those that the scene has.
+    for given in &args.via {
+        change(&given.id, &|doc| doc.via.clear());
+    }
+    for given in &args.via {
+        change(&given.id, &|doc| doc.via.push(given.value.clone()));
     }
     for given in &args.start {
         change(&given.id, &|doc| doc.start = Some(given.value.clone()));

@@ -1,7 +1,7 @@
 //! What is asked of single road users, as values of flags: goals, starts, sizes.
 
 use crate::cli::values::{number, within};
-use formats::native::{Frame, GoalDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc};
+use formats::native::{Frame, GoalDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc};
 
 /// Fastest that any road user may be asked to be, m/s.
 const FASTEST_MPS: f64 = 60.0;
@@ -36,6 +36,7 @@ const PLACE: [Key; 2] =
 const SPEED: Key = key("speed", 0.0, FASTEST_MPS, "m/s");
 const HEADING: Key = key("heading", -ANGLE_RAD, ANGLE_RAD, "radians");
 const TIME: Key = key("time", 0.5, LATEST_S, "s");
+const TOLERANCE: Key = key("tolerance", scene::VIA_TOLERANCE_M.0, scene::VIA_TOLERANCE_M.1, "m");
 const OFFSET: [Key; 2] = [
     key("ahead", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
     key("left", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
@@ -126,6 +127,19 @@ pub fn goal(text: &str) -> Result<AskedGoal, String> {
         ..GoalDoc::default()
     };
     Ok(AskedGoal { goal, frame: if own { Frame::Agent } else { Frame::Scene } })
+}
+
+/// `X,Y[,TIME[,TOLERANCE]]`, or keys: `x y time tolerance`.
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn via(text: &str) -> Result<ViaDoc, String> {
+    let fields = fields(text, &[&PLACE[0], &PLACE[1], &TIME, &TOLERANCE], 4)?;
+    let value = |name| of(&fields, name);
+    let (Some(x_m), Some(y_m)) = (value("x"), value("y")) else {
+        return Err("a place expected: x and y".into());
+    };
+    Ok(ViaDoc { x_m, y_m, tolerance_m: value("tolerance"), time_s: value("time") })
 }
 
 /// `X,Y[,SPEED[,HEADING]]`, or keys: `x y speed heading`.

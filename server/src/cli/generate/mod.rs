@@ -19,7 +19,7 @@ use crate::base::limits;
 use asked::AskedGoal;
 use clap::Args;
 use experts::request::DEFAULTS;
-use formats::native::{MAX_SAFE_INTEGER, StartDoc};
+use formats::native::{MAX_SAFE_INTEGER, StartDoc, ViaDoc};
 use scene::AgentType;
 use scene::scenarios::Template;
 use std::ops::Range;
@@ -72,6 +72,10 @@ pub struct GenerateArgs {
     /// --goal keeps that.
     #[arg(long, value_delimiter = ',', value_name = "WHO", help_heading = ROAD_USERS)]
     goal_from_log: Vec<Who>,
+    /// A place that a road user passes on its way: X,Y[,TIME[,TOLERANCE]], or keys, as in 6=x:10,y:4,tolerance:2. Up
+    /// to four of each road user, in the order in which they are passed.
+    #[arg(long, value_name = "ID=VIA", value_parser = for_one(asked::via), help_heading = ROAD_USERS)]
+    via: Vec<For<ViaDoc>>,
     /// Start of a road user: X,Y[,SPEED[,HEADING]], or keys, as in 6=x:10,y:4,speed:8.
     #[arg(long, value_name = "ID=START", value_parser = for_one(asked::start), help_heading = ROAD_USERS)]
     start: Vec<For<StartDoc>>,

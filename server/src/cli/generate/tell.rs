@@ -132,6 +132,7 @@ fn fault(fault: &Fault) -> String {
         FaultKind::HarshBraking => "brakes hard",
         FaultKind::HarshSteering => "steers hard",
         FaultKind::NearMiss => "nearly collides",
+        FaultKind::ViaMissed => "misses a via point",
         FaultKind::GoalMissed => "misses its goal",
     };
     let with = fault.with.as_ref().map_or_else(String::new, |with| format!(" with {with}"));

@@ -99,6 +99,8 @@ const TIPS = {
     ['Alt', 'fine'],
   ],
   time: [['Shift', TEXTS.wholeSeconds]],
+  via: [['Alt', TEXTS.noSnapping]],
+  ring: [['Shift', TEXTS.halfMetres]],
 } as const;
 
 const AT_KERB = [

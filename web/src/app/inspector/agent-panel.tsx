@@ -15,9 +15,13 @@ import { CurveSection } from './curve-section';
 import { FuturesSection } from './futures-section';
 import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
+import { ViasSection } from './vias-section';
 import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
 import { TEXTS } from '../../texts/agent';
+
+// Beside it in one script: who is selected has both at once.
+export { Sliders } from '../access/sliders';
 
 export function AgentPanel({ id }: { id: string }) {
   const agent = useAgent(id);
@@ -32,6 +36,7 @@ export function AgentPanel({ id }: { id: string }) {
             <Warnings agent={agent} />
             <CurveSection agent={agent} />
             <StartSection agent={agent} />
+            <ViasSection agent={agent} />
             <GoalSection agent={agent} />
           </Locked>
           <FuturesSection agent={agent} />

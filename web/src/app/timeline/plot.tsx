@@ -3,7 +3,9 @@
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
+import { canMove } from '../../model/scene';
 import { fromUnit } from '../../model/units';
+import { addViaAt } from '../../edit/vias';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 import { useFrameTick } from '../parts/hooks';
@@ -141,14 +143,25 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
   /** Where the playhead was before the last two presses: a double click is not about it. */
   const before = useRef<readonly [number, number]>([0, 0]);
   const tenth = (t: number): number => Math.round(t * 10) / 10;
-  const seek = (e: PointerEvent & { currentTarget: HTMLElement }) => {
+  const timeAt = (e: PointerEvent & { currentTarget: HTMLElement }): number => {
     const a = axesOf(c, size.peek());
     const x = e.clientX - e.currentTarget.getBoundingClientRect().left;
-    c.editor.setTime(tenth(((x - X0) / (a.x1 - X0)) * a.duration));
+    return tenth(((x - X0) / (a.x1 - X0)) * a.duration);
+  };
+  const seek = (e: PointerEvent & { currentTarget: HTMLElement }) => {
+    c.editor.setTime(timeAt(e));
   };
   return {
     onPointerDown: (e: PointerEvent & { currentTarget: HTMLElement }) => {
       if ((e.target as Element).closest('.badge')) return;
+      // Shift: a via point where it is then.
+      const a = c.editor.agent.peek();
+      const added = e.shiftKey && a && canMove(a) ? addViaAt(c.editor, a, timeAt(e)) : null;
+      if (added) {
+        c.editor.run(added.command);
+        c.editor.takeVia(added.index);
+        return;
+      }
       c.editor.curve.take(null);
       on.current = true;
       before.current = [before.current[1], c.editor.time.peek()];

@@ -9,6 +9,7 @@ export function ask(chart: Chart, { x, y, hit }: Press): void {
   const { editor } = chart;
   const id = hit.kind === 'agent' || hit.kind === 'pennant' ? hit.id : null;
   if (id && !editor.selected.peek().includes(id)) editor.select(id);
+  editor.takeVia(hit.kind === 'grip' ? (hit.grip.index ?? null) : null);
   const on = hit.kind === 'pennant' || (hit.kind === 'grip' && hit.grip.part === 'goal') ? 'goal' : null;
   const some = id !== null || hit.kind === 'grip' || hit.kind === 'frame';
   const who = !some ? 'ground' : editor.selected.peek().length > 1 ? 'several' : 'road-user';

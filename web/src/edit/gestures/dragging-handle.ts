@@ -2,9 +2,9 @@
 import { batch } from '@preact/signals-core';
 import { clamp, type Point } from '../../model/geometry';
 import type { Command } from '../../model/commands';
-import { startPose } from '../../model/scene';
-import type { Chart, State } from './chart';
-import type { HandleMove } from './handle-move';
+import { startPose, type Agent } from '../../model/scene';
+import type { Grip } from '../editor';
+import type { Chart, Modifiers, State } from './chart';
 import type { Press } from './pressed';
 
 /** Within this many pixels of the edge the picture scrolls, up to this many pixels a second. */
@@ -15,6 +15,25 @@ const BEYOND_M = 30;
 /** A finger that rests so long at a kerb passes it, seconds; it trembles by less than this, pixels. */
 const PASSES_AFTER_S = 0.4;
 const TREMBLE_PX = 8;
+
+/** What is dragged: a command for every place of the pointer. */
+export interface Move {
+  readonly grip: Grip;
+  readonly agent: Agent;
+  /** Does a kerb hold it back? */
+  readonly held: boolean;
+  passKerbs(): void;
+  to(at: Point, mods: Modifiers, press: Point): Command;
+}
+
+const CURSORS = {
+  body: 'grabbing',
+  heading: 'crosshair',
+  speed: 'resize',
+  time: 'resize',
+  via: 'grabbing',
+  ring: 'resize',
+} as const;
 
 export class DraggingHandle implements State {
   readonly name = 'dragging handle';
@@ -27,14 +46,14 @@ export class DraggingHandle implements State {
   constructor(
     private readonly chart: Chart,
     private readonly press: Press,
-    private readonly what: HandleMove,
+    private readonly what: Move,
   ) {}
 
   enter(): void {
     const { editor, surface } = this.chart;
     const { grip } = this.what;
     editor.beginDrag(grip);
-    surface.setCursor({ body: 'grabbing', heading: 'crosshair', speed: 'resize', time: 'resize' }[grip.handle]);
+    surface.setCursor(CURSORS[grip.handle]);
     surface.invalidate('agents');
   }
 

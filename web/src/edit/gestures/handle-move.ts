@@ -11,6 +11,7 @@ import { goalTime } from '../moves';
 import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
 import { edgesInTheWay } from '../ways-out';
 import type { Modifiers } from './chart';
+import type { Move } from './dragging-handle';
 import type { Press } from './pressed';
 import { Resistance } from './resistance';
 import { TEXTS } from '../../texts/gestures';
@@ -30,7 +31,7 @@ interface Beginning {
   readonly press: Press;
 }
 
-export class HandleMove {
+export class HandleMove implements Move {
   readonly grip: Grip;
   readonly agent: Agent;
   readonly #start: Pose;
@@ -93,7 +94,7 @@ export class HandleMove {
         return this.#named('heading', this.#put({ heading: this.#heading(x, y, mods), ...this.#keptGoal() }, mods));
       case 'speed':
         return this.#named('speed', this.#put({ speed: this.#speed(x, y, mods), ...this.#keptGoal() }, mods));
-      case 'time':
+      default:
         return this.#time(at.x - press.x, mods);
     }
   }

@@ -5,6 +5,15 @@ import { ASK } from './asking';
 import { Pressed } from './pressed';
 import type { Tool } from './tools';
 
+const CURSORS = {
+  body: 'grab',
+  heading: 'crosshair',
+  speed: 'resize',
+  time: 'resize',
+  via: 'grab',
+  ring: 'resize',
+} as const;
+
 export class Idle implements State {
   readonly name = 'idle';
   constructor(private readonly chart: Chart) {}
@@ -51,7 +60,7 @@ export class Idle implements State {
     const { editor, parts } = this.chart;
     switch (hit.kind) {
       case 'grip':
-        return { body: 'grab', heading: 'crosshair', speed: 'resize', time: 'resize' }[hit.grip.handle];
+        return CURSORS[hit.grip.handle];
       case 'stop':
         return 'grab';
       case 'hold':

@@ -1,13 +1,14 @@
 // The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
-import { canChange, startPose } from '../../model/scene';
+import { canChange, startPose, type Agent } from '../../model/scene';
 import { freeOnes, lockedWords } from '../copying';
 import type { Grip } from '../editor';
 import type { FrameHandle } from '../hit';
 import { pickFuture } from '../moves';
+import { addVia, roomForVia } from '../vias';
 import { roadWay } from '../ways-out';
 import type { Chart, State } from './chart';
 import { DraggingCopies } from './dragging-copies';
-import { DraggingHandle } from './dragging-handle';
+import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
 import { DraggingHold, DraggingStop } from './dragging-stop';
 import { HandleMove } from './handle-move';
@@ -16,6 +17,7 @@ import { ghostHere, placeGhost } from './placing';
 import type { Press } from './pressed';
 import { rectangle, Sweeping } from './sweeping';
 import { TEXTS } from '../../texts/gestures';
+import { ViaMove } from './via-move';
 
 /** How far ahead of a road user without futures its goal is taken to be, in metres. */
 const GOAL_AHEAD_M = 20;
@@ -104,16 +106,27 @@ class Refused implements State {
   }
 }
 
-function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): HandleMove | null {
+function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): Move | null {
   const agent = editor.agent.peek();
   const start = agent && startPose(agent);
   if (!agent || !start || !canChange(agent)) return null;
+  if (grip.index !== undefined) return new ViaMove(editor, surface.view, grip, agent, press);
   const goal = editor.goalPose(agent) ?? {
     ...start,
     x: start.x + Math.cos(start.heading) * GOAL_AHEAD_M,
     y: start.y + Math.sin(start.heading) * GOAL_AHEAD_M,
   };
   return new HandleMove(editor, surface.view, { grip, agent, start, goal, press });
+}
+
+/** A via point where the future was pressed. */
+function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: number): void {
+  const added = addVia(editor, a, surface.view.from(press.x, press.y), future);
+  const room = roomForVia(a);
+  if (room !== true) editor.notices.show({ text: room });
+  if (!added) return;
+  editor.run(added.command);
+  editor.takeVia(added.index);
 }
 
 export function click(chart: Chart, press: Press, timeStamp: number): void {
@@ -142,6 +155,10 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
         editor.deck.point(hit.index);
         break;
       }
+      if (adds && a && !a.locked) {
+        putVia(chart, a, press, hit.index);
+        break;
+      }
       const command = a && a.chosen !== hit.index ? pickFuture(editor, a, hit.index) : null;
       if (command) editor.run(command);
       break;
@@ -152,11 +169,12 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'grip': {
-      if (adds && a) {
+      if (adds && a && hit.grip.index === undefined) {
         editor.toggleSelected(a.id);
         break;
       }
       editor.activate(hit.grip.part);
+      editor.takeVia(hit.grip.index ?? null);
       const box = hit.grip.part === 'start' && hit.grip.handle === 'body';
       const below = box ? chart.parts.agentsAt(press) : [];
       if (below.length > 1) editor.select(chart.pile.take(below, timeStamp));

@@ -176,6 +176,7 @@ impl Ledger {
                 conditions: &agents[*i].conditions,
                 due_step: request.start_step + due,
                 end: end.copied().unwrap_or(present.start),
+                states: std::iter::once(present.start).chain(progress.executed.iter().copied()).collect(),
                 reach: progress.reach.clone(),
                 intermediate: progress.intermediate.clone(),
             };
@@ -225,6 +226,12 @@ impl Ledger {
                     let code = WarningCode::GoalUnreachable;
                     self.warnings.push(Warning { code, agent, detail: words.clone() });
                 }
+            }
+        }
+        for (id, resolved) in &self.resolved {
+            for (k, via) in resolved.via.iter().enumerate().filter(|(_, via)| !via.passed) {
+                let detail = report::missed_words(k + 1, via);
+                self.warnings.push(Warning { code: WarningCode::ViaMissed, agent: Some(id.clone()), detail });
             }
         }
         let Self { samples, resolved, warnings, timings, .. } = std::mem::take(self);

@@ -149,9 +149,13 @@ impl<'g> Generation<'g> {
                 world(self.generator, &self.map, &self.request, Arc::new(scene), step)
             }
         };
-        let targets = Targets::of(&self.request, &world, number);
+        let executed = |i| self.ledger.progress(i).map_or(&[][..], |p| &p.executed);
+        let targets = Targets::of(&self.request, &world, number, executed);
         for (agent, goal) in targets.goals {
             world.aim(agent, goal);
+        }
+        for (agent, via) in targets.vias {
+            world.lead(agent, via);
         }
         let end = self.request.start_step + span.end;
         let mut cast = self.roster.in_window(number, &world, end, &self.ledger);

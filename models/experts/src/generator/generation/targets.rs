@@ -3,7 +3,8 @@
 use crate::generator::subgoal::{as_goal, subgoal};
 use crate::planning::world::World;
 use crate::request::{Intermediate, Request};
-use scene::{Goal, HORIZON_STEPS, STEP_S};
+use scene::via::passings;
+use scene::{Conditions, Goal, HORIZON_STEPS, STEP_S, State, Via};
 use std::collections::BTreeMap;
 
 /// Goals of one window.
@@ -11,6 +12,8 @@ use std::collections::BTreeMap;
 pub(super) struct Targets {
     /// What is asked in place of the fixed goal, by agent of the scene.
     pub(super) goals: Vec<(usize, Goal)>,
+    /// The via points that are left, or that lie on the way to a state on the way, by agent of the scene.
+    pub(super) vias: Vec<(usize, Vec<Via>)>,
     /// The state on the way that a window is sent to, where the goal is due after its end.
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
 }
@@ -24,28 +27,72 @@ pub(super) fn due(request: &Request, agent: usize) -> isize {
     }
 }
 
+/// The via points that are not passed yet when a window begins at a scene step; what was due before is behind.
+fn left_of<'v>(asked: &'v Conditions, start_step: usize, step: usize, executed: &[State]) -> &'v [Via] {
+    let passed = passings(&asked.via, (start_step + 1) as f64 * STEP_S, executed);
+    let done = asked.via.iter().zip(&passed).rposition(|(via, passing)| via.is_passed(passing));
+    let behind = |via: &Via| via.time_s.is_some_and(|t| (t / STEP_S).round() <= step as f64);
+    let late = asked.via.iter().rposition(behind);
+    let first = done.max(late).map_or(0, |last| last + 1);
+    &asked.via[first..]
+}
+
+/// The goal of a road user and the step after the call's start at which it is due. Where no goal fixes a place, a via
+/// point with a time after the window is the next thing to be in time for.
+fn aim(request: &Request, agent: usize, vias: &[Via], step: usize) -> (Goal, isize) {
+    let goal = request.scene.agents[agent].conditions.goal;
+    let later = |via: &&Via| via.time_s.is_some_and(|t| t > (step + HORIZON_STEPS) as f64 * STEP_S);
+    match vias.iter().rfind(later).filter(|_| goal.position.is_none()) {
+        Some(via) => {
+            let goal = Goal { position: Some(via.position), time_s: via.time_s, ..Goal::default() };
+            let due_s = via.time_s.unwrap_or_default();
+            (goal, (due_s / STEP_S).round() as isize - request.start_step as isize)
+        }
+        None => (goal, due(request, agent)),
+    }
+}
+
 impl Targets {
     /// What window `number` is asked: goals that are past are dropped, those due after its end become the state on
-    /// the way.
-    pub(super) fn of(request: &Request, world: &World<'_>, number: usize) -> Self {
+    /// the way. `executed` has what a road user did since the call's start.
+    pub(super) fn of<'e>(
+        request: &Request,
+        world: &World<'_>,
+        number: usize,
+        executed: impl Fn(usize) -> &'e [State],
+    ) -> Self {
         let mut targets = Self::default();
         let step = world.step;
         let passed = step as isize - request.start_step as isize;
         for (i, agent) in request.scene.agents.iter().enumerate() {
-            let goal = &agent.conditions.goal;
+            let asked = &agent.conditions;
+            let vias = left_of(asked, request.start_step, world.step, executed(i));
+            let (goal, due) = aim(request, i, vias, world.step);
+            if vias.len() < asked.via.len() {
+                targets.vias.push((i, vias.to_vec()));
+            }
+            let goal = &goal;
             if goal.is_free() {
                 continue;
             }
-            let left = due(request, i) - passed;
+            let left = due - passed;
             if left <= 0 {
                 targets.goals.push((i, Goal::default()));
+                targets.vias.retain(|(agent, _)| *agent != i);
+                if !asked.via.is_empty() {
+                    targets.vias.push((i, Vec::new()));
+                }
             } else if left as usize <= HORIZON_STEPS {
                 let time_s = Some((step as isize + left) as f64 * STEP_S);
                 if goal.step_in_window(step as f64 * STEP_S) != left as usize {
                     targets.goals.push((i, Goal { time_s, ..*goal }));
                 }
             } else if let Some(who) = world.present.iter().find(|p| p.index == i) {
-                let state = subgoal(world, who, goal, left as usize);
+                let (state, on_the_way) = subgoal(world, who, goal, vias, left as usize);
+                if on_the_way < asked.via.len() {
+                    targets.vias.retain(|(agent, _)| *agent != i);
+                    targets.vias.push((i, vias[..on_the_way].to_vec()));
+                }
                 let time_s = (step + HORIZON_STEPS) as f64 * STEP_S;
                 let asked = as_goal(&state, world.model(who).kind, goal, left as usize, time_s);
                 if !asked.is_free() {
@@ -74,7 +121,7 @@ mod tests {
         let scene = Arc::new(Scene::bare("", LaneMap::default(), vec![car]));
         let request = Request { start_step, horizon_steps: 200, ..Request::new(scene.clone()) };
         let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), step);
-        Targets::of(&request, &world, 1)
+        Targets::of(&request, &world, 1, |_| &[])
     }
 
     #[test]

@@ -236,7 +236,7 @@ pub(super) fn reacting(
 ) -> Vec<Actor> {
     let asked = |who: &AgentAtStart| {
         let conditions = &world.conditions[who.index];
-        !conditions.goal.is_free() || conditions.start != Start::default()
+        !conditions.goal.is_free() || !conditions.via.is_empty() || conditions.start != Start::default()
     };
     let candidates: Vec<_> =
         world.present.iter().filter(|p| may_react.contains(&p.index) && asked(p)).collect();

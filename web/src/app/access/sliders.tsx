@@ -1,0 +1,188 @@
+// A slider for each handle of a road user: where it starts, its goal, and the places on its way.
+import { useComputed } from '@preact/signals';
+import type { Command } from '../../model/commands';
+import { deg } from '../../model/geometry';
+import { num, speedLabel } from '../../model/units';
+import type { Field, Part } from '../../edit/editor';
+import * as moves from '../../edit/moves';
+import { laneWords } from '../../edit/snap';
+import { heldTime, viaTime } from '../../edit/via-times';
+import { changeVia, moveVia, viaName, widenVia } from '../../edit/vias';
+import { useAgent, type LiveAgent } from '../inspector/use-agent';
+import { useApp } from '../parts/app-context';
+
+export function Sliders({ id }: { id: string }) {
+  const agent = useAgent(id);
+  return (
+    <div>
+      <PartSliders agent={agent} part="start" />
+      <PartSliders agent={agent} part="goal" />
+      <TimeSlider agent={agent} />
+      <ViaSliders agent={agent} />
+    </div>
+  );
+}
+
+/** Which way an arrow key goes, as x and y and as more or less. */
+const ARROWS: Record<string, readonly [dx: number, dy: number, more: 1 | -1]> = {
+  ArrowLeft: [-1, 0, -1],
+  ArrowRight: [1, 0, 1],
+  ArrowUp: [0, 1, 1],
+  ArrowDown: [0, -1, -1],
+};
+
+interface SliderProps {
+  label: string;
+  part: Part;
+  /** The via point that it is about. */
+  via?: number;
+  now: () => number;
+  text: () => string;
+  /** The command of an arrow key; `far` with Shift. */
+  move: (arrow: (typeof ARROWS)[string], far: boolean) => Command | null;
+}
+
+function Slider({ label, part, via, now, text, move }: SliderProps) {
+  const { editor } = useApp();
+  const focus = () => {
+    editor.activate(part);
+    if (via !== undefined) editor.takeVia(via);
+  };
+  const keyDown = (e: KeyboardEvent) => {
+    if (!ARROWS[e.key] || e.ctrlKey || e.altKey) return;
+    e.preventDefault();
+    e.stopPropagation();
+    const command = move(ARROWS[e.key], e.shiftKey);
+    if (command) editor.run(command);
+  };
+  return (
+    <div
+      role="slider"
+      tabindex={0}
+      aria-label={label}
+      aria-valuenow={useComputed(() => now().toFixed(1)) as never}
+      aria-valuetext={useComputed(text)}
+      aria-valuemin={-10000}
+      aria-valuemax={10000}
+      onFocus={focus}
+      onKeyDown={keyDown}
+    />
+  );
+}
+
+const WORD = { start: 'Start', goal: 'Goal' } as const;
+
+function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
+  const { editor } = useApp();
+  const pose = () => moves.shownPose(editor, agent.value, part);
+  const freedom = (f: Field) => (agent.value[part][f] === null ? ', free' : ', fixed');
+  const place = () => {
+    const p = pose();
+    if (!p) return 'not known';
+    const lane = laneWords(editor.scene.value!.map, agent.value, p.x, p.y, p.heading);
+    return `${num(p.x, 1)}, ${num(p.y, 1)} metres, ${lane}${freedom('pos')}`;
+  };
+  const heading = () => deg(pose()?.heading ?? 0);
+  const speed = () => pose()?.speed ?? 0;
+  return (
+    <>
+      <Slider
+        label={`${WORD[part]} position`}
+        part={part}
+        now={() => pose()?.x ?? 0}
+        text={place}
+        move={([dx, dy], far) => {
+          const step = far ? 1 : 0.1;
+          return moves.nudge(editor, agent.peek(), part, dx * step, dy * step);
+        }}
+      />
+      <Slider
+        label={`${WORD[part]} heading`}
+        part={part}
+        now={heading}
+        text={() => `${Math.round(heading())} degrees${freedom('heading')}`}
+        move={([, , more], far) => moves.turn(editor, agent.peek(), part, more * (far ? 15 : 1))}
+      />
+      <Slider
+        label={`${WORD[part]} speed`}
+        part={part}
+        now={speed}
+        text={() => `${speedLabel(speed(), editor.unitOf(agent.value))}${freedom('speed')}`}
+        move={([, , more], far) => moves.faster(editor, agent.peek(), part, more * (far ? 10 : 1))}
+      />
+    </>
+  );
+}
+
+function TimeSlider({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  return (
+    <Slider
+      label="Goal time"
+      part="goal"
+      now={() => agent.value.goal.time}
+      text={() => `${num(agent.value.goal.time, 1)} seconds`}
+      move={([, , more], far) => moves.later(editor, agent.peek(), more * (far ? 1 : 0.1))}
+    />
+  );
+}
+
+function ViaSliders({ agent }: { agent: LiveAgent }) {
+  const count = useComputed(() => agent.value.goal.via.length).value;
+  return (
+    <>
+      {Array.from({ length: count }, (_, i) => (
+        <ViaSlider key={i} agent={agent} i={i} />
+      ))}
+    </>
+  );
+}
+
+function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
+  const { editor } = useApp();
+  const via = () => agent.value.goal.via[i];
+  const name = useComputed(() => viaName(agent.value, i)).value;
+  const place = () => {
+    const [x, y] = via()?.pos ?? [0, 0];
+    return `${num(x, 1)}, ${num(y, 1)} metres, ${laneWords(editor.scene.value!.map, agent.value, x, y, null)}`;
+  };
+  const time = () => via()?.time ?? viaTime(editor, agent.value, i) ?? 0;
+  return (
+    <>
+      <Slider
+        label={`${name} position`}
+        part="goal"
+        via={i}
+        now={() => via()?.pos[0] ?? 0}
+        text={place}
+        move={([dx, dy], far) => {
+          const [x, y] = agent.peek().goal.via[i].pos;
+          const step = far ? 1 : 0.1;
+          return moveVia(agent.peek(), i, [x + dx * step, y + dy * step], true);
+        }}
+      />
+      <Slider
+        label={`${name} tolerance`}
+        part="goal"
+        via={i}
+        now={() => via()?.tolerance ?? 0}
+        text={() => `${num(via()?.tolerance ?? 0, 1)} metres`}
+        move={([, , more], far) =>
+          widenVia(agent.peek(), i, agent.peek().goal.via[i].tolerance + more * (far ? 1 : 0.1), true)
+        }
+      />
+      <Slider
+        label={`${name} time`}
+        part="goal"
+        via={i}
+        now={time}
+        text={() => `${num(time(), 1)} seconds${via()?.time == null ? ', free' : ', fixed'}`}
+        move={([, , more], far) => {
+          const a = agent.peek();
+          const t = heldTime(a, i, time() + more * (far ? 1 : 0.1), editor.scene.peek()?.length ?? 9);
+          return t === null ? null : changeVia(a, i, { time: t }, true);
+        }}
+      />
+    </>
+  );
+}

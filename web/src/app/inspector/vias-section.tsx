@@ -1,0 +1,172 @@
+// Places on the way: each with where it is, how near it is passed, and when.
+import { useComputed } from '@preact/signals';
+import type { Vec } from '../../model/geometry';
+import { num, seconds } from '../../model/units';
+import { passed, VIA_TOLERANCE } from '../../model/via';
+import { verdictsHold } from '../../edit/goal-verdict';
+import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/via-times';
+import { changeVia, moveVia, removeVia, viaName, widenVia } from '../../edit/vias';
+import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { NumberField } from '../parts/number-field';
+import type { Command } from '../../model/commands';
+import type { LiveAgent } from './use-agent';
+
+const FAR_M = 10_000;
+
+export function ViasSection({ agent }: { agent: LiveAgent }) {
+  const count = useComputed(() => agent.value.goal.via.length).value;
+  if (!count) return null;
+  return (
+    <section class="sect vias" aria-label="Places on the way">
+      <h3>
+        <span class="mk">
+          <Icon name="via" size={15} />
+        </span>
+        Places on the way
+        <small>{count}</small>
+      </h3>
+      {Array.from({ length: count }, (_, i) => (
+        <ViaRows key={i} agent={agent} i={i} />
+      ))}
+      <Order agent={agent} />
+      <ActionButton id="add-via" class="line" size={15} />
+    </section>
+  );
+}
+
+/** The path would pass two of them the other way round: whether they swap is asked. */
+function Order({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const i = useComputed(() => (editor.dragging.value ? null : outOfOrder(editor, agent.value))).value;
+  if (i === null) return null;
+  const words = `${viaName(agent.value, i + 1)} lies before ${viaName(agent.value, i).toLowerCase()} on the path.`;
+  return (
+    <p class="leave">
+      {words}
+      <button type="button" class="words" onClick={() => editor.run(swapVias(agent.peek(), i))}>
+        Swap them
+      </button>
+    </p>
+  );
+}
+
+function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
+  const { editor } = useApp();
+  const via = () => agent.value.goal.via[i];
+  const run = (c: Command | null): void => {
+    if (c) editor.run(c);
+  };
+  const name = useComputed(() => viaName(agent.value, i)).value;
+  const held = useComputed(() => editor.viaInHand.value === i).value;
+  const said = useComputed(() => {
+    const f = editor.futures.value;
+    const m = f?.modes[editor.chosen.value]?.motion;
+    const at = m && verdictsHold(editor) ? passed(agent.value.goal.via, m)[i] : null;
+    if (!at) return '';
+    return at.ok ? `passed at ${seconds(at.time)}` : `${num(at.away, 1)} m away at ${seconds(at.time)}`;
+  });
+  const fixed = useComputed(() => via()?.time != null).value;
+  const take = () => editor.takeVia(i);
+  const live = (handle: 'via' | 'ring') => () => {
+    const grip = editor.drag.value?.grip;
+    return grip?.handle === handle && grip.index === i;
+  };
+  const coordinate = (axis: 0 | 1) => (
+    <NumberField
+      label={`${name} ${axis ? 'y' : 'x'} in metres`}
+      letter={axis ? 'y' : 'x'}
+      unit={() => ''}
+      quantity={() => 'length'}
+      step={0.1}
+      value={() => via()?.pos[axis] ?? null}
+      text={() => num(via()?.pos[axis] ?? 0, 1)}
+      range={() => [-FAR_M, FAR_M]}
+      live={live('via')}
+      set={(v, l) => {
+        const [x, y] = agent.peek().goal.via[i].pos;
+        run(moveVia(agent.peek(), i, (axis ? [x, v] : [v, y]) as Vec, l));
+      }}
+      onFocus={take}
+    />
+  );
+  return (
+    <div class={held ? 'viarows held' : 'viarows'} role="group" aria-label={name}>
+      <div class="pr">
+        <span class="lab">{name}</span>
+        <div class="fs">
+          {coordinate(0)}
+          {coordinate(1)}
+        </div>
+        <button
+          type="button"
+          class="off"
+          aria-label={`Remove ${name.toLowerCase()}`}
+          title="Remove"
+          onClick={() => run(removeVia(agent.peek(), i))}
+        >
+          <Icon name="x" size={12} />
+        </button>
+      </div>
+      <div class="pr">
+        <span class="lab">Within</span>
+        <div class="fs">
+          <NumberField
+            label={`${name} tolerance in metres`}
+            letter="±"
+            unit={() => 'm'}
+            quantity={() => 'length'}
+            step={0.1}
+            value={() => via()?.tolerance ?? null}
+            text={() => num(via()?.tolerance ?? 0, 1)}
+            range={() => VIA_TOLERANCE}
+            field={`via-${i}-tolerance`}
+            live={live('ring')}
+            set={(v, l) => run(widenVia(agent.peek(), i, v, l))}
+            onFocus={take}
+          />
+          <NumberField
+            label={`${name} time in seconds`}
+            letter="t"
+            unit={() => 's'}
+            quantity={() => 'time'}
+            step={0.1}
+            value={() => via()?.time ?? viaTime(editor, agent.value, i)}
+            text={() => {
+              const t = via()?.time ?? viaTime(editor, agent.value, i);
+              return t === null ? '' : `${via()?.time == null ? '≈ ' : ''}${num(t, 1)}`;
+            }}
+            range={() => [0.5, editor.scene.value?.length ?? 9]}
+            free={() => via()?.time == null}
+            set={(v, l) => {
+              const a = agent.peek();
+              const time = heldTime(a, i, v, editor.scene.peek()?.length ?? v);
+              if (time !== null) run(changeVia(a, i, { time }, l));
+            }}
+            onFocus={take}
+          />
+        </div>
+        <button
+          type="button"
+          class="fx"
+          role="switch"
+          aria-checked={fixed}
+          aria-label={`${name} time fixed`}
+          title={
+            fixed
+              ? 'Fixed: you decide. Click to let the generator decide'
+              : 'Free: the generator decides. Click to fix it here'
+          }
+          onClick={() => run(toggleViaTime(editor, agent.peek(), i))}
+        >
+          <Icon name="lock" size={11} />
+          {fixed ? 'Fixed' : 'Free'}
+        </button>
+      </div>
+      <p class="note" aria-live="off">
+        {said}
+      </p>
+    </div>
+  );
+}

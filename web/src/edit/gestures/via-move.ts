@@ -1,0 +1,58 @@
+// What dragging a via point, or its ring, to a place asks of the document.
+import type { Point, Vec } from '../../model/geometry';
+import type { Command } from '../../model/commands';
+import type { Agent } from '../../model/scene';
+import type { View } from '../../draw/view';
+import type { Editor, Grip } from '../editor';
+import { laneWords, snapToLane } from '../snap';
+import { moveVia, widenVia } from '../vias';
+import type { Modifiers } from './chart';
+import type { Move } from './dragging-handle';
+import type { Press } from './pressed';
+
+export class ViaMove implements Move {
+  /** Kerbs hold back goals alone: a via point is there to lead over something, too. */
+  readonly held = false;
+  readonly #grab: Vec;
+  readonly #from: Vec;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly view: View,
+    readonly grip: Grip,
+    readonly agent: Agent,
+    press: Press,
+  ) {
+    this.#grab = view.from(press.x, press.y);
+    this.#from = agent.goal.via[this.#index].pos;
+  }
+
+  get #index(): number {
+    return this.grip.index ?? 0;
+  }
+
+  passKerbs(): void {}
+
+  to(at: Point, mods: Modifiers): Command {
+    const [x, y] = this.view.from(at.x, at.y);
+    if (this.grip.handle === 'ring') {
+      const away = ([px, py]: Vec): number => Math.hypot(px - this.#from[0], py - this.#from[1]);
+      const metres = this.agent.goal.via[this.#index].tolerance + away([x, y]) - away(this.#grab);
+      return widenVia(this.agent, this.#index, mods.shift ? Math.round(metres * 2) / 2 : metres)!;
+    }
+    const wanted: Vec = [this.#from[0] + x - this.#grab[0], this.#from[1] + y - this.#grab[1]];
+    return moveVia(this.agent, this.#index, this.#snapped(wanted, mods))!;
+  }
+
+  #snapped([x, y]: Vec, mods: Modifiers): Vec {
+    const { editor, agent } = this;
+    const map = editor.scene.peek()!.map;
+    const s = mods.alt ? null : snapToLane(map, agent, x, y, null, this.view.z, null);
+    const [px, py] = s ? [s.x, s.y] : [x, y];
+    const lane = s?.lane ?? null;
+    const laneName = laneWords(map, agent, px, py, s?.laneHeading ?? null);
+    editor.dragOver({ laneId: lane?.id ?? null, laneName, stop: null, lag: null });
+    const round = (v: number): number => Math.round(v * 100) / 100;
+    return [round(px), round(py)];
+  }
+}
