@@ -22,9 +22,13 @@ const number = (text) => Number(text.replace('≈', '').replace('−', '-').trim
 export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */
   errors = [];
+  #listening = undefined;
 
-  /** With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. */
-  static async open(browser, url, { stopwatch = true, now, ...options } = {}) {
+  /**
+   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `listening` is
+   * how closely the wire is listened to, which costs the page time.
+   */
+  static async open(browser, url, { stopwatch = true, now, listening, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
     if (!stopwatch)
       await context.addInitScript(() => {
@@ -42,12 +46,13 @@ export class Editor {
           }
         };
       }, Date.parse(now));
-    return Editor.#in(context, url, []);
+    return Editor.#in(context, url, [], listening);
   }
 
-  static async #in(context, url, errors) {
+  static async #in(context, url, errors, listening) {
     const e = new Editor();
     e.errors = errors;
+    e.#listening = listening;
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
     e.page.on('console', (m) => {
@@ -55,15 +60,15 @@ export class Editor {
     });
     e.page.on('pageerror', (error) => e.errors.push(String(error.stack ?? error)));
     e.cdp = await context.newCDPSession(e.page);
-    e.wire = await Wire.on(e.cdp);
+    e.wire = await Wire.on(e.cdp, listening);
     await e.page.goto(url);
     await e.ready();
     return e;
   }
 
   /** Another tab of the same browser. */
-  async beside() {
-    return Editor.#in(this.page.context(), this.page.url(), this.errors);
+  async beside(url = this.page.url()) {
+    return Editor.#in(this.page.context(), url, this.errors, this.#listening);
   }
 
   /** The tab's process ends at once; the same page in a new one. */
