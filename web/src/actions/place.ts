@@ -45,7 +45,7 @@ function addOrClose({ editor, filler }: Context): void {
   else if (!filling.closeOutline()) notices.show({ text: 'An area needs three corners.' });
 }
 
-const isEmpty = (c: Context): boolean => c.editor.scene.value?.agents.size === 0;
+const isEmpty = (c: Context): boolean => c.editor.resting.value?.agents.size === 0;
 
 export const place = inGroup('Place', [
   ...tools,

@@ -36,7 +36,7 @@ const lengths = LENGTHS.map((s) => ({
   help:
     s > 9 ? `Work out ${s} s: past 9 s everybody plans anew from where they are by then` : 'Work out 9 s, in one go',
   when: hasScene,
-  checked: (c: Context) => c.editor.scene.value?.length === s,
+  checked: (c: Context) => c.editor.resting.value?.length === s,
   run(c: Context) {
     const scene = c.editor.scene.peek()!;
     if (scene.length !== s) c.editor.run(setLength(scene, s));
@@ -48,7 +48,7 @@ const replans = REPLANS.map((s) => ({
   label: `Plan anew each ${s} s`,
   help: `Everybody looks again every ${s} s and plans on from there`,
   when: hasScene,
-  checked: (c: Context) => c.editor.scene.value?.replan === s,
+  checked: (c: Context) => c.editor.resting.value?.replan === s,
   run(c: Context) {
     if (c.editor.scene.peek()!.replan !== s) c.editor.run(setReplan(s));
   },

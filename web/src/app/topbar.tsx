@@ -21,7 +21,7 @@ const SAVED: Record<SaveState, string> = {
 
 export function TopBar() {
   const { editor, form } = useApp();
-  const open = useComputed(() => editor.scene.value !== null).value;
+  const open = useComputed(() => editor.resting.value !== null).value;
   if (form.small.value) return <SmallBar open={open} />;
   return (
     <header class="top" data-group="top">
@@ -88,10 +88,10 @@ function Logo() {
 
 function Title() {
   const { editor, saving } = useApp();
-  const id = useComputed(() => editor.scene.value?.id).value;
-  const name = useComputed(() => (editor.scene.value ? `${editor.scene.value.name}, DragTraffic` : 'DragTraffic'));
+  const id = useComputed(() => editor.resting.value?.id).value;
+  const name = useComputed(() => (editor.resting.value ? `${editor.resting.value.name}, DragTraffic` : 'DragTraffic'));
   const state = useComputed(() => {
-    const scene = editor.scene.value;
+    const scene = editor.resting.value;
     if (editor.dragging.value) return 'Dragging';
     if (!scene) return '';
     const saved = saving.state.value;
@@ -109,7 +109,7 @@ function Title() {
 function NameField() {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
-  const name = useComputed(() => editor.scene.value?.name ?? '');
+  const name = useComputed(() => editor.resting.value?.name ?? '');
   // As wide as the name, in characters: capitals are wider than most, so one is left out.
   const size = useComputed(() => Math.max(4, name.value.length - 1));
   return (

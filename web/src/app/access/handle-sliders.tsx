@@ -1,5 +1,6 @@
 // The handles of the selected road user, for keys and screen readers. They have no picture of their own.
-import { useComputed } from '@preact/signals';
+import { useComputed, type ReadonlySignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 import type { Command } from '../../model/commands';
 import { deg } from '../../model/geometry';
 import { canMove } from '../../model/scene';
@@ -12,7 +13,9 @@ import { useApp } from '../parts/app-context';
 
 export function HandleSliders() {
   const { editor } = useApp();
-  const id = useComputed(() => (editor.agent.value && canMove(editor.agent.value) ? editor.selection.value : null));
+  const id = useComputed(() =>
+    editor.restingAgent.value && canMove(editor.restingAgent.value) ? editor.selection.value : null,
+  );
   return (
     <div class="sr" role="group" aria-label="Handles" data-group="handles">
       {id.value ? <Sliders key={id.value} id={id.value} /> : null}
@@ -62,14 +65,21 @@ function Slider({ label, part, now, text, move }: SliderProps) {
       role="slider"
       tabindex={0}
       aria-label={label}
-      aria-valuenow={useComputed(() => now().toFixed(1)) as never}
-      aria-valuetext={useComputed(text)}
+      aria-valuenow={useAtRest(() => now().toFixed(1)) as never}
+      aria-valuetext={useAtRest(text)}
       aria-valuemin={-10000}
       aria-valuemax={10000}
       onFocus={() => editor.activate(part)}
       onKeyDown={keyDown}
     />
   );
+}
+
+/** What `read` gives; while a pointer drags, as it was before: nobody hears of a handle that they move with it. */
+function useAtRest(read: () => string): ReadonlySignal<string> {
+  const { editor } = useApp();
+  const last = useRef<string | null>(null);
+  return useComputed(() => (editor.dragging.value && last.current !== null ? last.current : (last.current = read())));
 }
 
 const WORD = { start: 'Start', goal: 'Goal' } as const;

@@ -15,7 +15,7 @@ export function Coach() {
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&
       !editor.layouts.isOpen.value &&
-      editor.scene.value !== null,
+      editor.resting.value !== null,
   );
   if (!shown.value) return null;
   return (
