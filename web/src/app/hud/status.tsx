@@ -19,16 +19,16 @@ export function Status() {
   const { editor } = c;
   const s = editor.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
-  if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
-  if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
+  if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return row(sceneLine(c));
+  if (editor.layouts.isOpen.value) return row(mapLine(c));
   const kind = placedBy(c);
-  if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
-  if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
-  if (s.kind === 'refining') return <Refining {...s} />;
+  if (editor.filling.wish.value) return row({ dot: '', text: 'Preview: nothing added yet' });
+  if (kind) return row({ dot: '', text: `Placing: ${KIND_NAMES[kind].toLowerCase()}` });
+  if (s.kind === 'refining') return refining(s);
   const some = editor.selected.value.length;
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
-    return <Row dot="busy" text={`${some} of ${editor.scene.value!.agents.size} selected`} />;
-  return <Row {...lineFor(c, s)} />;
+    return row({ dot: 'busy', text: `${some} of ${editor.scene.value!.agents.size} selected` });
+  return row(lineFor(c, s));
 }
 
 /** What the map that is being made holds. */
@@ -42,18 +42,17 @@ function mapLine({ editor }: Context): Line {
   return { dot: bad ? 'near' : '', text: words };
 }
 
-function Row({ dot, text }: Line) {
-  return (
-    <div class="row">
-      <span class={`dot ${dot}`} />
-      {text}
-    </div>
-  );
-}
+/** Not a component of its own, nor is the other one: a drag goes from one to the other and back in every frame. */
+const row = ({ dot, text }: Line) => (
+  <div class="row">
+    <span class={`dot ${dot}`} />
+    {text}
+  </div>
+);
 
 type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
 
-function Refining({ step, steps, ms, part }: RefiningStatus) {
+function refining({ step, steps, ms, part }: RefiningStatus) {
   const after = `${ms.toFixed(0)} ms`;
   const words = part
     ? `Refining ${part} · ${after}`

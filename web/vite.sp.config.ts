@@ -1,0 +1,82 @@
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
+import type { Plugin, ProxyOptions } from 'vite';
+import { defineConfig } from 'vitest/config';
+
+// The server refuses requests whose Origin is not its own address; behind this proxy there is none.
+const SERVER: ProxyOptions = {
+  target: process.env.DRAGTRAFFIC_URL ?? 'http://127.0.0.1:8080',
+  changeOrigin: true,
+  configure: (proxy) => proxy.on('proxyReq', (request) => request.removeHeader('origin')),
+};
+
+/** Texts of the build lie there compressed too: the server sends them as they are. */
+function packed(): Plugin {
+  const brotli = { params: { [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY } };
+  let folder = '';
+  return {
+    name: 'packed',
+    apply: 'build',
+    configResolved: (config) => void (folder = config.build.outDir),
+    writeBundle: (options) => {
+      const root = options.dir ?? folder;
+      for (const name of readdirSync(root, { recursive: true, encoding: 'utf8' })) {
+        if (!/\.(js|css|html|svg|txt)$/.test(name)) continue;
+        const text = readFileSync(join(root, name));
+        writeFileSync(join(root, `${name}.br`), brotliCompressSync(text, brotli));
+        writeFileSync(join(root, `${name}.gz`), gzipSync(text, { level: 9 }));
+      }
+    },
+  };
+}
+
+/** The most that scripts may weigh, in KB (1000 bytes) as gzip: what comes first, and what comes after it at once. */
+const MOST_KB = { first: 90, desk: 105 };
+
+/** A build whose first scripts weigh more than they may fails. */
+function weighed(): Plugin {
+  return {
+    name: 'weighed',
+    apply: 'build',
+    generateBundle(_, bundle) {
+      const chunks = Object.values(bundle).filter((c) => c.type === 'chunk');
+      /** A script with all that it needs to start. */
+      const withImports = (name: string, all = new Set<string>()): Set<string> => {
+        const chunk = chunks.find((c) => c.fileName === name);
+        if (!chunk || all.has(name)) return all;
+        all.add(name);
+        for (const i of chunk.imports) withImports(i, all);
+        return all;
+      };
+      const from = (module: string): Set<string> => {
+        const chunk = chunks.find((c) => (c.facadeModuleId ?? '').endsWith(module));
+        if (!chunk) this.error(`no script is made of ${module}`);
+        return withImports(chunk!.fileName);
+      };
+      const kb = (names: Iterable<string>): number =>
+        [...names].reduce(
+          (sum, n) => sum + gzipSync(chunks.find((c) => c.fileName === n)!.code, { level: 9 }).length,
+          0,
+        ) / 1000;
+      const first = from('/index.html');
+      const weights = { first: kb(first), desk: kb([...from('/app/desk.ts')].filter((n) => !first.has(n))) };
+      for (const [name, kilobytes] of Object.entries(weights)) {
+        const most = MOST_KB[name as keyof typeof MOST_KB];
+        const words = `scripts, ${name}: ${kilobytes.toFixed(1)} KB gzip of ${most}`;
+        if (kilobytes > most) this.error(`${words}. Load what is not needed so early later (src/app/later.tsx).`);
+        this.info(words);
+      }
+    },
+  };
+}
+
+// The production build is embedded into the server binary, so every asset has a hashed name and
+// nothing is inlined into the page: the server's content security policy refuses inline code.
+export default defineConfig({
+  base: '/',
+  plugins: [],
+  build: { outDir: 'dist', assetsInlineLimit: 0, target: 'es2022', modulePreload: { polyfill: false } },
+  server: { fs: { allow: ['..'] }, proxy: { '/v1': SERVER, '/healthz': SERVER } },
+  test: { include: ['test/**/*.test.{ts,tsx}'], environment: 'node' },
+});
