@@ -42,6 +42,8 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
       }
       if (listening === 'times') {
         const a = await answered(browser, e, ...way, moves);
+        row('hand to futures p50', a.hand.p50);
+        row('hand to futures p95', a.hand.p95);
         row('pointer to futures p50', a.shown.p50);
         row('pointer to futures p95', a.shown.p95);
         row('of it asking p50', a.asked.p50);
@@ -138,6 +140,7 @@ const ROWS = {
         const flag = await takeFlag(e);
         const a = await answered(browser, e, flag(0), flag(REACH), 30);
         if (a.shown.n && !e.errors.length) alive++;
+        else console.error(`a tab is silent: ${a.questions} questions, ${e.errors.join(', ')}`);
         shown.push(a.shown.p50);
       }
       row('tabs that answer a drag', alive);

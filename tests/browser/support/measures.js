@@ -10,16 +10,20 @@ const TICKS = 100;
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Moves the mouse along a line at the pace of a hand, whatever the page makes of it. */
+/** Moves the mouse along a line at the pace of a hand, whatever the page makes of it; gives back when it did. */
 export async function sweep(e, from, to, moves) {
   const began = performance.now();
   const sent = [];
+  const hand = [];
   for (let i = 1; i <= moves; i++) {
     await wait(Math.max(0, began + i * PACE_MS - performance.now()));
     const at = { x: from[0] + ((to[0] - from[0]) * i) / moves, y: from[1] + ((to[1] - from[1]) * i) / moves };
+    // The browser's clock is the system's.
+    hand.push(Number(process.hrtime.bigint()) / 1e6);
     sent.push(e.cdp.send('Input.dispatchMouseEvent', { type: 'mouseMoved', button: 'left', buttons: 1, ...at }));
   }
   await Promise.all(sent);
+  return hand;
 }
 
 /** Takes the flag of a car that goes straight on; gives back where it is after a share of the way back to the car. */
@@ -59,19 +63,27 @@ export async function dragged(e, from, to, moves, measured) {
 /** From the pointer to the futures on screen, and what travels; the page was opened with `listening: 'times'`. */
 export async function answered(browser, e, from, to, moves) {
   const mark = e.wire.asked.length;
-  const trace = await dragged(e, from, to, moves, (run) => traced(browser, e.page, run));
+  let hand = [];
+  const trace = await dragged(e, from, to, moves, (run) =>
+    traced(browser, e.page, async () => {
+      hand = await run();
+    }),
+  );
   const asked = e.wire.since(mark).filter((a) => a.body.react === false);
   const drafts = asked
     .filter((a) => a.chunks.length)
     .map((a) => ({ sent: a.sent * 1000, came: a.chunks[0].at * 1000 }));
-  const shown = trace.moves.flatMap((at) => {
-    const draft = drafts.find((d) => d.sent >= at);
-    const seen = draft && trace.shownOnceTold(draft.came);
-    return seen
-      ? [{ came: draft.came - draft.sent, asked: draft.sent - at, drawn: seen - draft.came, all: seen - at }]
-      : [];
-  });
+  const answersTo = (times) =>
+    times.flatMap((at) => {
+      const draft = drafts.find((d) => d.sent >= at);
+      const seen = draft && trace.shownOnceTold(draft.came);
+      return seen
+        ? [{ came: draft.came - draft.sent, asked: draft.sent - at, drawn: seen - draft.came, all: seen - at }]
+        : [];
+    });
+  const shown = answersTo(trace.moves);
   return {
+    hand: spread(answersTo(hand).map((m) => m.all)),
     shown: spread(shown.map((m) => m.all)),
     asked: spread(shown.map((m) => m.asked)),
     came: spread(shown.map((m) => m.came)),
