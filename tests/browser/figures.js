@@ -8,7 +8,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { crowd } from './support/crowds.js';
 import { Editor, launch } from './support/editor.js';
-import { answered, costs, edit, flagNow, held, takeFlag } from './support/measures.js';
+import { answered, atRest, costs, edit, flagNow, held, takeFlag } from './support/measures.js';
 import { Program } from './support/program.js';
 import { missing, out, program as built, recordedFile } from './support/where.js';
 
@@ -139,12 +139,13 @@ const ROWS = {
         await e.begin();
         const flag = await takeFlag(e);
         const a = await answered(browser, e, flag(0), flag(REACH), 30);
-        if (a.shown.n && !e.errors.length) alive++;
-        else console.error(`a tab is silent: ${a.questions} questions, ${e.errors.join(', ')}`);
+        if (a.answers && a.shown.n && !e.errors.length) alive++;
+        else console.error(`a tab is silent: ${a.questions} asked, ${a.answers} answered, ${e.errors.join(', ')}`);
         shown.push(a.shown.p50);
       }
       row('tabs that answer a drag', alive);
       row('pointer to futures p50, last tab', shown.at(-1));
+      row(`CPU a second of ${TABS} tabs at rest`, await atRest(browser));
     } finally {
       await first.close();
     }

@@ -91,6 +91,7 @@ export async function answered(browser, e, from, to, moves) {
     request: spread(asked.map((a) => a.weight.request)),
     answer: spread(asked.map((a) => a.weight.answer)),
     questions: asked.length,
+    answers: drafts.length,
   };
 }
 
@@ -148,6 +149,13 @@ const since = (before, after) =>
       .filter(([, ms]) => ms > 0)
       .sort((a, b) => b[1] - a[1]),
   );
+
+/** CPU time, in ms a second, that pages take which nobody touches. */
+export async function atRest(browser, seconds = 3) {
+  const before = await threadTimes(browser);
+  await wait(seconds * 1000);
+  return Object.values(since(before, await threadTimes(browser))).reduce((sum, ms) => sum + ms, 0) / seconds;
+}
 
 /** What the page holds: memory in use after a collection, nodes, listeners. */
 export async function held(e) {

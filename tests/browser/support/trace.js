@@ -48,6 +48,9 @@ class Trace {
         .sort((a, b) => a - b);
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
     this.moves = dispatched('pointermove');
+    // Other tabs are in the trace, too.
+    const page = events.find((v) => v.name === 'EventDispatch' && /^pointer/.test(v.args.data?.type));
+    const on = (thread) => (v) => v.tid === thread?.tid && v.pid === thread?.pid;
     this.releases = dispatched('pointerup');
     this.drawn = times('Display::DrawAndSwap');
     const spans = (name) =>
@@ -55,25 +58,23 @@ class Trace {
         .filter((v) => v.name === name && v.ph === 'X')
         .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000, event: v }))
         .sort((a, b) => a.at - b.at);
-    const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame');
+    const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame').filter((c) => c.event.pid === page?.pid);
     this.finished = canvases.map((c) => c.done);
     // What the page told the worker that paints, and when it had painted it.
     const painter = canvases[0]?.event;
-    const on = (thread) => (v) => v.tid === thread?.tid && v.pid === thread?.pid;
     const messages = spans('HandlePostMessage');
     const handled = new Map(
       messages.filter((h) => on(painter)(h.event)).map((h) => [h.event.args.data?.traceId, h.done]),
     );
-    const frames = spans('FireAnimationFrame');
+    const frames = spans('FireAnimationFrame').filter((f) => on(page)(f.event));
     // What other workers told the page, and when it heard of it.
-    const page = frames[0]?.event;
     const heard = new Map(messages.filter((h) => on(page)(h.event)).map((h) => [h.event.args.data?.traceId, h.at]));
     this.heard = events
       .filter((v) => v.name === 'SchedulePostMessage' && heard.has(v.args.data?.traceId) && !on(painter)(v))
       .map((v) => ({ said: v.ts / 1000, heard: heard.get(v.args.data.traceId) }))
       .sort((a, b) => a.said - b.said);
     this.told = events
-      .filter((v) => v.name === 'SchedulePostMessage' && handled.has(v.args.data?.traceId))
+      .filter((v) => v.name === 'SchedulePostMessage' && handled.has(v.args.data?.traceId) && on(page)(v))
       .map((v) => ({ at: v.ts / 1000, painted: handled.get(v.args.data.traceId) }))
       .map((t) => ({ ...t, begun: frames.find((f) => f.at <= t.at && t.at <= f.done)?.at ?? t.at }))
       .sort((a, b) => a.at - b.at);
