@@ -336,6 +336,19 @@ describe('a drag that is answered in time, and heard of late', () => {
     s.g.cancel();
   });
 
+  it('waits with a question that carries its scene', async () => {
+    const s = scripted();
+    await warm(s);
+    const carrying = (goal: number) => ({ ...ask(true, goal).ask, scene: () => ({ scene: crossingJson() }) });
+    s.g.ask(carrying(20));
+    await s.quiet();
+    s.pass(16);
+    s.g.ask(carrying(21));
+    await s.quiet();
+    expect(s.asked).toHaveLength(9);
+    s.g.cancel();
+  });
+
   it('waits where the server is slower than the hand', async () => {
     const s = scripted();
     for (let i = 0; i < 8; i++) {

@@ -9,6 +9,8 @@ interface Running {
   question: Question;
   /** When it was asked, milliseconds. */
   asked: number;
+  /** Does it name its scene? One that carries it keeps the server busy before it can be passed. */
+  named: boolean;
   revision: number;
   abort: AbortController;
   drawn: boolean;
@@ -93,7 +95,7 @@ export class HttpGenerator implements Generator {
 
   /** Must the first draft have left the server? Never twice in a row on a guess: something is to be drawn. */
   private isAnswered(r: Running): boolean {
-    if (this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
+    if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
     return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
   }
 
@@ -112,6 +114,8 @@ export class HttpGenerator implements Generator {
   private forgetPassed(): void {
     const r = this.passed;
     this.passed = null;
+    // The guess was wrong: it was not on its way yet. Nothing is guessed for a while.
+    if (r && !r.drawn) this.firsts.length = 0;
     r?.abort.abort();
     r?.question.on.dropped?.();
   }
@@ -136,6 +140,7 @@ export class HttpGenerator implements Generator {
     const me: Running = {
       question: ask,
       asked: this.now(),
+      named: false,
       revision: ++this.revision,
       abort: new AbortController(),
       drawn: false,
@@ -146,7 +151,9 @@ export class HttpGenerator implements Generator {
     const mine = () => this.running === me || this.passed === me;
     const began = this.now();
     try {
-      let answer = await this.post(ask.scene(), me);
+      const scene = ask.scene();
+      me.named = 'id' in scene;
+      let answer = await this.post(scene, me);
       const { status, problem } = answer;
       if (problem && (status === 422 || status === 412 || status === 404)) {
         const badMap = RETRY_IN_PLACE.has(problem.code) || problem.errors?.some((e) => e.code === 'unknown-map');
@@ -173,7 +180,7 @@ export class HttpGenerator implements Generator {
       else ask.on.away();
     } finally {
       unwatch();
-      if (this.passed === me) this.passed = null;
+      if (this.passed === me) this.forgetPassed();
       if (this.running === me) {
         this.running = null;
         this.silent = 0;
