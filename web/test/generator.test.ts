@@ -4,7 +4,8 @@ import type { SceneJson } from '../src/model/json';
 import { Client } from '../src/net/client';
 import type { Handlers, Question } from '../src/net/generator';
 import { HttpGenerator, type Patience } from '../src/net/http-generator';
-import { lineHere } from '../src/net/line';
+import { lineHere, type Line } from '../src/net/line';
+import type { GenerateEvent } from '../src/net/types';
 import { crossingJson } from './helpers';
 import { readEvents } from '../src/net/stream';
 import { startStandIn, type StandIn } from './standin/server.mjs';
@@ -255,5 +256,113 @@ describe('stream', () => {
       for await (const e of readEvents(body)) out.push(e.event);
       expect(out).toEqual(['heartbeat', 'step', 'superseded']);
     }
+  });
+});
+
+describe('a drag that is answered in time, and heard of late', () => {
+  /** Answers come when the test says so; the clock is the test's. */
+  function scripted() {
+    let now = 0;
+    const asked: { body: { revision: number }; signal: AbortSignal; tell: (e: GenerateEvent) => void }[] = [];
+    const line: Line = (body, signal) => {
+      const come: GenerateEvent[] = [];
+      let wake: (() => void) | null = null;
+      signal.addEventListener('abort', () => wake?.());
+      const events = async function* () {
+        while (!signal.aborted) {
+          while (come.length) yield come.shift()!;
+          await new Promise<void>((w) => (wake = w));
+        }
+      };
+      const tell = (e: GenerateEvent) => (come.push(e), wake?.());
+      asked.push({ body: JSON.parse(body) as { revision: number }, signal, tell });
+      return Promise.resolve({ status: 200, retryAfter_s: null, problem: null, events: events() });
+    };
+    const g = new HttpGenerator(new Client(''), line, { tick: 1e6 }, () => now);
+    const quiet = () => new Promise((done) => setTimeout(done));
+    return {
+      g,
+      asked,
+      quiet,
+      pass: (ms: number) => void (now += ms),
+      async draft(i: number) {
+        asked[i].tell({ event: 'initial', revision: asked[i].body.revision, window: 0, steps: 5, agents: {} } as never);
+        await quiet();
+      },
+    };
+  }
+
+  /** Eight questions, each heard of after 8 ms. */
+  async function warm(s: ReturnType<typeof scripted>) {
+    for (let i = 0; i < 8; i++) {
+      s.g.ask(ask(true, i).ask);
+      await s.quiet();
+      s.pass(8);
+      await s.draft(i);
+    }
+  }
+
+  it('asks the next question once the answer must be on its way, and still shows that', async () => {
+    const s = scripted();
+    await warm(s);
+    const [a, b] = [ask(true, 20), ask(true, 21)];
+    s.g.ask(a.ask);
+    await s.quiet();
+    s.pass(16);
+    s.g.ask(b.ask);
+    await s.quiet();
+    expect(s.asked).toHaveLength(10);
+    expect(s.asked[8].signal.aborted).toBe(false);
+    await s.draft(8);
+    expect(a.seen).toMatchObject({ drafts: [0], dropped: 1 });
+    await s.draft(9);
+    expect(b.seen).toMatchObject({ drafts: [0], dropped: 0 });
+    s.g.cancel();
+  });
+
+  it('passes no second one before something was drawn', async () => {
+    const s = scripted();
+    await warm(s);
+    for (let i = 0; i < 6; i++) {
+      s.g.ask(ask(true, 20 + i).ask);
+      await s.quiet();
+      s.pass(16);
+    }
+    expect(s.asked).toHaveLength(10);
+    await s.draft(9);
+    // The older of the two is not waited for, and the newest one is asked.
+    expect(s.asked[8].signal.aborted).toBe(true);
+    expect(s.asked).toHaveLength(11);
+    s.g.cancel();
+  });
+
+  it('waits with a question that carries its scene', async () => {
+    const s = scripted();
+    await warm(s);
+    const carrying = (goal: number) => ({ ...ask(true, goal).ask, scene: () => ({ scene: crossingJson() }) });
+    s.g.ask(carrying(20));
+    await s.quiet();
+    s.pass(16);
+    s.g.ask(carrying(21));
+    await s.quiet();
+    expect(s.asked).toHaveLength(9);
+    s.g.cancel();
+  });
+
+  it('waits where the server is slower than the hand', async () => {
+    const s = scripted();
+    for (let i = 0; i < 8; i++) {
+      s.g.ask(ask(true, i).ask);
+      await s.quiet();
+      s.pass(40);
+      await s.draft(i);
+    }
+    s.g.ask(ask(true, 20).ask);
+    await s.quiet();
+    s.pass(16);
+    s.g.ask(ask(true, 21).ask);
+    await s.quiet();
+    expect(s.asked).toHaveLength(9);
+    s.g.cancel();
   });
 });

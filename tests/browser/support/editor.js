@@ -27,12 +27,14 @@ const number = (text) => Number(text.replace('≈', '').replace('−', '-').trim
 export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */
   errors = [];
+  #listening = undefined;
 
   /**
    * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is done
-   * with the browser before the page comes; with `scene: false` nobody waits for a scene.
+   * with the browser before the page comes; with `scene: false` nobody waits for a scene. `listening` is how closely the
+   * wire is listened to, which costs the page time.
    */
-  static async open(browser, url, { stopwatch = true, now, arrange, scene = true, ...options } = {}) {
+  static async open(browser, url, { stopwatch = true, now, arrange, scene = true, listening, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
     if (!stopwatch)
       await context.addInitScript(() => {
@@ -51,12 +53,13 @@ export class Editor {
         };
       }, Date.parse(now));
     await arrange?.(context);
-    return Editor.#in(context, url, [], scene);
+    return Editor.#in(context, url, [], { scene, listening });
   }
 
-  static async #in(context, url, errors, scene = true) {
+  static async #in(context, url, errors, { scene = true, listening } = {}) {
     const e = new Editor();
     e.errors = errors;
+    e.#listening = listening;
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
     // That the page itself adds no style, Chromium shows; in Firefox a screenshot does, and is refused.
@@ -67,15 +70,15 @@ export class Editor {
     // Only Chromium lets the wire be listened to; elsewhere a journey goes by what the page shows.
     const listened = engineOf(context) === 'chromium';
     e.cdp = listened ? await context.newCDPSession(e.page) : null;
-    e.wire = listened ? await Wire.on(e.cdp) : new Wire();
+    e.wire = listened ? await Wire.on(e.cdp, listening) : new Wire();
     await e.page.goto(url);
     if (scene) await e.ready();
     return e;
   }
 
   /** Another tab of the same browser. */
-  async beside() {
-    return Editor.#in(this.page.context(), this.page.url(), this.errors);
+  async beside(url = this.page.url()) {
+    return Editor.#in(this.page.context(), url, this.errors, this.#listening);
   }
 
   /** The tab's process ends at once; the same page in a new one. */

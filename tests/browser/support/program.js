@@ -11,10 +11,13 @@ const ENDS_WITHIN_MS = 5_000;
 export class Program {
   #folder = mkdtempSync(join(tmpdir(), 'dragtraffic-journeys-'));
   #child = null;
+  #bin = program;
   url = '';
 
-  static async start() {
+  /** `bin`: another program than the one that was built. */
+  static async start(bin = program) {
     const p = new Program();
+    p.#bin = bin;
     if (running) p.url = running;
     else await p.run();
     return p;
@@ -24,7 +27,7 @@ export class Program {
   async run() {
     const port = this.url ? new URL(this.url).port : '0';
     const child = spawn(
-      program,
+      this.#bin,
       ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'],
       {
         stdio: ['ignore', 'pipe', 'pipe'],

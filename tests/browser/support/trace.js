@@ -1,15 +1,17 @@
 // The browser's own record of what happened when. Times are milliseconds of its monotonic clock.
 
 const CATEGORIES = ['devtools.timeline', 'disabled-by-default-devtools.timeline', 'blink', 'viz'];
+/** What tells of frames alone, and costs the page next to nothing. */
+export const FRAMES_ALONE = ['viz'];
 
 /** Runs `work` under a trace and gives what happened: pointer events, frames begun and frames drawn. */
-export async function traced(browser, page, work) {
+export async function traced(browser, page, work, categories = CATEGORIES) {
   const cdp = await browser.newBrowserCDPSession();
   const events = [];
   cdp.on('Tracing.dataCollected', (e) => {
     for (const v of e.value) events.push(v);
   });
-  await cdp.send('Tracing.start', { transferMode: 'ReportEvents', traceConfig: { includedCategories: CATEGORIES } });
+  await cdp.send('Tracing.start', { transferMode: 'ReportEvents', traceConfig: { includedCategories: categories } });
   const thread = await page.context().newCDPSession(page);
   await thread.send('Performance.enable', { timeDomain: 'threadTicks' });
   const before = { cpu: await cpu(cdp), page: await busy(thread) };
@@ -46,6 +48,9 @@ class Trace {
         .sort((a, b) => a - b);
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
     this.moves = dispatched('pointermove');
+    // Other tabs are in the trace, too.
+    const page = events.find((v) => v.name === 'EventDispatch' && /^pointer/.test(v.args.data?.type));
+    const on = (thread) => (v) => v.tid === thread?.tid && v.pid === thread?.pid;
     this.releases = dispatched('pointerup');
     this.drawn = times('Display::DrawAndSwap');
     const spans = (name) =>
@@ -53,21 +58,32 @@ class Trace {
         .filter((v) => v.name === name && v.ph === 'X')
         .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000, event: v }))
         .sort((a, b) => a.at - b.at);
-    const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame');
+    const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame').filter((c) => c.event.pid === page?.pid);
     this.finished = canvases.map((c) => c.done);
     // What the page told the worker that paints, and when it had painted it.
     const painter = canvases[0]?.event;
+    const messages = spans('HandlePostMessage');
     const handled = new Map(
-      spans('HandlePostMessage')
-        .filter((h) => h.event.tid === painter?.tid && h.event.pid === painter?.pid)
-        .map((h) => [h.event.args.data?.traceId, h.done]),
+      messages.filter((h) => on(painter)(h.event)).map((h) => [h.event.args.data?.traceId, h.done]),
     );
-    const frames = spans('FireAnimationFrame');
+    const frames = spans('FireAnimationFrame').filter((f) => on(page)(f.event));
+    // What other workers told the page, and when it heard of it.
+    const heard = new Map(messages.filter((h) => on(page)(h.event)).map((h) => [h.event.args.data?.traceId, h.at]));
+    this.heard = events
+      .filter((v) => v.name === 'SchedulePostMessage' && heard.has(v.args.data?.traceId) && !on(painter)(v))
+      .map((v) => ({ said: v.ts / 1000, heard: heard.get(v.args.data.traceId) }))
+      .sort((a, b) => a.said - b.said);
     this.told = events
-      .filter((v) => v.name === 'SchedulePostMessage' && handled.has(v.args.data?.traceId))
+      .filter((v) => v.name === 'SchedulePostMessage' && handled.has(v.args.data?.traceId) && on(page)(v))
       .map((v) => ({ at: v.ts / 1000, painted: handled.get(v.args.data.traceId) }))
       .map((t) => ({ ...t, begun: frames.find((f) => f.at <= t.at && t.at <= f.done)?.at ?? t.at }))
       .sort((a, b) => a.at - b.at);
+  }
+
+  /** When the first picture was on screen that was begun after a worker had told the page what came at a time. */
+  shownOnceTold(time) {
+    const news = this.heard.find((h) => h.said >= time);
+    return news ? this.shownAfter(news.heard) : null;
   }
 
   /** When the first picture was on screen that was begun at or after a time; null when there was none. */

@@ -1,5 +1,5 @@
 // What these journeys need on this machine, and the words for what is missing.
-import { accessSync, constants, existsSync, mkdirSync, readdirSync } from 'node:fs';
+import { accessSync, constants, existsSync, mkdirSync, readdirSync, statSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
@@ -33,16 +33,18 @@ export function missing(browser = 'chromium') {
 }
 
 /**
- * A recorded scenario file, or null. DRAGTRAFFIC_SAMPLES says that there are some in its folder; without it they
- * may lie beside the checkout.
+ * A recorded scenario file, or null; `dense` for the one that most happens in. DRAGTRAFFIC_SAMPLES says that there are
+ * some in its folder; without it they may lie beside the checkout.
  */
-export function recordedFile() {
+export function recordedFile({ dense = false } = {}) {
   const said = process.env.DRAGTRAFFIC_SAMPLES;
   const folder = said ? `${said}/womd/val` : here('../../../../shared/data/womd/val');
   if (!said && !existsSync(folder)) return null;
-  const name = readdirSync(folder)
-    .sort()
-    .find((n) => n.endsWith('.tfrecord.gz'));
+  const names = readdirSync(folder)
+    .filter((n) => n.endsWith('.tfrecord.gz'))
+    .sort();
+  const size = (n) => statSync(`${folder}/${n}`).size;
+  const name = dense ? names.toSorted((a, b) => size(b) - size(a))[0] : names[0];
   if (said && !name) throw new Error(`DRAGTRAFFIC_SAMPLES is set, but ${folder} has no .tfrecord.gz`);
   return name ? { path: `${folder}/${name}`, name } : null;
 }

@@ -26,10 +26,12 @@ function inColumns(event) {
 
 /** One `POST /v1/generate`. Times are seconds of the browser's monotonic clock. */
 class Asked {
-  constructor(id, sent, body) {
+  #body = null;
+
+  constructor(id, sent, text) {
     this.id = id;
     this.sent = sent;
-    this.body = body;
+    this.text = text;
     this.ended = null;
     this.head = Buffer.alloc(0);
     this.tail = [];
@@ -37,6 +39,15 @@ class Asked {
     this.whole = null;
     /** Ended, and what came has been fetched from the browser. */
     this.read = false;
+  }
+
+  get body() {
+    return (this.#body ??= JSON.parse(this.text));
+  }
+
+  /** What the request and what came of its answer weigh, bytes. */
+  get weight() {
+    return { request: Buffer.byteLength(this.text), answer: this.chunks.reduce((sum, c) => sum + c.bytes, 0) };
   }
 
   /** The events that arrived whole, with the time at which the last byte of each was there. */
@@ -99,14 +110,18 @@ class Worker {
   }
 }
 
+/** `all`: what is asked and answered, word for word. `times`: what is asked, and when answers come. */
 export class Wire {
   asked = [];
   /** What has come over the wire so far, bytes, as it travelled. */
   bytes = 0;
+  #listening = 'all';
 
-  /** Listens to a page and to its workers, which ask the generator. */
-  static async on(cdp) {
+  /** Listens to a page and to its workers, which ask the generator; `listening` is `all`, `times` or `nothing`. */
+  static async on(cdp, listening = 'all') {
     const w = new Wire();
+    w.#listening = listening;
+    if (listening === 'nothing') return w;
     const workers = new Map();
     cdp.on('Target.attachedToTarget', ({ sessionId }) => {
       const worker = new Worker(cdp, sessionId);
@@ -126,12 +141,13 @@ export class Wire {
     const of = (e) => this.asked.find((a) => a.id === e.requestId);
     thread.on('Network.requestWillBeSent', (e) => {
       if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate')
-        this.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
+        this.asked.push(new Asked(e.requestId, e.timestamp, e.request.postData ?? '{}'));
     });
     thread.on('Network.responseReceived', (e) => {
       const a = of(e);
       if (!a) return;
       a.status = e.response.status;
+      if (this.#listening === 'times') return;
       void thread.send('Network.streamResourceContent', { requestId: e.requestId }).then(
         (r) => {
           a.head = Buffer.from(r.bufferedData, 'base64');
@@ -150,6 +166,10 @@ export class Wire {
       const a = of(e);
       if (!a) return;
       a.ended = e.timestamp;
+      if (this.#listening === 'times') {
+        a.read = true;
+        return;
+      }
       // A quick answer may be over before its stream could be followed.
       void thread
         .send('Network.getResponseBody', { requestId: e.requestId })

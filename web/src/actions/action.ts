@@ -52,14 +52,14 @@ export const inGroup = (group: Group, actions: readonly Omit<Action, 'group'>[])
 export const hasScene = (c: Context): true | string => (c.editor.isOpen.value ? true : TEXTS.noSceneIsOpen);
 
 export const hasAgent = (c: Context): true | string => {
-  const a = c.editor.agent.value;
+  const a = c.editor.restingAgent.value;
   return !a ? TEXTS.selectARoadUser : canChange(a) ? true : TEXTS.thisOneCanBe;
 };
 
 /** One road user is selected, and not locked. */
 export const hasFree = (c: Context): true | string => {
   const can = hasAgent(c);
-  return can !== true ? can : c.editor.agent.value!.locked ? LOCKED : true;
+  return can !== true ? can : c.editor.restingAgent.value!.locked ? LOCKED : true;
 };
 
 const LOCKED = TEXTS.itIsLockedCtrl;
@@ -69,7 +69,7 @@ export const hasSome = (c: Context): true | string => (c.editor.selected.value.l
 
 /** At least one of the selected may be moved and changed. */
 export const hasSomeFree = (c: Context): true | string => {
-  const all = c.editor.chosenOnes;
+  const all = c.editor.restingOnes;
   if (!all.length) return TEXTS.selectRoadUsers;
   if (all.some(canMove)) return true;
   return all.some((a) => a.locked) ? LOCKED : TEXTS.thisOneCanBe;

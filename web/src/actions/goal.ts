@@ -141,26 +141,26 @@ export const goal = inGroup('goal', [
   },
   {
     id: 'add-via',
-    label: 'Add a via point',
+    label: TEXTS.addAVia,
     keys: ['I'],
     icon: 'via',
-    help: 'A place to pass on the way: where a future is pointed at, else half way. Shift and a click on a path, too',
+    help: 'aPlaceToPass',
     when(c) {
       const a = c.editor.agent.value;
       const free = hasFree(c);
       if (free !== true || !a) return free;
-      return c.editor.futures.value ? roomForVia(a) : 'It has no futures yet.';
+      return c.editor.futures.value ? roomForVia(a) : TEXTS.itHasNoFutures;
     },
     run: (c) => putVia(c),
   },
   {
     id: 'remove-via',
-    label: 'Remove the via point',
+    label: TEXTS.removeTheVia,
     keys: ['Del', 'Backspace'],
     icon: 'trash',
-    help: 'The one that was taken last',
+    help: 'theOneTakenLast',
     onOffer: (c) => viaInHand(c) !== null,
-    when: (c) => (viaInHand(c) === null ? 'Take a via point first.' : hasFree(c)),
+    when: (c) => (viaInHand(c) === null ? TEXTS.takeAViaFirst : hasFree(c)),
     run(c) {
       const found = viaInHand(c);
       const command = found && removeVia(found.a, found.i);

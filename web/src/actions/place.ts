@@ -46,7 +46,7 @@ function addOrClose({ editor, filler }: Context): void {
   else if (!filling.closeOutline()) notices.show({ text: TEXTS.anAreaNeedsThree });
 }
 
-const isEmpty = (c: Context): boolean => c.editor.scene.value?.agents.size === 0;
+const isEmpty = (c: Context): boolean => c.editor.resting.value?.agents.size === 0;
 
 export const place = inGroup('place', [
   ...tools,

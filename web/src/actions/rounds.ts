@@ -12,7 +12,7 @@ const hasCards = (c: Context): true | string =>
 
 /** At least two can do something: else the scene is that one road user. */
 const hasSeveral = (c: Context): true | string => {
-  const n = [...(c.editor.scene.value?.agents.values() ?? [])].filter(canChange).length;
+  const n = [...(c.editor.resting.value?.agents.values() ?? [])].filter(canChange).length;
   return n > 1 ? true : TEXTS.thereAreNoTwo;
 };
 

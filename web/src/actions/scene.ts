@@ -11,12 +11,12 @@ const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> 
   label,
   help,
   when: hasScene,
-  checked: (c) => c.editor.scene.value?.others === mode,
+  checked: (c) => c.editor.resting.value?.others === mode,
   run: (c) => c.editor.run(setOthers(mode)),
 });
 
 /** The scene that is spoken of: one in the list that is pointed at, else the open one. */
-const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? editor.scene.value?.id ?? null;
+const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? editor.resting.value?.id ?? null;
 
 /** Own scenes alone can be changed on the server. */
 const own = (c: Context): true | string => {
@@ -152,7 +152,7 @@ export const scene = inGroup('scene', [
     keys: ['O'],
     icon: 'file',
     help: 'scenarioRecord',
-    onOffer: (c) => c.editor.scene.value?.agents.size === 0,
+    onOffer: (c) => c.editor.resting.value?.agents.size === 0,
     run: (c) => c.chooseFiles(),
   },
   {

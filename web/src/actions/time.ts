@@ -36,7 +36,7 @@ const lengths = LENGTHS.map((s) => ({
   label: TEXTS.lengthS(s),
   help: s > 9 ? ('pastNineSeconds' as const) : ('workOutInOneGo' as const),
   when: hasScene,
-  checked: (c: Context) => c.editor.scene.value?.length === s,
+  checked: (c: Context) => c.editor.resting.value?.length === s,
   run(c: Context) {
     const scene = c.editor.scene.peek()!;
     if (scene.length !== s) c.editor.run(setLength(scene, s));
@@ -48,7 +48,7 @@ const replans = REPLANS.map((s) => ({
   label: TEXTS.planAnewEach(s),
   help: 'looksAgain' as const,
   when: hasScene,
-  checked: (c: Context) => c.editor.scene.value?.replan === s,
+  checked: (c: Context) => c.editor.resting.value?.replan === s,
   run(c: Context) {
     if (c.editor.scene.peek()!.replan !== s) c.editor.run(setReplan(s));
   },

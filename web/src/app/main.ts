@@ -63,7 +63,7 @@ function connect(o: Opening): void {
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   lookWhereItWas(o);
   effect(() => {
-    stage.element.classList.toggle('bare', editor.scene.value === null && !editor.layouts.isOpen.value);
+    stage.element.classList.toggle('bare', editor.resting.value === null && !editor.layouts.isOpen.value);
   });
   effect(() => {
     document.documentElement.dataset.theme = ui.theme.value;

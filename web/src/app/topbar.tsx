@@ -22,7 +22,7 @@ const SAVED: Record<SaveState, string> = {
 
 export function TopBar() {
   const { editor, form } = useApp();
-  const open = useComputed(() => editor.scene.value !== null).value;
+  const open = useComputed(() => editor.resting.value !== null).value;
   if (form.small.value) return <SmallBar open={open} />;
   return (
     <header class="top" data-group="top">
@@ -89,10 +89,10 @@ function Logo() {
 
 function Title() {
   const { editor, saving } = useApp();
-  const id = useComputed(() => editor.scene.value?.id).value;
-  const name = useComputed(() => (editor.scene.value ? TEXTS.dragtraffic(editor.scene.value.name) : 'DragTraffic'));
+  const id = useComputed(() => editor.resting.value?.id).value;
+  const name = useComputed(() => (editor.resting.value ? TEXTS.dragtraffic(editor.resting.value.name) : 'DragTraffic'));
   const state = useComputed(() => {
-    const scene = editor.scene.value;
+    const scene = editor.resting.value;
     if (editor.dragging.value) return TEXTS.dragging;
     if (!scene) return '';
     const saved = saving.state.value;
@@ -110,7 +110,7 @@ function Title() {
 function NameField() {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
-  const name = useComputed(() => editor.scene.value?.name ?? '');
+  const name = useComputed(() => editor.resting.value?.name ?? '');
   // As wide as the name, in characters: capitals are wider than most, so one is left out.
   const size = useComputed(() => Math.max(4, name.value.length - 1));
   return (

@@ -13,12 +13,45 @@ export interface Rect {
 }
 export type Offset = readonly [number, number];
 
+/** Pixels of a cell of `Taken`. */
+const CELL = 64;
+
+/** Rectangles that many are held against: each looks at those near it alone. */
+export class Taken {
+  private readonly cells = new Map<number, Rect[]>();
+
+  constructor(rects: readonly Rect[]) {
+    for (const r of rects)
+      Taken.each(r, (cell) => {
+        const here = this.cells.get(cell);
+        if (here) here.push(r);
+        else this.cells.set(cell, [r]);
+        return false;
+      });
+  }
+
+  meets(r: Rect): boolean {
+    return Taken.each(r, (cell) => this.cells.get(cell)?.some((u) => meet(r, u)) ?? false);
+  }
+
+  /** Goes through the cells of a rectangle until one will do. */
+  private static each({ x, y, w, h }: Rect, will: (cell: number) => boolean): boolean {
+    for (let i = Math.floor(x / CELL); i <= Math.floor((x + w) / CELL); i++)
+      for (let k = Math.floor(y / CELL); k <= Math.floor((y + h) / CELL); k++) if (will(i * 4096 + k)) return true;
+    return false;
+  }
+}
+
+const NOTHING_TAKEN = new Taken([]);
+
 export class Labels {
   private used: Rect[] = [];
   private avoided: readonly Rect[] = [];
   private kept: Rect[] = [];
   /** Pills that are painted when all are placed, so that no line to another lies over them. */
   private held: (() => void)[] | null = null;
+  private taken = NOTHING_TAKEN;
+
   constructor(
     private w = 0,
     private h = 0,
@@ -32,6 +65,12 @@ export class Labels {
     this.used = [];
     this.avoided = [];
     this.kept = [];
+    this.taken = NOTHING_TAKEN;
+  }
+
+  /** Labels keep off all of it while there is any other place. */
+  keepOffAll(taken: Taken): void {
+    this.taken = taken;
   }
 
   /** Pills are painted when `release` is called, not before. */
@@ -82,7 +121,7 @@ export class Labels {
     const free = (r: Rect, ...of: (readonly Rect[])[]): boolean => !of.some((list) => list.some((u) => meet(r, u)));
     const all = tries.map(at);
     const r =
-      all.find((o) => free(o, this.used, this.avoided, this.kept)) ??
+      all.find((o) => free(o, this.used, this.avoided, this.kept) && !this.taken.meets(o)) ??
       all.find((o) => free(o, this.used, this.avoided)) ??
       (must ? all[0] : null);
     if (!r) return null;

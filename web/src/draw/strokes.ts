@@ -1,9 +1,9 @@
 // Lines on the map: every one has a halo, one dot per second, and a dash that says how sure it is.
 import type { Pen } from './pen';
-import { isValidAt, type Motion } from '../model/motion';
+import { isValidAt, stretches, type Motion } from '../model/motion';
 import type { Futures } from '../model/futures';
 import { LETTERS } from '../model/futures';
-import type { Vec } from '../model/geometry';
+import { thinned, type Vec } from '../model/geometry';
 import { colours, font, modeColour, modeOnColour } from './theme';
 import type { Labels, Offset } from './labels';
 import type { View } from './view';
@@ -20,19 +20,19 @@ export interface TrailStyle {
   cap?: CanvasLineCap;
 }
 
+/** Pixels by which a line may miss one of its points: nobody sees so little. */
+export const UNSEEN_PX = 0.05;
+
 function tracePath(g: Pen, v: View, m: Motion, i0: number, i1: number): void {
   g.beginPath();
-  let pen = false;
-  for (let i = Math.max(0, i0); i <= i1 && i < m.x.length; i++) {
-    if (!isValidAt(m, m.first + i)) {
-      pen = false;
-      continue;
-    }
-    const x = v.x(m.x[i]),
-      y = v.y(m.y[i]);
-    if (pen) g.lineTo(x, y);
-    else g.moveTo(x, y);
-    pen = true;
+  const at = (i: number): Vec => [v.x(m.x[i]), v.y(m.y[i])];
+  for (const [from, to] of stretches(m, Math.max(0, i0), Math.min(i1, m.x.length - 1))) {
+    let pen = false;
+    thinned(from, to, at, UNSEEN_PX, ([x, y]) => {
+      if (pen) g.lineTo(x, y);
+      else g.moveTo(x, y);
+      pen = true;
+    });
   }
 }
 

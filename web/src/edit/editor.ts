@@ -126,6 +126,7 @@ export class Editor {
   readonly #layers = new Layers();
 
   readonly #scene = signal<Scene | null>(null);
+  readonly #resting = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
   readonly #hover = signal<string | null>(null);
   readonly #hoverFuture = signal<number | null>(null);
@@ -152,8 +153,10 @@ export class Editor {
   #history: History | null = null;
 
   readonly scene: ReadonlySignal<Scene | null> = this.#scene;
+  /** The same, but for a drag: while a hand moves it stays as it was, and so does what is worked out from it. */
+  readonly resting: ReadonlySignal<Scene | null> = this.#resting;
   /** Is there a scene? It changes less often than the scene does. */
-  readonly isOpen = computed(() => this.scene.value !== null);
+  readonly isOpen = computed(() => this.resting.value !== null);
   /** Ids of all that are selected, in the order in which they were taken. */
   readonly selected: ReadonlySignal<readonly string[]> = this.#selected;
   /** Id of the selected road user; null where none is selected, or several. */
@@ -214,6 +217,11 @@ export class Editor {
   readonly agent = computed<Agent | null>(() => {
     const id = this.selection.value;
     return (id && this.scene.value?.agents.get(id)) || null;
+  });
+  /** The same as it was before the drag that goes on, for what a drag does not change. */
+  readonly restingAgent = computed<Agent | null>(() => {
+    const id = this.selection.value;
+    return (id && this.resting.value?.agents.get(id)) || null;
   });
   readonly futures = computed<Futures | null>(() => {
     const id = this.selection.value;
@@ -280,7 +288,7 @@ export class Editor {
       this.#history.camera = () => this.camera();
       this.#lock.value = null;
       this.#snappedHeadings.clear();
-      this.#scene.value = scene;
+      this.#show(scene);
       this.#selected.value = NOBODY;
       this.#hover.value = null;
       this.#drag.value = null;
@@ -296,6 +304,13 @@ export class Editor {
       this.#tries.value = NO_TRIES;
       this.notices.hide();
       this.#nameSteps();
+    });
+  }
+
+  #show(scene: Scene): void {
+    batch(() => {
+      this.#scene.value = scene;
+      this.#resting.value = scene;
     });
   }
 
@@ -367,7 +382,7 @@ export class Editor {
     const agent = changed.length === 1 ? changed[0] : null;
     const several = changed.length > 1 ? changed : undefined;
     batch(() => {
-      this.#scene.value = scene;
+      this.#show(scene);
       this.#followCast(before, scene);
       this.#nameSteps();
       this.#selectedEvent.value = null;
@@ -437,7 +452,7 @@ export class Editor {
     if (!this.#history) return;
     this.#drag.value = null;
     if (!command || this.#lock.peek()) {
-      this.#scene.value = this.#history.cancel();
+      this.#show(this.#history.cancel());
       return;
     }
     const before = this.#history.scene;
@@ -448,7 +463,7 @@ export class Editor {
   cancelDrag(): void {
     batch(() => {
       this.#drag.value = null;
-      if (this.#history) this.#scene.value = this.#history.cancel();
+      if (this.#history) this.#show(this.#history.cancel());
       this.answers.dragPutBack();
     });
     this.notices.say(TEXTS.putBack);
@@ -497,7 +512,15 @@ export class Editor {
 
   /** The road users that are selected, as the document has them. */
   get chosenOnes(): Agent[] {
-    const scene = this.scene.value;
+    return this.#chosenIn(this.scene.value);
+  }
+
+  /** The same as they were before the drag that goes on. */
+  get restingOnes(): Agent[] {
+    return this.#chosenIn(this.resting.value);
+  }
+
+  #chosenIn(scene: Scene | null): Agent[] {
     return this.selected.value.flatMap((id) => scene?.agents.get(id) ?? []);
   }
 

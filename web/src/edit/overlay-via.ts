@@ -9,6 +9,7 @@ import { metres, seconds } from '../model/units';
 import { passed } from '../model/via';
 import type { Editor } from './editor';
 import { verdictsHold } from './goal-verdict';
+import { TEXTS } from '../texts/via';
 
 /** Diamonds of those that are missed are hollow, and say by how much. */
 export function paintVias(g: Pen, labels: Labels, v: View, e: Editor, a: Agent): void {
@@ -36,8 +37,8 @@ export function paintVias(g: Pen, labels: Labels, v: View, e: Editor, a: Agent):
       return;
     }
     const when = via.time ?? (at && !missed ? at.time : null);
-    const name = all.length > 1 ? `Via ${i + 1}` : 'Via';
-    const far = missed ? `${name} · missed by ${metres(Math.max(0.1, at.away - via.tolerance), 1)}` : null;
+    const name = all.length > 1 ? TEXTS.viaOf(i + 1) : TEXTS.via;
+    const far = missed ? TEXTS.missedBy(name, metres(Math.max(0.1, at.away - via.tolerance), 1)) : null;
     const text = far ?? (when === null ? name : `${name} · ${via.time === null ? '≈ ' : ''}${seconds(when)}`);
     const look = missed ? { bg: c.near, fg: c['on-near'], icon: 'triangle' as const } : { fg: c['goal-text'] };
     pill(g, labels, x, y, text, {

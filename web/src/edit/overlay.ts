@@ -6,7 +6,7 @@ import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
 import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
-import { Labels, pill, tag, type Rect } from '../draw/labels';
+import { Labels, pill, tag, type Taken } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
 import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { paintChips, paintFutures, polyline, trail, type Chip } from '../draw/strokes';
@@ -57,7 +57,7 @@ export class Overlay {
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
     /** What is on the picture under it and better left to be seen. */
-    private readonly below: () => readonly Rect[],
+    private readonly below: () => Taken,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
     this.events = new EventsOverlay(editor, this.labels, poseNow);
@@ -117,7 +117,7 @@ export class Overlay {
 
   private paintScene(g: Pen, v: View, scene: Scene): void {
     const { editor: e } = this;
-    for (const r of this.below()) this.labels.keepOff(r);
+    this.labels.keepOffAll(this.below());
     if (e.notices.toast.value) {
       const { left } = v.inset;
       const middle = (v.w + (left > 100 ? left : 0)) / 2;

@@ -10,7 +10,7 @@ import type { LaneMap } from '../model/lanemap';
 import { isRecorded, startPose, type Agent, type Scene } from '../model/scene';
 import { speedLabel } from '../model/units';
 import { paintLimits, paintZones } from '../draw/ground';
-import { Labels, pill, type Rect } from '../draw/labels';
+import { Labels, pill, Taken, type Rect } from '../draw/labels';
 import { paintLock, paintPennant, type Pennant } from '../draw/marks';
 import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
@@ -27,9 +27,8 @@ const REACT_MS = 320;
 
 export class Picture {
   private map: MapPicture | null = null;
-  /** Where road users and their names were painted last, for the labels over them. */
-  private boxes: Rect[] = [];
-  private names: Rect[] = [];
+  /** Where road users and their names were painted last, in pixels: words over the picture keep off them. */
+  taken = new Taken([]);
   /** Where pennants were painted last, for the pointer. */
   pennants: Pennant[] = [];
   private zones: { map: LaneMap; scene: Scene; set: MotionSet; all: readonly Zone[] } | null = null;
@@ -42,11 +41,6 @@ export class Picture {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
     this.watch();
-  }
-
-  /** Where road users and their names are, in pixels: words over the picture keep off them. */
-  get taken(): readonly Rect[] {
-    return [...this.boxes, ...this.names];
   }
 
   private watch(): void {
@@ -152,7 +146,7 @@ export class Picture {
     const { editor: e } = this;
     const making = e.layouts.made.value;
     if (making) {
-      this.boxes = this.names = [];
+      this.taken = new Taken([]);
       this.pennants = [];
       paintSignals(g, v, making.scene, e.time.value);
       return;
@@ -181,9 +175,8 @@ export class Picture {
     g.globalAlpha = 1;
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     this.paintMarks(g, v, shown);
-    this.names = [];
-    if (e.layers.value.labels || v.z > 16) this.nameLabels(g, v, shown);
-    this.boxes = shown.map(([a, p]) => boxOnScreen(v, a, p));
+    const names = e.layers.value.labels || v.z > 16 ? this.nameLabels(g, v, shown) : [];
+    this.taken = new Taken([...shown.map(([a, p]) => boxOnScreen(v, a, p)), ...names]);
   }
 
   /** Worked out anew when somebody does something else; while a hand moves they stay as they were. */
@@ -233,9 +226,9 @@ export class Picture {
     });
   }
 
-  private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): void {
-    if (v.z < 5) return;
+  private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): Rect[] {
     const names: Rect[] = [];
+    if (v.z < 5) return names;
     const labels = new Labels(v.w, v.h);
     for (const [, p] of shown) labels.block(v.x(p.x) - 9, v.y(p.y) - 7, 18, 14);
     for (const [a, p] of shown) {
@@ -251,7 +244,7 @@ export class Picture {
       });
       if (r) names.push(r);
     }
-    this.names = names;
+    return names;
   }
 
   /** Text of the hover card. */

@@ -123,8 +123,21 @@ export function snapHeading(
   return wrapAngle(rad(Math.round(deg(heading))));
 }
 
+/** What was said of places of a map last: several parts of the page say it of the same few. */
+const said = new WeakMap<LaneMap, Map<string, string>>();
+const MOST_SAID = 64;
+
 /** Words for the lane under a point. */
 export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+  let known = said.get(map);
+  if (!known || known.size >= MOST_SAID) said.set(map, (known = new Map()));
+  const key = `${a.type} ${x} ${y} ${heading}`;
+  let words = known.get(key);
+  if (words === undefined) known.set(key, (words = wordsAt(map, a, x, y, heading)));
+  return words;
+}
+
+function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
   if (a.type === 'pedestrian') return onFoot(map, x, y);
   const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
   const fits = lanesFor(a);

@@ -4,6 +4,7 @@ import type { Agent } from '../model/scene';
 import { nearestOn, passed, timesOf } from '../model/via';
 import type { Editor } from './editor';
 import { changeVia } from './vias';
+import { TEXTS } from '../texts/via';
 
 /** When the future in force passes it, seconds; null where nothing is known. */
 export function viaTime(e: Editor, a: Agent, i: number): number | null {
@@ -47,5 +48,5 @@ export function swapVias(a: Agent, i: number): Command {
   const [p, q] = [all[i], all[i + 1]];
   all[i] = Object.freeze({ ...q, time: p.time });
   all[i + 1] = Object.freeze({ ...p, time: q.time });
-  return setVias(a, all, `Via points of ${a.name} swapped`);
+  return setVias(a, all, TEXTS.swapped(a.name));
 }

@@ -6,6 +6,7 @@ import { poseAt, type Motion } from '../model/motion';
 import type { Agent } from '../model/scene';
 import { heldTolerance, MOST_VIAS, nearestOn, placeIn, via, withNew, withVia, type Via } from '../model/via';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/via';
 
 /** So far along its path somebody gets a via point where no place was pointed at, as a share of the time. */
 const HALF_WAY = 0.5;
@@ -14,11 +15,11 @@ const HALF_WAY = 0.5;
 const motionOf = (e: Editor, index = e.chosen.peek()): Motion | null => e.futures.peek()?.modes[index]?.motion ?? null;
 
 /** Via points are counted from 1; one alone has no number. */
-export const viaName = (a: Agent, i: number): string => (a.goal.via.length > 1 ? `Via point ${i + 1}` : 'Via point');
+export const viaName = (a: Agent, i: number): string =>
+  a.goal.via.length > 1 ? TEXTS.viaPointOf(i + 1) : TEXTS.viaPoint;
 
 /** Why no more can be added; true where one can. */
-export const roomForVia = (a: Agent): true | string =>
-  a.goal.via.length < MOST_VIAS || `It has ${MOST_VIAS} via points, as many as there can be.`;
+export const roomForVia = (a: Agent): true | string => a.goal.via.length < MOST_VIAS || TEXTS.asManyAsCanBe(MOST_VIAS);
 
 export interface Added {
   readonly command: Command;
@@ -42,22 +43,15 @@ export function addViaAt(e: Editor, a: Agent, time: number, future?: number): Ad
   const round = (v: number): number => Math.round(v * 100) / 100;
   const pos = [round(at.x), round(at.y)] as const;
   const index = placeIn(a.goal.via, m, pos);
-  return { index, command: setVias(a, withNew(a.goal.via, index, via(pos)), `Via point of ${a.name} added`) };
+  return { index, command: setVias(a, withNew(a.goal.via, index, via(pos)), TEXTS.added(a.name)) };
 }
 
 /** One of them in another way; `fold` where it is one of many changes that follow each other. */
 export function changeVia(a: Agent, i: number, patch: Partial<Via>, fold = false): Command | null {
   if (!a.goal.via[i]) return null;
-  const what =
-    'tolerance' in patch ? 'Tolerance of a via point' : 'time' in patch ? 'Time at a via point' : 'Via point';
-  const done = 'pos' in patch ? 'moved' : 'changed';
+  const done = 'tolerance' in patch ? TEXTS.toleranceChanged : 'time' in patch ? TEXTS.timeChanged : TEXTS.moved;
   const field = Object.keys(patch)[0];
-  return setVias(
-    a,
-    withVia(a.goal.via, i, patch),
-    `${what} of ${a.name} ${done}`,
-    fold ? `via:${i}:${field}:${a.id}` : undefined,
-  );
+  return setVias(a, withVia(a.goal.via, i, patch), done(a.name), fold ? `via:${i}:${field}:${a.id}` : undefined);
 }
 
 export const moveVia = (a: Agent, i: number, pos: Vec, fold = false): Command | null =>
@@ -67,4 +61,4 @@ export const widenVia = (a: Agent, i: number, metres: number, fold = false): Com
   changeVia(a, i, { tolerance: heldTolerance(metres) }, fold);
 
 export const removeVia = (a: Agent, i: number): Command | null =>
-  a.goal.via[i] ? setVias(a, withVia(a.goal.via, i, null), `${viaName(a, i)} of ${a.name} removed`) : null;
+  a.goal.via[i] ? setVias(a, withVia(a.goal.via, i, null), TEXTS.removed(viaName(a, i), a.name)) : null;

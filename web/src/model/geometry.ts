@@ -174,3 +174,49 @@ export function boxOf(pts: Iterable<Vec>): Box {
 }
 
 export const boxesMeet = (a: Box, b: Box): boolean => a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+
+/**
+ * Goes along points and keeps those without which the line would lie off one of them by more than `tolerance`: far
+ * fewer where it is straight. The first and the last are kept.
+ */
+export function thinned(
+  from: number,
+  to: number,
+  at: (i: number) => Vec,
+  tolerance: number,
+  keep: (p: Vec) => void,
+): void {
+  let anchor = at(from);
+  keep(anchor);
+  let last = anchor;
+  // The directions in which a line from the anchor passes all points since: right of one, left of the other.
+  let [lowX, lowY, highX, highY] = [0, 0, 0, 0];
+  let open = true;
+  let farthest = 0;
+  for (let i = from + 1; i <= to; i++) {
+    const p = at(i);
+    const [dx, dy] = [p[0] - anchor[0], p[1] - anchor[1]];
+    const d = Math.hypot(dx, dy);
+    const ahead = open || (lowX * dy - lowY * dx >= 0 && highX * dy - highY * dx <= 0);
+    if (!ahead || d < farthest - tolerance) {
+      keep(last);
+      anchor = last;
+      open = true;
+      farthest = 0;
+      i--;
+      continue;
+    }
+    last = p;
+    farthest = Math.max(farthest, d);
+    if (d <= tolerance) continue;
+    // The tangents from the anchor to the circle of what is tolerated around the point.
+    const sin = tolerance / d;
+    const cos = Math.sqrt(1 - sin * sin);
+    const [rx, ry] = [dx * cos + dy * sin, dy * cos - dx * sin];
+    const [lx, ly] = [dx * cos - dy * sin, dy * cos + dx * sin];
+    if (open || lowX * ry - lowY * rx > 0) [lowX, lowY] = [rx, ry];
+    if (open || highX * ly - highY * lx < 0) [highX, highY] = [lx, ly];
+    open = false;
+  }
+  if (last !== anchor) keep(last);
+}

@@ -64,6 +64,12 @@ export const nowhere: Motion = {
   valid: [],
 };
 
+/** Where a motion is known between two indices, both inclusive: first and last of each stretch. */
+export function stretches(m: Motion, from: number, to: number): (readonly [number, number])[] {
+  const parts = m.valid.map(([a, b]) => [Math.max(from, a - m.first), Math.min(to, b - 1 - m.first)] as const);
+  return parts.filter(([a, b]) => a <= b);
+}
+
 export const isValidAt = (m: Motion, step: number): boolean => m.valid.some(([a, b]) => step >= a && step < b);
 export const lastStep = (m: Motion): number => (m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1);
 

@@ -193,7 +193,15 @@ export function newIds(scene: Scene, n: number): string[] {
 export const doing = (s: Scene, a: Agent): Others => a.does ?? s.others;
 
 /** Text that names everything the generator's answer depends on; equal keys, equal answers. */
+const keys = new WeakMap<Scene, string>();
+
 export function sceneKey(scene: Scene): string {
+  let key = keys.get(scene);
+  if (key === undefined) keys.set(scene, (key = keyOf(scene)));
+  return key;
+}
+
+function keyOf(scene: Scene): string {
   const parts: unknown[] = [
     scene.id,
     scene.seed,

@@ -35,7 +35,15 @@ import type { Futures, MotionSet } from './futures';
 import { viasJson } from './via';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
+const conditions = new WeakMap<Agent, ConditionJson>();
+
 export function conditionOf(a: Agent): ConditionJson {
+  let known = conditions.get(a);
+  if (!known) conditions.set(a, (known = Object.freeze(writtenCondition(a))));
+  return known;
+}
+
+function writtenCondition(a: Agent): ConditionJson {
   const c: ConditionJson = {};
   // What was put here says all of itself: the motion that it has in the file is its start alone.
   if (a.type !== a.logType && !a.placed && a.type !== 'other') c.type = a.type;

@@ -7,6 +7,10 @@ import type { ScoreReply } from './types';
 
 interface Running {
   question: Question;
+  /** When it was asked, milliseconds. */
+  asked: number;
+  /** Does it name its scene? One that carries it keeps the server busy before it can be passed. */
+  named: boolean;
   revision: number;
   abort: AbortController;
   drawn: boolean;
@@ -26,6 +30,9 @@ export interface Patience {
 /** `lost` is longer than the time between two signs of life in a stream. */
 const PATIENCE: Omit<Patience, 'alive'> = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
 
+/** A first draft is taken to be on its way a little later than the quickest of so many last ones was heard of. */
+const SURELY = { of: 8, times: 1.25, more_ms: 2 };
+
 /** A server that is only busy says so within this time. */
 const PROBE_MS = 1500;
 
@@ -34,6 +41,12 @@ const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
 export class HttpGenerator implements Generator {
   private running: Running | null = null;
   private waiting: Question | null = null;
+  /** A question of a drag whose first draft is on its way while the next one is asked already. */
+  private passed: Running | null = null;
+  /** How long the last first drafts took until they were heard of, milliseconds. */
+  private readonly firsts: number[] = [];
+  /** Was a question passed since something was drawn? */
+  private guessed = false;
   private revision = 0;
   /** Names this editor to the server, which lets a newer question of the same one overtake. */
   private readonly name = `editor-${Math.random().toString(36).slice(2, 10)}`;
@@ -71,12 +84,40 @@ export class HttpGenerator implements Generator {
     if (this.running && ask.preview && this.running.question.preview && !this.running.drawn) {
       this.waiting?.on.dropped?.();
       this.waiting = ask;
+      if (this.isAnswered(this.running)) this.pass(this.running);
       return;
     }
     this.waiting?.on.dropped?.();
     this.waiting = null;
     this.stopRunning();
     void this.run(ask);
+  }
+
+  /** Must the first draft have left the server? Never twice in a row on a guess: something is to be drawn. */
+  private isAnswered(r: Running): boolean {
+    if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
+    return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
+  }
+
+  /** The next question overtakes one whose draft was not heard of yet, and is heard of all the same. */
+  private pass(r: Running): void {
+    this.passed = r;
+    this.guessed = true;
+    this.next();
+  }
+
+  private noteFirst(ms: number): void {
+    this.firsts.push(ms);
+    if (this.firsts.length > SURELY.of) this.firsts.shift();
+  }
+
+  private forgetPassed(): void {
+    const r = this.passed;
+    this.passed = null;
+    // The guess was wrong: it was not on its way yet. Nothing is guessed for a while.
+    if (r && !r.drawn) this.firsts.length = 0;
+    r?.abort.abort();
+    r?.question.on.dropped?.();
   }
 
   /** Drops everything on the way. */
@@ -88,6 +129,7 @@ export class HttpGenerator implements Generator {
   }
 
   private stopRunning(): void {
+    this.forgetPassed();
     const r = this.running;
     this.running = null;
     r?.abort.abort();
@@ -97,6 +139,8 @@ export class HttpGenerator implements Generator {
   private async run(ask: Question): Promise<void> {
     const me: Running = {
       question: ask,
+      asked: this.now(),
+      named: false,
       revision: ++this.revision,
       abort: new AbortController(),
       drawn: false,
@@ -104,10 +148,12 @@ export class HttpGenerator implements Generator {
     };
     this.running = me;
     const unwatch = this.watch(me);
-    const mine = () => this.running === me;
+    const mine = () => this.running === me || this.passed === me;
     const began = this.now();
     try {
-      let answer = await this.post(ask.scene(), me);
+      const scene = ask.scene();
+      me.named = 'id' in scene;
+      let answer = await this.post(scene, me);
       const { status, problem } = answer;
       if (problem && (status === 422 || status === 412 || status === 404)) {
         const badMap = RETRY_IN_PLACE.has(problem.code) || problem.errors?.some((e) => e.code === 'unknown-map');
@@ -130,11 +176,12 @@ export class HttpGenerator implements Generator {
       await this.read(answer, me, began);
     } catch (e) {
       if (!mine()) return;
-      if ((e as Error).name === 'AbortError') ask.on.dropped?.();
+      if ((e as Error).name === 'AbortError' || this.passed === me) ask.on.dropped?.();
       else ask.on.away();
     } finally {
       unwatch();
-      if (mine()) {
+      if (this.passed === me) this.forgetPassed();
+      if (this.running === me) {
         this.running = null;
         this.silent = 0;
         this.next();
@@ -169,6 +216,7 @@ export class HttpGenerator implements Generator {
   }
 
   private lose(me: Running): void {
+    this.forgetPassed();
     this.running = null;
     this.silent = 0;
     me.abort.abort();
@@ -214,7 +262,7 @@ export class HttpGenerator implements Generator {
       window = 0;
     let ended = false;
     for await (const e of answer.events) {
-      if (this.running !== me) return;
+      if (this.running !== me && this.passed !== me) return;
       this.silent = 0;
       if (e.event === 'heartbeat') continue;
       // An answer to an older question is dropped without a flash.
@@ -228,7 +276,12 @@ export class HttpGenerator implements Generator {
         window = e.window;
         shown = step;
         me.drawn = true;
+        this.guessed = false;
+        if (step === 0 && me.question.preview) this.noteFirst(ms);
         on.draft(e, step, e.steps, ms);
+        // Of two on their way the older one has shown what it is for, or comes too late for it.
+        this.forgetPassed();
+        if (this.running !== me) return;
         if (this.waiting) {
           this.stopRunning();
           this.next();
@@ -245,7 +298,9 @@ export class HttpGenerator implements Generator {
         on.dropped?.();
       }
     }
-    if (!ended && this.running === me) on.away();
+    if (ended) return;
+    if (this.running === me) on.away();
+    else if (this.passed === me) on.dropped?.();
   }
 
   private next(): void {

@@ -5,6 +5,9 @@ export const HELPS = table('helps', {
   triesSpeeds: 'Tries speeds, goal times and seeds of a road user until a near miss, hard braking or the like happens',
   goesOnUntil: 'Goes on until it is found or stopped; you can keep editing',
   thePickedWay: 'The picked way between two lanes of a map that is being made',
+  aPlaceToPass:
+    'A place to pass on the way: where a future is pointed at, else half way. Shift and a click on a path, too',
+  theOneTakenLast: 'The one that was taken last',
   starStays: 'The star stays with it when it is kept as a variant',
   eachOfTwo: 'Each of two starts where the other did; speeds and goals stay',
   whereItWasRecorded: 'Where it was recorded at the goal time',

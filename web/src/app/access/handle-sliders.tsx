@@ -7,7 +7,9 @@ import { TEXTS } from '../../texts/access';
 
 export function HandleSliders() {
   const { editor } = useApp();
-  const id = useComputed(() => (editor.agent.value && canMove(editor.agent.value) ? editor.selection.value : null));
+  const id = useComputed(() =>
+    editor.restingAgent.value && canMove(editor.restingAgent.value) ? editor.selection.value : null,
+  );
   return (
     <div class="sr" role="group" aria-label={TEXTS.handles} data-group="handles">
       {id.value ? <Later part="handles" key={id.value} id={id.value} /> : null}

@@ -29,8 +29,8 @@ const EVERYBODY: Filter = { kind: 'all', goal: false, events: false };
 
 export function RoadUsers() {
   const { editor, ui } = useApp();
-  const id = useComputed(() => editor.scene.value?.id).value;
-  const label = useComputed(() => TEXTS.roadUsers(editor.scene.value?.agents.size ?? 0));
+  const id = useComputed(() => editor.resting.value?.id).value;
+  const label = useComputed(() => TEXTS.roadUsers(editor.resting.value?.agents.size ?? 0));
   const open = useComputed(() => ui.drawer.value === 'users').value;
   const filter = useSignal(EVERYBODY);
   // Nobody is left out of a list whose filters cannot be seen.
@@ -111,7 +111,7 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const c = useApp();
   const { editor } = c;
   // Who comes or goes makes another list; who only changes does not.
-  const roster = useComputed(() => editor.scene.value?.roster).value;
+  const roster = useComputed(() => editor.resting.value?.roster).value;
   const everybody = useMemo(
     () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
     [roster, editor],
@@ -123,13 +123,12 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
       (kind === 'all' || a.type === kind) &&
       (!goal || hasGoal(a.goal)) &&
       (!events || !!inEvent(c, a.id));
-    // Without a filter nothing of the scene is looked at: it changes with every frame of a drag.
     if (filter.value === EVERYBODY) return '';
-    return everybody.filter((id) => fits(editor.scene.value?.agents.get(id))).join('\n');
+    return everybody.filter((id) => fits(editor.resting.value?.agents.get(id))).join('\n');
   }).value;
   const shown = filter.value === EVERYBODY ? everybody : listed.split('\n').filter(Boolean);
   /** The one that Tab comes to: who is selected, else the first. */
-  const tabStop = useComputed(() => editor.selected.value[0] ?? editor.scene.value?.agents.keys().next().value);
+  const tabStop = useComputed(() => editor.selected.value[0] ?? editor.resting.value?.agents.keys().next().value);
   return (
     <>
       {shown.length ? null : <p class="mut none">{TEXTS.nobodyIsLike}</p>}
@@ -148,11 +147,13 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
 function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string | undefined> }) {
   const c = useApp();
   const { editor } = c;
-  const agent = useAgent(id);
+  const chosen = useComputed(() => editor.selected.value.includes(id));
+  // Nobody else changes while a hand moves, and nobody else's row is looked at then.
+  const agent = useAgent(id, () => (chosen.value ? editor.scene : editor.resting));
   const event = useComputed(() => inEvent(c, id)?.label ?? '');
   const name = useComputed(() => agent.value.name);
   const words = useComputed(() => `, ${wordsFor(c, agent.value, event.value)}`);
-  const pressed = useComputed(() => String(editor.selected.value.includes(id)));
+  const pressed = useComputed(() => String(chosen.value));
   const tabindex = useComputed(() => (tabStop.value === id ? 0 : -1));
   return (
     <button

@@ -1,5 +1,6 @@
 // A slider for each handle of a road user: where it starts, its goal, and the places on its way.
-import { useComputed } from '@preact/signals';
+import { useComputed, type ReadonlySignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 import type { Command } from '../../model/commands';
 import { deg } from '../../model/geometry';
 import { num, speedLabel } from '../../model/units';
@@ -10,6 +11,8 @@ import { heldTime, viaTime } from '../../edit/via-times';
 import { changeVia, moveVia, viaName, widenVia } from '../../edit/vias';
 import { useAgent, type LiveAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/access';
+import { TEXTS as VIA } from '../../texts/via';
 
 export function Sliders({ id }: { id: string }) {
   const agent = useAgent(id);
@@ -60,8 +63,8 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
       role="slider"
       tabindex={0}
       aria-label={label}
-      aria-valuenow={useComputed(() => now().toFixed(1)) as never}
-      aria-valuetext={useComputed(text)}
+      aria-valuenow={useAtRest(() => now().toFixed(1)) as never}
+      aria-valuetext={useAtRest(text)}
       aria-valuemin={-10000}
       aria-valuemax={10000}
       onFocus={focus}
@@ -70,24 +73,31 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
   );
 }
 
-const WORD = { start: 'Start', goal: 'Goal' } as const;
+/** What `read` gives; while a pointer drags, as it was before: nobody hears of a handle that they move with it. */
+function useAtRest(read: () => string): ReadonlySignal<string> {
+  const { editor } = useApp();
+  const last = useRef<string | null>(null);
+  return useComputed(() => (editor.dragging.value && last.current !== null ? last.current : (last.current = read())));
+}
+
+const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
 function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
   const { editor } = useApp();
   const pose = () => moves.shownPose(editor, agent.value, part);
-  const freedom = (f: Field) => (agent.value[part][f] === null ? ', free' : ', fixed');
+  const freedom = (f: Field) => (agent.value[part][f] === null ? TEXTS.free : TEXTS.fixed);
   const place = () => {
     const p = pose();
-    if (!p) return 'not known';
+    if (!p) return TEXTS.notKnown;
     const lane = laneWords(editor.scene.value!.map, agent.value, p.x, p.y, p.heading);
-    return `${num(p.x, 1)}, ${num(p.y, 1)} metres, ${lane}${freedom('pos')}`;
+    return TEXTS.metres(num(p.x, 1), num(p.y, 1), lane, freedom('pos'));
   };
   const heading = () => deg(pose()?.heading ?? 0);
   const speed = () => pose()?.speed ?? 0;
   return (
     <>
       <Slider
-        label={`${WORD[part]} position`}
+        label={TEXTS.position(WORD[part])}
         part={part}
         now={() => pose()?.x ?? 0}
         text={place}
@@ -97,14 +107,14 @@ function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
         }}
       />
       <Slider
-        label={`${WORD[part]} heading`}
+        label={TEXTS.heading(WORD[part])}
         part={part}
         now={heading}
-        text={() => `${Math.round(heading())} degrees${freedom('heading')}`}
+        text={() => TEXTS.degrees(Math.round(heading()), freedom('heading'))}
         move={([, , more], far) => moves.turn(editor, agent.peek(), part, more * (far ? 15 : 1))}
       />
       <Slider
-        label={`${WORD[part]} speed`}
+        label={TEXTS.speed(WORD[part])}
         part={part}
         now={speed}
         text={() => `${speedLabel(speed(), editor.unitOf(agent.value))}${freedom('speed')}`}
@@ -118,10 +128,10 @@ function TimeSlider({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   return (
     <Slider
-      label="Goal time"
+      label={TEXTS.goalTime}
       part="goal"
       now={() => agent.value.goal.time}
-      text={() => `${num(agent.value.goal.time, 1)} seconds`}
+      text={() => TEXTS.seconds(num(agent.value.goal.time, 1))}
       move={([, , more], far) => moves.later(editor, agent.peek(), more * (far ? 1 : 0.1))}
     />
   );
@@ -144,13 +154,13 @@ function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
   const name = useComputed(() => viaName(agent.value, i)).value;
   const place = () => {
     const [x, y] = via()?.pos ?? [0, 0];
-    return `${num(x, 1)}, ${num(y, 1)} metres, ${laneWords(editor.scene.value!.map, agent.value, x, y, null)}`;
+    return VIA.metres(num(x, 1), num(y, 1), laneWords(editor.scene.value!.map, agent.value, x, y, null));
   };
   const time = () => via()?.time ?? viaTime(editor, agent.value, i) ?? 0;
   return (
     <>
       <Slider
-        label={`${name} position`}
+        label={VIA.position(name)}
         part="goal"
         via={i}
         now={() => via()?.pos[0] ?? 0}
@@ -162,21 +172,21 @@ function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
         }}
       />
       <Slider
-        label={`${name} tolerance`}
+        label={VIA.tolerance(name)}
         part="goal"
         via={i}
         now={() => via()?.tolerance ?? 0}
-        text={() => `${num(via()?.tolerance ?? 0, 1)} metres`}
+        text={() => VIA.metresWide(num(via()?.tolerance ?? 0, 1))}
         move={([, , more], far) =>
           widenVia(agent.peek(), i, agent.peek().goal.via[i].tolerance + more * (far ? 1 : 0.1), true)
         }
       />
       <Slider
-        label={`${name} time`}
+        label={VIA.time(name)}
         part="goal"
         via={i}
         now={time}
-        text={() => `${num(time(), 1)} seconds${via()?.time == null ? ', free' : ', fixed'}`}
+        text={() => `${TEXTS.seconds(num(time(), 1))}${via()?.time == null ? TEXTS.free : TEXTS.fixed}`}
         move={([, , more], far) => {
           const a = agent.peek();
           const t = heldTime(a, i, time() + more * (far ? 1 : 0.1), editor.scene.peek()?.length ?? 9);

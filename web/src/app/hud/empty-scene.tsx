@@ -12,15 +12,17 @@ const WAYS = ['place-first', 'tool-fill', 'import-log'] as const;
 
 export function EmptyScene() {
   const { editor, ui } = useApp();
-  const scene = useComputed(() => editor.scene.value?.id ?? null).value;
-  const nobody = useComputed(() => editor.scene.value?.agents.size === 0).value;
+  const scene = useComputed(() => editor.resting.value?.id ?? null).value;
+  const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
   // Once somebody was here the card does not come back.
   useEffect(() => {
     if (scene !== null && !nobody) ui.hideEmpty(scene);
   }, [scene, nobody, ui]);
   const shown = useComputed(
     () =>
-      editor.tool.value === 'select' && editor.scene.value !== null && ui.emptyHidden.value !== editor.scene.value.id,
+      editor.tool.value === 'select' &&
+      editor.resting.value !== null &&
+      ui.emptyHidden.value !== editor.resting.value.id,
   ).value;
   return nobody && shown && !editor.layouts.isOpen.value ? <Card scene={scene!} /> : null;
 }

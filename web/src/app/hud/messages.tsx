@@ -20,7 +20,7 @@ export function Coach() {
       // Those who look for something else have found their way.
       !searching.open.value &&
       !rounds.isOpen.value &&
-      editor.scene.value !== null,
+      editor.resting.value !== null,
   );
   if (!shown.value) return null;
   return (

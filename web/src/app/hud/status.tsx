@@ -20,18 +20,18 @@ export function Status() {
   const { editor } = c;
   const s = editor.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
-  if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
-  if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
+  if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return row(sceneLine(c));
+  if (editor.layouts.isOpen.value) return row(mapLine(c));
   const work = workLine(c);
-  if (work && !editor.dragging.value) return <Row {...work} />;
+  if (work && !editor.dragging.value) return row(work);
   const kind = placedBy(c);
-  if (editor.filling.wish.value) return <Row dot="" text={TEXTS.previewNothing} />;
-  if (kind) return <Row dot="" text={TEXTS.placing(KIND_WORDS[kind])} />;
-  if (s.kind === 'refining') return <Refining {...s} />;
+  if (editor.filling.wish.value) return row({ dot: '', text: TEXTS.previewNothing });
+  if (kind) return row({ dot: '', text: TEXTS.placing(KIND_WORDS[kind]) });
+  if (s.kind === 'refining') return refining(s);
   const some = editor.selected.value.length;
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
-    return <Row dot="busy" text={TEXTS.ofSelected(some, editor.scene.value!.agents.size)} />;
-  return <Row {...lineFor(c, s)} />;
+    return row({ dot: 'busy', text: TEXTS.ofSelected(some, editor.scene.value!.agents.size) });
+  return row(lineFor(c, s));
 }
 
 /** How far a search is that goes on, or the making of variants. */
@@ -55,18 +55,17 @@ function mapLine({ editor }: Context): Line {
   return { dot: bad ? 'near' : '', text: words };
 }
 
-function Row({ dot, text }: Line) {
-  return (
-    <div class="row">
-      <span class={`dot ${dot}`} />
-      {text}
-    </div>
-  );
-}
+/** Not a component of its own, nor is the other one: a drag goes from one to the other and back in every frame. */
+const row = ({ dot, text }: Line) => (
+  <div class="row">
+    <span class={`dot ${dot}`} />
+    {text}
+  </div>
+);
 
 type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
 
-function Refining({ step, steps, ms, part }: RefiningStatus) {
+function refining({ step, steps, ms, part }: RefiningStatus) {
   const after = TEXTS.ms(ms.toFixed(0));
   const words = part
     ? TEXTS.refining(part, after)

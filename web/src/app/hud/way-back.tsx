@@ -23,7 +23,7 @@ export function WayBack() {
   const { editor, stage } = useApp();
   const lost = useComputed(() => {
     void viewTick.value;
-    const scene = editor.scene.value;
+    const scene = editor.resting.value;
     if (!scene || editor.dragging.value) return false;
     const seen = stage.view.box();
     const inside = (p: { x: number; y: number } | null): boolean =>

@@ -66,7 +66,7 @@ function NoEvents() {
   const { editor } = useApp();
   const known = useComputed(() => editor.motion.value.score !== null).value;
   const away = useComputed(() => editor.away.value !== null).value;
-  const nobody = useComputed(() => editor.scene.value?.agents.size === 0).value;
+  const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
   if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
   const unknown = away ? TEXTS.notKnownWhile : TEXTS.notWorkedOut;
   return (

@@ -145,12 +145,13 @@ function inWords(scene: Scene | null, m: Future | undefined): string {
   return TEXTS.at(m.name, placeWord(worst, nameIn(scene)), seconds(worst.time));
 }
 
-/** A bar as long as the future is likely, beside the likeliest. */
+/** A bar as long as the future is likely, beside the likeliest. It is pushed out of sight, which lays out nothing. */
 function Share({ index }: { index: number }) {
   const { editor } = useApp();
-  const share = useComputed(() => {
+  const missing = useComputed(() => {
     const modes = editor.futures.value?.modes ?? [];
-    return (modes[index]?.probability ?? 0) / Math.max(...modes.map((m) => m.probability), 1e-9);
+    const share = (modes[index]?.probability ?? 0) / Math.max(...modes.map((m) => m.probability), 1e-9);
+    return `translate: ${((share - 1) * 100).toFixed(2)}%`;
   });
-  return <i class={`m${index}`} style={{ width: `${share.value * 100}%` }} />;
+  return <i class={`m${index}`} style={missing} />;
 }

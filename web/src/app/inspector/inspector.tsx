@@ -12,7 +12,7 @@ export function Inspector() {
   const cases = searching.open.value !== null;
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
-  const scene = useComputed(() => editor.scene.value?.id).value;
+  const scene = useComputed(() => editor.resting.value?.id).value;
   const selected = editor.selection.value;
   const several = useComputed(() => editor.selected.value.length > 1).value;
   return (

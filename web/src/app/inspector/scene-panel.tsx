@@ -16,7 +16,7 @@ const FIRST_EVENTS = 6;
 export function ScenePanel() {
   const { editor } = useApp();
   // Who comes or goes is counted anew; who is dragged is not.
-  void useComputed(() => editor.scene.value?.roster).value;
+  void useComputed(() => editor.resting.value?.roster).value;
   const scene = editor.scene.peek();
   return scene ? <About scene={scene} /> : <Nothing />;
 }
@@ -48,7 +48,7 @@ function Nothing() {
 
 function About({ scene }: { scene: Scene }) {
   const { editor, form } = useApp();
-  const others = useComputed(() => OTHERS_DO[editor.scene.value?.others ?? 'react']);
+  const others = useComputed(() => OTHERS_DO[editor.resting.value?.others ?? 'react']);
   return (
     <>
       <Head note={scene.agents.size ? TEXTS.nothingSelected : TEXTS.nobodyIsHere} />

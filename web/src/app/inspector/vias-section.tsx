@@ -1,7 +1,7 @@
 // Places on the way: each with where it is, how near it is passed, and when.
 import { useComputed } from '@preact/signals';
 import type { Vec } from '../../model/geometry';
-import { num, seconds } from '../../model/units';
+import { metres, num, seconds } from '../../model/units';
 import { passed, VIA_TOLERANCE } from '../../model/via';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/via-times';
@@ -11,6 +11,8 @@ import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import type { Command } from '../../model/commands';
+import { TEXTS } from '../../texts/via';
+import { inSentence } from '../../texts/language';
 import type { LiveAgent } from './use-agent';
 
 const FAR_M = 10_000;
@@ -19,12 +21,12 @@ export function ViasSection({ agent }: { agent: LiveAgent }) {
   const count = useComputed(() => agent.value.goal.via.length).value;
   if (!count) return null;
   return (
-    <section class="sect vias" aria-label="Places on the way">
+    <section class="sect vias" aria-label={TEXTS.placesOnTheWay}>
       <h3>
         <span class="mk">
           <Icon name="via" size={15} />
         </span>
-        Places on the way
+        {TEXTS.placesOnTheWay}
         <small>{count}</small>
       </h3>
       {Array.from({ length: count }, (_, i) => (
@@ -41,12 +43,12 @@ function Order({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const i = useComputed(() => (editor.dragging.value ? null : outOfOrder(editor, agent.value))).value;
   if (i === null) return null;
-  const words = `${viaName(agent.value, i + 1)} lies before ${viaName(agent.value, i).toLowerCase()} on the path.`;
+  const words = TEXTS.liesBefore(viaName(agent.value, i + 1), inSentence(viaName(agent.value, i)));
   return (
     <p class="leave">
       {words}
       <button type="button" class="words" onClick={() => editor.run(swapVias(agent.peek(), i))}>
-        Swap them
+        {TEXTS.swapThem}
       </button>
     </p>
   );
@@ -65,7 +67,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
     const m = f?.modes[editor.chosen.value]?.motion;
     const at = m && verdictsHold(editor) ? passed(agent.value.goal.via, m)[i] : null;
     if (!at) return '';
-    return at.ok ? `passed at ${seconds(at.time)}` : `${num(at.away, 1)} m away at ${seconds(at.time)}`;
+    return at.ok ? TEXTS.passedAt(seconds(at.time)) : TEXTS.awayAt(metres(at.away, 1), seconds(at.time));
   });
   const fixed = useComputed(() => via()?.time != null).value;
   const take = () => editor.takeVia(i);
@@ -75,7 +77,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
   };
   const coordinate = (axis: 0 | 1) => (
     <NumberField
-      label={`${name} ${axis ? 'y' : 'x'} in metres`}
+      label={TEXTS.inMetres(name, axis ? 'y' : 'x')}
       letter={axis ? 'y' : 'x'}
       unit={() => ''}
       quantity={() => 'length'}
@@ -102,18 +104,18 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
         <button
           type="button"
           class="off"
-          aria-label={`Remove ${name.toLowerCase()}`}
-          title="Remove"
+          aria-label={TEXTS.removeOne(inSentence(name))}
+          title={TEXTS.remove}
           onClick={() => run(removeVia(agent.peek(), i))}
         >
           <Icon name="x" size={12} />
         </button>
       </div>
       <div class="pr">
-        <span class="lab">Within</span>
+        <span class="lab">{TEXTS.within}</span>
         <div class="fs">
           <NumberField
-            label={`${name} tolerance in metres`}
+            label={TEXTS.toleranceInMetres(name)}
             letter="±"
             unit={() => 'm'}
             quantity={() => 'length'}
@@ -127,7 +129,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
             onFocus={take}
           />
           <NumberField
-            label={`${name} time in seconds`}
+            label={TEXTS.timeInSeconds(name)}
             letter="t"
             unit={() => 's'}
             quantity={() => 'time'}
@@ -152,16 +154,12 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
           class="fx"
           role="switch"
           aria-checked={fixed}
-          aria-label={`${name} time fixed`}
-          title={
-            fixed
-              ? 'Fixed: you decide. Click to let the generator decide'
-              : 'Free: the generator decides. Click to fix it here'
-          }
+          aria-label={TEXTS.timeFixed(name)}
+          title={fixed ? TEXTS.fixedYouDecide : TEXTS.freeTheGenerator}
           onClick={() => run(toggleViaTime(editor, agent.peek(), i))}
         >
           <Icon name="lock" size={11} />
-          {fixed ? 'Fixed' : 'Free'}
+          {fixed ? TEXTS.fixed : TEXTS.free}
         </button>
       </div>
       <p class="note" aria-live="off">

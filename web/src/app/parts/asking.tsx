@@ -28,7 +28,7 @@ export function Controls() {
 
 function SceneSeed() {
   const { editor } = useApp();
-  const seed = useComputed(() => editor.scene.value?.seed ?? DEFAULTS.seed).value;
+  const seed = useComputed(() => editor.resting.value?.seed ?? DEFAULTS.seed).value;
   return <SeedField label={TEXTS.seed} seed={seed} set={(v) => editor.run(setSeed(v))} />;
 }
 
@@ -68,7 +68,7 @@ const MOST = 200;
 
 function DiversitySlider() {
   const { editor } = useApp();
-  const percent = useComputed(() => Math.round((editor.scene.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
+  const percent = useComputed(() => Math.round((editor.resting.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
   return (
     <>
       <input

@@ -106,9 +106,9 @@ function List({ items }: { items: readonly SceneListItem[] }) {
 
 function Item({ item }: { item: SceneListItem }) {
   const { editor, library, ui } = useApp();
-  const current = useComputed(() => editor.scene.value?.id === item.id).value;
+  const current = useComputed(() => editor.resting.value?.id === item.id).value;
   const aimed = useComputed(() => ui.aimed.value === item.id).value;
-  const name = useComputed(() => (editor.scene.value?.id === item.id ? editor.scene.value.name : item.name));
+  const name = useComputed(() => (editor.resting.value?.id === item.id ? editor.resting.value.name : item.name));
   if (ui.renaming.value === item.id) return <NewName item={item} />;
   return (
     <div

@@ -1,10 +1,11 @@
 // The speed curves of the selected road user: its log, its futures, its start and goal.
 import { untracked } from '@preact/signals';
-import { smoothSpeed, type Motion } from '../../model/motion';
+import { thinned, type Vec } from '../../model/geometry';
+import { smoothSpeed, STEP_S, stretches, type Motion } from '../../model/motion';
 import { isSettled, type Futures } from '../../model/futures';
 import { startPose, touched, type Agent } from '../../model/scene';
 import { toUnit } from '../../model/units';
-import { modeStyle } from '../../draw/strokes';
+import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
 import { severalShown, X0, type Axes, type Line } from './axes';
@@ -190,18 +191,15 @@ function Curve({ axes, motion, colour, width, opacity, dash, smooth = false }: C
 /** A line through the speeds, with gaps where the log has gaps. */
 function pathOf(a: Axes, m: Motion, smooth: boolean): string {
   const speeds = smooth ? smoothSpeed(m) : m.speed;
+  const last = Math.floor((a.duration + 1e-6) / STEP_S) - m.first;
+  const at = (i: number): Vec => [a.x((m.first + i) * STEP_S), a.y(toUnit(Math.abs(speeds[i]), a.unit))];
   let d = '';
-  let pen = false;
-  for (let i = 0; i < speeds.length; i++) {
-    const step = m.first + i;
-    if (!m.valid.some(([p, q]) => step >= p && step < q)) {
-      pen = false;
-      continue;
-    }
-    if (step < 0 || step * 0.1 > a.duration + 1e-6) continue;
-    const y = a.y(toUnit(Math.abs(speeds[i]), a.unit));
-    d += `${pen ? 'L' : 'M'}${a.x(step * 0.1).toFixed(1)} ${y.toFixed(1)}`;
-    pen = true;
+  for (const [from, to] of stretches(m, Math.max(0, -m.first), Math.min(last, speeds.length - 1))) {
+    let pen = 'M';
+    thinned(from, to, at, UNSEEN_PX, ([x, y]) => {
+      d += `${pen}${x.toFixed(1)} ${y.toFixed(1)}`;
+      pen = 'L';
+    });
   }
   return d;
 }

@@ -42,7 +42,7 @@ export function Plot() {
   const size = useSignal<Size>({ w: 900, h: 110 });
   const tick = useFrameTick(() => [shown(c), size.value]);
   const now = useComputed(() => editor.time.value.toFixed(1));
-  const end = useComputed(() => String(editor.scene.value?.duration ?? 9));
+  const end = useComputed(() => String(editor.resting.value?.duration ?? 9));
   useLayoutEffect(() => {
     const el = box.current!;
     const watch = new ResizeObserver(() => {

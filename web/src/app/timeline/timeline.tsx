@@ -43,7 +43,7 @@ const seconds = (action: string, all: readonly number[]): (readonly [string, str
 function Clock() {
   const { editor } = useApp();
   const now = useComputed(() => `${num(editor.time.value, 1)} s `);
-  const end = useComputed(() => `/ ${num(editor.scene.value?.duration ?? 9, 1)} s`);
+  const end = useComputed(() => `/ ${num(editor.resting.value?.duration ?? 9, 1)} s`);
   return (
     <span class="tm">
       {now}
@@ -55,7 +55,7 @@ function Clock() {
 /** Where fingers are the hand, the playhead has a rail of its own. */
 function Scrubber() {
   const { editor } = useApp();
-  const end = useComputed(() => editor.scene.value?.duration ?? 9);
+  const end = useComputed(() => editor.resting.value?.duration ?? 9);
   const now = useComputed(() => editor.time.value.toFixed(1));
   return (
     <input

@@ -90,7 +90,7 @@ export class Cases {
     private readonly maker: Maker,
     private readonly cancel: () => void,
   ) {
-    const scene = computed(() => editor.scene.value?.id);
+    const scene = computed(() => editor.resting.value?.id);
     effect(() => {
       void scene.value;
       this.close();

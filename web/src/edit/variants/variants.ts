@@ -138,9 +138,9 @@ export class Variants {
     private readonly maker: Maker,
     private readonly cancel: () => void,
   ) {
-    const list = computed(() => editor.scene.value?.variants);
-    const states = computed(() => editor.scene.value?.variantStates);
-    const roster = computed(() => `${editor.scene.value?.id} ${editor.scene.value?.roster}`);
+    const list = computed(() => editor.resting.value?.variants);
+    const states = computed(() => editor.resting.value?.variantStates);
+    const roster = computed(() => `${editor.resting.value?.id} ${editor.resting.value?.roster}`);
     this.cards = computed(() => {
       void roster.value;
       const scene = editor.scene.peek();
@@ -154,7 +154,7 @@ export class Variants {
     this.obstacle = computed(() => this.#obstacleOf(this.#sweep.value));
     this.filtered = computed(() => filtered(this.cards.value, this.#filter.value));
     const key = computed(() => {
-      const scene = editor.dragging.value ? null : editor.scene.value;
+      const scene = editor.dragging.value ? null : editor.resting.value;
       return scene?.variants.length ? sceneKey(scene) : null;
     });
     this.shown = computed(() => {
@@ -178,7 +178,7 @@ export class Variants {
     });
     let scene = '';
     effect(() => {
-      const now = editor.scene.value?.id ?? '';
+      const now = editor.resting.value?.id ?? '';
       if (now === scene) return;
       scene = now;
       this.#forget();

@@ -1,0 +1,54 @@
+// Scenes with many road users, made by the program itself: an example, with so many more placed on its map, each of
+// whom drives the way that the program gives it.
+
+const DEMO = 'demo-arterial';
+/** Road users worked out in one call. */
+const AT_ONCE = 60;
+
+async function asked(url, path, body) {
+  const reply = await fetch(new URL(path, url), {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json', Accept: 'application/json' },
+    body: JSON.stringify(body),
+  });
+  if (!reply.ok) throw new Error(`${path}: ${reply.status} ${(await reply.text()).slice(0, 300)}`);
+  return reply.json();
+}
+
+/** Stores a scene of so many road users, all with a motion of their own; gives back its id. */
+export async function crowd(url, count) {
+  const scene = await (await fetch(new URL(`/v1/scenes/${DEMO}`, url))).json();
+  const missing = count - scene.agents.length;
+  const { agents } = await asked(url, '/v1/place', {
+    scene_id: DEMO,
+    density: { count: missing },
+    seed: 1,
+    min_gap_m: 1,
+  });
+  if (agents.length < missing) throw new Error(`only ${agents.length} of ${missing} found a place`);
+  scene.agents.push(...agents);
+  for (let i = 0; i < agents.length; i += AT_ONCE) {
+    const some = agents.slice(i, i + AT_ONCE);
+    const reply = await asked(url, '/v1/generate', {
+      scene,
+      agents: some.map((a) => a.id),
+      react: false,
+      modes: 1,
+      steps: 0,
+    });
+    for (const a of some) recorded(a, reply.samples[0].agents[a.id].modes[0], scene.time);
+  }
+  const kept = await asked(url, '/v1/scenes', { ...scene, id: null, name: `Crowd of ${count}` });
+  return kept.id;
+}
+
+/** What somebody was going to do is what was recorded of it. */
+function recorded(agent, mode, { steps }) {
+  const { track } = agent;
+  const before = track.first_step + track.x_m.length;
+  const most = steps - before;
+  for (const name of ['x_m', 'y_m', 'heading_rad', 'vx_mps', 'vy_mps'])
+    track[name] = [...track[name], ...mode[name].slice(0, most)];
+  track.valid = [[track.first_step, track.first_step + track.x_m.length]];
+  delete agent.conditions;
+}

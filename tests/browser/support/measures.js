@@ -1,0 +1,177 @@
+// How fast the hand is answered: what is measured of a page, and how. Times are milliseconds, sizes bytes.
+import { readdirSync, readFileSync } from 'node:fs';
+import { carOnTheMove } from './casting.js';
+import { FRAMES_ALONE, spread, traced } from './trace.js';
+
+/** A hand that moves once a picture. */
+const PACE_MS = 1000 / 60;
+/** Clock ticks of the kernel a second. */
+const TICKS = 100;
+
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Moves the mouse along a line at the pace of a hand, whatever the page makes of it; gives back when it did. */
+export async function sweep(e, from, to, moves) {
+  const began = performance.now();
+  const sent = [];
+  const hand = [];
+  for (let i = 1; i <= moves; i++) {
+    await wait(Math.max(0, began + i * PACE_MS - performance.now()));
+    const at = { x: from[0] + ((to[0] - from[0]) * i) / moves, y: from[1] + ((to[1] - from[1]) * i) / moves };
+    // The browser's clock is the system's.
+    hand.push(Number(process.hrtime.bigint()) / 1e6);
+    sent.push(e.cdp.send('Input.dispatchMouseEvent', { type: 'mouseMoved', button: 'left', buttons: 1, ...at }));
+  }
+  await Promise.all(sent);
+  return hand;
+}
+
+/** Takes the flag of a car that goes straight on; gives back where it is after a share of the way back to the car. */
+export async function takeFlag(e) {
+  const car = await carOnTheMove(e);
+  await e.choose(car.id);
+  return (k) => [car.to[0] + (car.from[0] - car.to[0]) * k + 9, car.to[1] + (car.from[1] - car.to[1]) * k - 26];
+}
+
+/** Where the flag of the selected road user is by now. */
+export async function flagNow(e) {
+  const goal = await e.pose('Goal');
+  const [x, y] = await e.at(goal.x, goal.y);
+  return [x + 9, y - 26];
+}
+
+async function press(e, at) {
+  await e.page.mouse.move(...at);
+  await e.page.mouse.down();
+  // The first moves make a press a drag.
+  for (const d of [2, 4, 6]) await e.page.mouse.move(at[0] + d, at[1]);
+  await e.until(() => document.querySelector('main.stage').dataset.cursor === 'grabbing');
+}
+
+/** Drags from one place to another and lets go; `measured` is asked to run the moves. */
+export async function dragged(e, from, to, moves, measured) {
+  await press(e, from);
+  // What is only worked out at the first moves is not what a hand feels all the time.
+  await sweep(e, from, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], 12);
+  const measures = await measured(() =>
+    sweep(e, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], to, moves),
+  );
+  await e.release();
+  return measures;
+}
+
+/** From the pointer to the futures on screen, and what travels; the page was opened with `listening: 'times'`. */
+export async function answered(browser, e, from, to, moves) {
+  const mark = e.wire.asked.length;
+  let hand = [];
+  const trace = await dragged(e, from, to, moves, (run) =>
+    traced(browser, e.page, async () => {
+      hand = await run();
+    }),
+  );
+  const asked = e.wire.since(mark).filter((a) => a.body.react === false);
+  const drafts = asked
+    .filter((a) => a.chunks.length)
+    .map((a) => ({ sent: a.sent * 1000, came: a.chunks[0].at * 1000 }));
+  const answersTo = (times) =>
+    times.flatMap((at) => {
+      const draft = drafts.find((d) => d.sent >= at);
+      const seen = draft && trace.shownOnceTold(draft.came);
+      return seen
+        ? [{ came: draft.came - draft.sent, asked: draft.sent - at, drawn: seen - draft.came, all: seen - at }]
+        : [];
+    });
+  const shown = answersTo(trace.moves);
+  return {
+    hand: spread(answersTo(hand).map((m) => m.all)),
+    shown: spread(shown.map((m) => m.all)),
+    asked: spread(shown.map((m) => m.asked)),
+    came: spread(shown.map((m) => m.came)),
+    drawn: spread(shown.map((m) => m.drawn)),
+    request: spread(asked.map((a) => a.weight.request)),
+    answer: spread(asked.map((a) => a.weight.answer)),
+    questions: asked.length,
+    answers: drafts.length,
+  };
+}
+
+/** What a frame of a drag costs, undisturbed: the page was opened with `listening: 'nothing'`. */
+export async function costs(browser, e, from, to, moves) {
+  const { trace, threads } = await dragged(e, from, to, moves, async (run) => {
+    const before = await threadTimes(browser);
+    const trace = await traced(browser, e.page, run, FRAMES_ALONE);
+    return { trace, threads: since(before, await threadTimes(browser)) };
+  });
+  const frames = trace.drawn;
+  return {
+    frame: spread(frames.slice(1).map((t, i) => t - frames[i])),
+    page: trace.pageMs / moves,
+    all: trace.cpuMs / moves,
+    threads: Object.fromEntries(Object.entries(threads).map(([name, ms]) => [name, ms / moves])),
+  };
+}
+
+/** CPU time of the page's and the drawing processes by the names of their threads, where the system tells it. */
+async function threadTimes(browser) {
+  const cdp = await browser.newBrowserCDPSession();
+  const { processInfo } = await cdp.send('SystemInfo.getProcessInfo');
+  await cdp.detach();
+  const times = {};
+  for (const { id, type } of processInfo.filter((p) => /renderer|gpu/i.test(p.type)))
+    for (const [name, ms] of timesOf(id)) {
+      const key = `${type.toLowerCase() === 'renderer' ? 'page' : 'drawing'}: ${name}`;
+      times[key] = (times[key] ?? 0) + ms;
+    }
+  return times;
+}
+
+function timesOf(pid) {
+  try {
+    return readdirSync(`/proc/${pid}/task`).map((tid) => {
+      const stat = readFileSync(`/proc/${pid}/task/${tid}/stat`, 'utf8');
+      const name = stat.slice(stat.indexOf('(') + 1, stat.lastIndexOf(')'));
+      const [user, system] = stat
+        .slice(stat.lastIndexOf(')') + 2)
+        .split(' ')
+        .slice(11, 13)
+        .map(Number);
+      return [name, ((user + system) * 1000) / TICKS];
+    });
+  } catch {
+    return [];
+  }
+}
+
+const since = (before, after) =>
+  Object.fromEntries(
+    Object.entries(after)
+      .map(([name, ms]) => [name, ms - (before[name] ?? 0)])
+      .filter(([, ms]) => ms > 0)
+      .sort((a, b) => b[1] - a[1]),
+  );
+
+/** CPU time, in ms a second, that pages take which nobody touches. */
+export async function atRest(browser, seconds = 3) {
+  const before = await threadTimes(browser);
+  await wait(seconds * 1000);
+  return Object.values(since(before, await threadTimes(browser))).reduce((sum, ms) => sum + ms, 0) / seconds;
+}
+
+/** What the page holds: memory in use after a collection, nodes, listeners. */
+export async function held(e) {
+  await e.cdp.send('HeapProfiler.enable');
+  for (let i = 0; i < 2; i++) await e.cdp.send('HeapProfiler.collectGarbage');
+  await e.cdp.send('HeapProfiler.disable');
+  await e.cdp.send('Performance.enable');
+  const { metrics } = await e.cdp.send('Performance.getMetrics');
+  await e.cdp.send('Performance.disable');
+  const of = (name) => metrics.find((m) => m.name === name).value;
+  return { heap: of('JSHeapUsedSize'), nodes: of('Nodes'), listeners: of('JSEventListeners') };
+}
+
+/** So many edits of the selected road user, by keys. */
+export async function edit(e, times) {
+  const keys = ['ArrowRight', 'ArrowUp', 'ArrowLeft', 'ArrowDown'];
+  for (let i = 0; i < times; i++) await e.key(keys[i % keys.length]);
+  await e.settled();
+}
