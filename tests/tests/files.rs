@@ -226,6 +226,10 @@ fn sumo_files_are_imported_with_their_network() {
     assert!(!scenes[0]["scene"]["map"]["lanes"].as_array().unwrap().is_empty());
     let wrong = server.send(&form(&[("net", &net), ("file", &net)])).unwrap();
     assert_eq!((wrong.status, wrong.code()), (422, "invalid-field".to_owned()));
+    // A second file is refused, not passed over.
+    let two = server.send(&form(&[("file", &net), ("file", &fcd)])).unwrap();
+    assert_eq!((two.status, two.code()), (422, "invalid-field".to_owned()));
+    assert_eq!(two.json()["errors"][0]["pointer"], "/file");
 }
 
 #[test]

@@ -112,10 +112,10 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// The first part of each of these names in a form.
+/// The part of each of these names in a form.
 ///
 /// # Errors
-/// `malformed-file`.
+/// `malformed-file`, and `invalid-field` for several of a name: none is passed over in silence.
 pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
@@ -127,7 +127,12 @@ pub fn parts<const N: usize>(
     let mut read = form_of(form, &boundary).map_err(broken)?;
     while let Some(mut field) = now(read.next_field()).map_err(broken)? {
         let place = names.iter().position(|name| Some(*name) == field.name());
-        if let Some(slot @ None) = place.and_then(|at| found.get_mut(at)) {
+        if let Some(slot) = place.and_then(|at| found.get_mut(at)) {
+            if slot.is_some() {
+                let name = field.name().unwrap_or_default();
+                let detail = format!("one part named {name} expected; send several files one by one");
+                return Err(Problem::field(&format!("/{name}"), Code::InvalidField, detail));
+            }
             let label = field.file_name().map(str::to_owned);
             let (form, boundary) = (Arc::clone(form), boundary.clone());
             *slot = Some(Part { label, form, boundary, index: field.index() });

@@ -62,6 +62,7 @@ journeys('new map', (stage) => {
         await e.picture('new-map-turned');
       },
     });
+    await e.release();
     await drawn(e);
     assert.equal(await angle(e), 71);
 
@@ -81,28 +82,30 @@ journeys('new map', (stage) => {
       return ask();
     });
     const rows = e.page.locator('.ways li');
-    const before = await rows.count();
-    await e.drag(await e.at(...arms[1].ins_m[0]), await e.at(...arms[0].outs_m[0]), {
+    const ways = await rows.count();
+    await e.drag(await e.at(...arms[1].ins_m[0]), await e.at(...arms[0].outs_m[1]), {
+      moves: 4,
       then: async () => {
         await drawn(e);
         await e.picture('new-map-connecting');
       },
     });
+    await e.release();
     await drawn(e);
-    assert.equal(await rows.count(), before + 1);
-    assert.match(await e.text('.ways li.on'), /Lane 1 to East, lane 1/);
+    assert.equal(await rows.count(), ways + 1);
+    assert.match(await e.text('.ways li.on'), /Lane 1 to East, lane 2/);
     await e.key('Delete');
     await drawn(e);
-    assert.equal(await rows.count(), before);
+    assert.equal(await rows.count(), ways);
     await e.key('Control+z');
     await drawn(e);
-    assert.equal(await rows.count(), before + 1);
-    await e.page.getByRole('button', { name: 'Remove: Lane 1 to East, lane 1' }).click();
+    assert.equal(await rows.count(), ways + 1);
+    await e.page.getByRole('button', { name: 'Remove: Lane 1 to East, lane 2' }).click();
     await drawn(e);
-    assert.equal(await rows.count(), before);
-    await e.page.getByLabel('Connect to').selectOption({ label: 'East, lane 1' });
+    assert.equal(await rows.count(), ways);
+    await e.page.getByLabel('Connect to').selectOption({ label: 'East, lane 2' });
     await drawn(e);
-    assert.equal(await rows.count(), before + 1);
+    assert.equal(await rows.count(), ways + 1);
 
     // Too near to the one in the east: refused in words, and the arm goes back to where a map could be drawn.
     await e.type('layout-arms.angle_deg', '10');
@@ -125,8 +128,8 @@ journeys('new map', (stage) => {
     assert.equal(parameters.arms[1].angle_deg, 71);
     assert.equal(parameters.kerb_radius_m, 10);
     assert.equal(parameters.control, 'signals');
-    assert.deepEqual(parameters.connections.added, [{ from: 'arm2.in1', to: 'arm1.out1' }]);
-    assert.ok(scene.map.lanes.some((lane) => lane.id === 'arm2.in1-arm1.out1'));
+    assert.deepEqual(parameters.connections.added, [{ from: 'arm2.in1', to: 'arm1.out2' }]);
+    assert.ok(scene.map.lanes.some((lane) => lane.id === 'arm2.in1-arm1.out2'));
     assert.ok(scene.signals.length > 8);
 
     // Filled, and somebody is taken by the hand.

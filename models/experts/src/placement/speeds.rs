@@ -19,6 +19,10 @@ use std::collections::HashSet;
 const BRAKE_MPS2: f64 = 3.0;
 /// Speeds are rounded to this, m/s.
 const ROUNDING_MPS: f64 = 1e-3;
+/// Braking for a leader, m/s2, and how long after the start it begins, seconds: who must brake at once and hard goes
+/// round instead, where there is no room for it.
+const FOLLOW_MPS2: f64 = 2.0;
+const FOLLOW_AFTER_S: f64 = 0.5;
 /// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
 const UNKNOWN_LEADER_MPS: f64 = 5.0;
 
@@ -112,8 +116,8 @@ impl StartSpeeds<'_> {
         let mut most = limits.speed_mps;
         let brakes_from =
             |room_m: f64, to_mps: f64| (to_mps * to_mps + 2.0 * BRAKE_MPS2 * room_m.max(0.0)).sqrt();
-        if let Some((gap_m, speed_mps)) = leader {
-            most = most.min(brakes_from(gap_m - 1.0, speed_mps));
+        if let Some((gap_m, leader_mps)) = leader {
+            most = most.min(follows_at(gap_m - 1.0, leader_mps));
         }
         if let Ahead::StopLine(StopControl::Red, m) = ahead {
             most = most.min(brakes_from(m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
@@ -152,6 +156,13 @@ impl StartSpeeds<'_> {
     }
 }
 
+/// The speed from which one brakes for a leader without haste: after a moment, and gently.
+fn follows_at(room_m: f64, leader_mps: f64) -> f64 {
+    let moment_mps = FOLLOW_MPS2 * FOLLOW_AFTER_S;
+    (moment_mps * moment_mps + leader_mps * leader_mps + 2.0 * FOLLOW_MPS2 * room_m.max(0.0)).sqrt()
+        - moment_mps
+}
+
 /// A speed for the situation or the next more general one that is known, at most `most` m/s.
 fn drawn_speed(
     model: &TypeModel,
@@ -176,6 +187,16 @@ fn standing_or(speed_mps: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn who_follows_can_brake_gently() {
+        for (room_m, leader_mps) in [(0.0, 0.0), (1.4, 6.0), (8.8, 0.0), (40.0, 10.0)] {
+            let speed_mps = follows_at(room_m, leader_mps);
+            let needed_m = speed_mps * FOLLOW_AFTER_S
+                + (speed_mps * speed_mps - leader_mps * leader_mps) / (2.0 * FOLLOW_MPS2);
+            assert!(speed_mps >= 0.0 && (needed_m - room_m).abs() < 1e-9, "{speed_mps} m/s, {room_m} m");
+        }
+    }
     use crate::placement::context::RoadAhead;
     use crate::placement::model::SPEED_CLASSES;
 

@@ -5,6 +5,7 @@
 //! real maps are far from; the rest (surfaces, boards, railways, what lies in other files) is left out. Coordinates
 //! are moved to the middle of the file's first road, since the crate keeps them in single precision.
 
+use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -30,6 +31,13 @@ const MAX_OBJECTS: usize = 10_000;
 /// Longest reference lines, and longest lanes, all together, metres.
 const MAX_LINES_M: f64 = 500_000.0;
 const MAX_LANES_M: f64 = 500_000.0;
+/// What reading takes of memory at most for each metre of lane, for each lane of a section, for each element and for
+/// each byte that is kept: points, borders and edges that cross; what a lane is however short; nodes; the text and its
+/// copy in the tree.
+const LANE_MEMORY: f64 = 800.0;
+const LANE_OWN_MEMORY: f64 = 4_000.0;
+const ELEMENT_MEMORY: f64 = 700.0;
+const TEXT_MEMORY: f64 = 2.0;
 /// Most steps of reading: each record of a road is looked for at each metre of it.
 const MAX_STEPS: f64 = 4e8;
 /// Farthest a coordinate may lie from the origin of the file, metres.
@@ -112,7 +120,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.map_err(|error| unpack::fault(&error, 0))?;
     let mut scanner = Scanner::new(input, MAX_TAG).with_texts();
-    let mut filter = Filter::default();
+    let mut filter = Filter { room: memory_for(file.encoded_len()), ..Filter::default() };
     while let Some(event) = scanner.next()? {
         match event {
             Event::Start(element) => filter.start(&element)?,
@@ -140,6 +148,7 @@ struct Road {
 struct Section {
     s_m: f64,
     lanes: usize,
+    drawn: usize,
     raised: Vec<i32>,
 }
 
@@ -162,7 +171,11 @@ struct Filter {
     objects: usize,
     lines_m: f64,
     lanes_m: f64,
+    /// Of those that are drawn: all but the middle ones.
+    drawn_m: f64,
     steps: f64,
+    /// Most bytes of memory.
+    room: u64,
 }
 
 impl Filter {
@@ -198,7 +211,7 @@ impl Filter {
             "roadMark" => self.keep(&unpainted(element), &[]),
             "laneSection" => {
                 let s_m = number(element, "s").unwrap_or(0.0).max(0.0);
-                self.road.sections.push(Section { s_m, lanes: 0, raised: Vec::new() });
+                self.road.sections.push(Section { s_m, lanes: 0, drawn: 0, raised: Vec::new() });
                 self.keep(element, &[("s", s_m)])
             }
             "lane" => {
@@ -296,8 +309,25 @@ impl Filter {
         }
         text.push('>');
         at_most(text.len(), MAX_KEPT_BYTES, "bytes of roads")?;
+        self.fits()?;
         self.open.push(element.name.clone());
         Ok(())
+    }
+
+    /// What is made of all that is kept stays within the memory for a file of this size.
+    fn fits(&self) -> Result<(), ReadError> {
+        let made = LANE_MEMORY * self.drawn_m
+            + LANE_OWN_MEMORY * self.lanes as f64
+            + ELEMENT_MEMORY * self.kept as f64
+            + TEXT_MEMORY * self.out.text.len() as f64;
+        if made <= self.room as f64 {
+            return Ok(());
+        }
+        let detail = format!(
+            "{:.0} m of lanes and {} elements would take more memory than a file of this size may",
+            self.drawn_m, self.kept
+        );
+        Err(ReadError::too_large(code::DECODED_TOO_LARGE, self.room, detail))
     }
 
     fn road(&mut self, element: &Element) -> Result<(), ReadError> {
@@ -357,6 +387,7 @@ impl Filter {
         self.lane = element.get("id").and_then(|id| id.trim().parse().ok());
         if let Some(section) = self.road.sections.last_mut() {
             section.lanes += 1;
+            section.drawn += usize::from(self.lane != Some(0));
             at_most(section.lanes, MAX_SECTION_LANES, "lanes in one lane section")?;
         }
         Ok(())
@@ -381,12 +412,14 @@ impl Filter {
         for (i, section) in road.sections.iter().enumerate() {
             let end_m = road.sections.get(i + 1).map_or(road.length_m, |next| next.s_m).min(road.length_m);
             self.lanes_m += (end_m - section.s_m).max(0.0) * section.lanes as f64;
+            self.drawn_m += (end_m - section.s_m).max(0.0) * section.drawn as f64;
             let raised = section.raised.iter().map(|lane| (road.id.clone(), i, *lane));
             self.out.raised.extend(raised);
         }
         if self.lanes_m > MAX_LANES_M {
             return Err(too_large(format!("more than {MAX_LANES_M} m of lanes")));
         }
+        self.fits()?;
         self.steps += road.records as f64 * road.length_m * widest as f64 / 8.0;
         if self.steps > MAX_STEPS {
             let id: String = road.id.chars().take(40).collect();

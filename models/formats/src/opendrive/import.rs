@@ -26,11 +26,13 @@ const NAME_CHARS: usize = 100;
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or
 /// one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
 pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
-    let file = filter::read(file)?;
-    let (network, provenance) = xodr::load_str_with_provenance(&file.text).map_err(|error| {
+    let mut file = filter::read(file)?;
+    let text = std::mem::take(&mut file.text);
+    let (network, provenance) = xodr::load_str_with_provenance(&text).map_err(|error| {
         let detail = format!("no roads with lanes: {error}");
         FieldProblem::new("", code::CANNOT_REPRESENT, detail)
     })?;
+    drop(text);
     let frame = Frame::of(&network);
     // Roads begin about the network's origin; numbers far from it have lost their places.
     if map_file::is_too_wide(frame.half) || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
@@ -51,6 +53,8 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let approximated = marks::draw(&network, &provenance, &sections, &found, &mut map, &mut id);
     let strips = strips(&network, &sections);
     let ways = ways(&sections, &found, &map);
+    // What is left of the lanes is in the map now.
+    drop(sections);
     let whole = surface::draw(&mut map, &strips, &ways, &mut id);
     bounds::by_edges(&mut map);
     map.crosswalks = objects::crosswalks(&network, &frame, &mut id);

@@ -9,6 +9,8 @@ use std::sync::Arc;
 
 /// Distances off the road are not told apart beyond this, metres.
 pub const FAR_M: f64 = 50.0;
+/// The road at a lane's end is looked at so far before it, metres.
+const BEFORE_END_M: f64 = 0.05;
 /// Whoever left the map by a lane's end is known to have for so far, metres: a minute at the pace of a town.
 const BEYOND_MAP_M: f64 = 1000.0;
 /// A lane farther away than this says nothing about a place, metres.
@@ -137,7 +139,7 @@ impl Drivable {
     }
 
     /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
-    /// the lane, or ahead of its end rather than beside it.
+    /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on.
     fn is_beyond_map(&self, point: Vec2) -> bool {
         let Some((piece, foot, away_m)) = self.centers.nearest(point, BEYOND_MAP_M) else { return false };
         let Some(band) = self.bands.get(piece.owner as usize) else { return false };
@@ -146,7 +148,8 @@ impl Drivable {
             let is_end = end.is_some_and(|end| (end - foot).norm() < 1e-6);
             let ahead_m = out.dot(&(point - foot));
             let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
-            is_end && ahead_m > 0.0 && (beside_m <= band.half_width_m || ahead_m > 0.5 * away_m)
+            let on_road = || self.outside_known_m(point - out * (ahead_m + BEFORE_END_M)) == Some(0.0);
+            is_end && ahead_m > 0.0 && (beside_m <= band.half_width_m || ahead_m > 0.5 * away_m || on_road())
         })
     }
 
@@ -387,6 +390,13 @@ mod tests {
         );
         assert_eq!((outside_m(103.0, 0.7), outside_m(900.0, 0.7)), (None, None));
         assert!(outside_m(98.0, 2.0).unwrap() > 0.8, "over the kerb is over the kerb, at the end too");
+        // A wide road, whose end a corner passes far from the middle of the lane.
+        let wide = area(&[(0.0, -2.0), (100.0, -2.0), (100.0, 5.0), (0.0, 5.0)]);
+        let east = lane("east", &[(0.0, 0.0), (100.0, 0.0)]);
+        let index = Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![wide], ..LaneMap::default() });
+        let outside_m = |y: f64| index.box_outside_m(&OrientedBox::new(at(98.2, y), 2.3, 0.9, 0.0));
+        assert_eq!(outside_m(3.5), Some(0.0));
+        assert!(outside_m(5.0).unwrap() > 0.4);
     }
 
     #[test]
