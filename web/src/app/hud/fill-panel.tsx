@@ -190,8 +190,8 @@ function Preview() {
           aria-pressed={filling.isPinned(n)}
           onClick={() => filling.togglePin(n)}
         >
-          {KIND_NAMES[n.kind]}
-          {what(n)} at {num(n.pose.x, 1)}, {num(n.pose.y, 1)}
+          {KIND_NAMES[n.kind]} at {num(n.pose.x, 1)}, {num(n.pose.y, 1)}
+          {what(n)}
         </button>
       ))}
     </div>
@@ -199,7 +199,7 @@ function Preview() {
 }
 
 const what = (n: Newcomer): string =>
-  n.parked ? ', parked,' : comesLater(n) ? `, comes in after ${seconds(n.motion!.first * STEP_S)}` : '';
+  n.parked ? ', parked' : comesLater(n) ? `, comes in after ${seconds(n.motion!.first * STEP_S)}` : '';
 
 /** What to do next, or why there are not more. */
 function Note() {
