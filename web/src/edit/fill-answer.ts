@@ -132,7 +132,7 @@ function newcomerOf(json: AgentJson): Newcomer | null {
     y = s?.y_m ?? track.y_m[0];
   if (!kind || x === undefined || y === undefined) return null;
   // Nobody decides what those do who come in later or are parked.
-  const motion = track.x_m.length > 1 ? motionFrom(track) : null;
+  const motion = track.x_m.length > 1 || (track.first_step ?? 0) > 0 ? motionFrom(track) : null;
   const speed = s?.speed_mps ?? Math.hypot(track.vx_mps?.[0] ?? 0, track.vy_mps?.[0] ?? 0);
   return {
     kind,

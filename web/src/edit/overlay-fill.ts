@@ -16,6 +16,10 @@ const CORNER_PX = 8;
 const DASH = [6, 4];
 const KNOB_PX = 8;
 const HEAD_PX = 9;
+/** Where the words of an arm stand beside its knob, pixels. */
+const RIGHT: [number, number] = [14, -10];
+const BELOW: [number, number] = [-60, 14];
+const ABOVE: [number, number] = [-60, -34];
 
 const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: n.parked });
 
@@ -159,18 +163,14 @@ export class FillOverlay {
     this.labels.block(at[0] - r, at[1] - r, 2 * r, 2 * r);
   }
 
-  #paintRate(g: Pen, { arm, at, rate }: ArmHandle): void {
+  #paintRate(g: Pen, { arm, at, out, rate }: ArmHandle): void {
     const c = colours();
     const words = rate > 0 ? TEXTS.armComes(armName(arm), rate, arm.placed, arm.later) : armName(arm);
     pill(g, this.labels, at[0], at[1], words, {
       ...(rate > 0 ? { bg: c.focus, fg: c.surface } : {}),
       must: rate > 0,
-      tries: [
-        [14, -10],
-        [-60, 14],
-        [-60, -34],
-        [-150, -10],
-      ],
+      // Not on the arrow.
+      tries: Math.abs(out[0]) > 0.5 ? [BELOW, ABOVE, RIGHT] : [RIGHT, BELOW, ABOVE],
     });
   }
 

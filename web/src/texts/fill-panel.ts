@@ -35,7 +35,7 @@ export const TEXTS = table('fill-panel', {
   lowestSpeed: 'Lowest speed at the start',
   comingIn: 'Coming in, vehicles an hour',
   vehiclesAnHour: (arm: string) => `${arm}, vehicles an hour`,
-  parked: ', parked,',
+  parked: ', parked',
   comesInAfter: (time: string) => `, comes in after ${time}`,
   theWholeMapDraw: 'The whole map. Draw round a piece of it for less.',
   makeRoom: (gone: number) => `${gone} make room. `,

@@ -191,7 +191,8 @@ function Preview() {
           aria-pressed={filling.isPinned(n)}
           onClick={() => filling.togglePin(n)}
         >
-          {TEXTS.at(`${KIND_NAMES[n.kind]}${what(n)}`, num(n.pose.x, 1), num(n.pose.y, 1))}
+          {TEXTS.at(KIND_NAMES[n.kind], num(n.pose.x, 1), num(n.pose.y, 1))}
+          {what(n)}
         </button>
       ))}
     </div>

@@ -63,7 +63,8 @@ export function reportPage(r: ReportOf): string {
 <img alt="${text(TEXTS.fromAbove)}" src="${r.picture}">
 <h2>${TEXTS.result}</h2><table>${rows(facts)}</table>
 <h2>${TEXTS.whatHappens}</h2>${eventTable(r.events)}
-<h2>${TEXTS.roadUsers}</h2><table>${head(TEXTS.who, TEXTS.start('m'), TEXTS.speed, TEXTS.goal('m'), TEXTS.endsAt('m'), '')}
+<h2>${TEXTS.roadUsers}</h2>
+<table>${head(TEXTS.who, TEXTS.start('m'), TEXTS.speed, TEXTS.goal('m'), TEXTS.endsAt('m'), '')}
 ${all.map((a) => agentRow(r, a, words.get(a.id))).join('\n')}</table>
 <h2>${TEXTS.unitsAndAxes}</h2><p>${text(TEXTS.axesInMetres)} ${text(r.origin)}</p>
 </body></html>
