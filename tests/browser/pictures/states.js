@@ -40,11 +40,16 @@ async function waiting(e) {
   throw new Error('nobody waits in the picture');
 }
 
+/** A hand rests: all steps have run through. */
+const refined = (e) =>
+  e.until(() => / of six/.test(` ${document.querySelector('[aria-label="Futures"] small').textContent}`));
+
 /** The flag is in the hand, a third of the way back. */
 async function dragged(e) {
   const car = await selected(e);
   await e.drag(flag(car, 0), flag(car, 0.33), { moves: 3 });
   await e.settled();
+  await refined(e);
   return car;
 }
 
@@ -122,6 +127,7 @@ async function fingered(e) {
   const [x, y] = await e.at(goal.x, goal.y);
   await f.drag([x + 12, y - 34], [x + 72, y - 40], 6);
   await e.settled();
+  await refined(e);
 }
 
 const dark = { colorScheme: 'dark' };
