@@ -67,7 +67,8 @@ function Head({ agent }: { agent: LiveAgent }) {
     const p = startPose(a);
     if (!p) return `Appears at ${appearsAt(a)}`;
     const place = a.parked ? 'Parked' : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
-    return `${place} ·\u00a0id\u00a0${a.id}`;
+    // Where the name says it already the place has the room.
+    return a.name.endsWith(` ${a.id}`) ? place : `${place} ·\u00a0id\u00a0${a.id}`;
   });
   return (
     <div class="ih">
@@ -76,7 +77,9 @@ function Head({ agent }: { agent: LiveAgent }) {
       </div>
       <div class="grow">
         <NameField agent={agent} />
-        <p>{where}</p>
+        <p class="where" title={where}>
+          {where}
+        </p>
         <VerdictLine agent={agent} />
       </div>
       <IconButton id="follow" />
