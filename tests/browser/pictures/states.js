@@ -41,8 +41,7 @@ async function waiting(e) {
 }
 
 /** A hand rests: all steps have run through. */
-const refined = (e) =>
-  e.until(() => / of six/.test(` ${document.querySelector('[aria-label="Futures"] small').textContent}`));
+const refined = (e) => e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
 
 /** The flag is in the hand, a third of the way back. */
 async function dragged(e) {

@@ -24,8 +24,8 @@ export class Editor {
   errors = [];
 
   /**
-   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is done
-   * with the browser before the page comes; with `scene: false` nobody waits for a scene.
+   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange`
+   * is done with the browser before the page comes; with `scene: false` nobody waits for a scene.
    */
   static async open(browser, url, { stopwatch = true, now, arrange, scene = true, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
