@@ -96,8 +96,8 @@ async function variants(e, count) {
 }
 
 /**
- * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read again.
- * One of its cars that turns has its goal from the log.
+ * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read
+ * again. One of its cars has its goal from the log.
  */
 async function recorded(e) {
   const reply = await e.page.request.get(new URL('/v1/scenes/demo-arterial/export?format=womd', e.page.url()).href);
