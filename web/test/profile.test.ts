@@ -61,8 +61,7 @@ describe('a speed drawn by hand', () => {
       const t = timeOfStop(profile, 1, [place, 1], 2.4, CAR, 9);
       const points = movedPoint(stop, 1, { t }, 9);
       const [{ pose }] = stopsOf(motionOf({ ...profile, points }, CAR, 9));
-      // A tenth of a second is as fine as times are.
-      expect(Math.abs(pose.x + 2.4 - place)).toBeLessThan(0.5);
+      expect(Math.abs(pose.x + 2.4 - place)).toBeLessThan(0.3);
     }
   });
 

@@ -39,6 +39,17 @@ const judged = (e, id) => {
   return { asked, mode, score: asked.event('final').scores[0] };
 };
 
+/** Where the pointer says that the words of a stop can be pulled. */
+async function wordsBeside(e, [x, y]) {
+  for (let far = 30; far <= 120; far += 10)
+    for (let turn = 0; turn < 16; turn++) {
+      const at = [x + far * Math.cos((turn * Math.PI) / 8), y + far * Math.sin((turn * Math.PI) / 8)];
+      await e.page.mouse.move(...at);
+      if ((await e.page.getAttribute('main.stage', 'data-cursor')) === 'resize') return at;
+    }
+  throw new Error('no words stand beside the stop');
+}
+
 journeys('the speed curve', (stage) => {
   it(
     'a point pulled to the ground stops the car there, and the generator judges that motion',
@@ -173,6 +184,13 @@ journeys('the speed curve', (stage) => {
     await e.release();
     const [, , sooner] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
     assert.ok(Number(sooner) < Number(later), `${sooner} s before ${later} s`);
+    // The words beside the bar are pulled sideways for how long it stops.
+    const words = await wordsBeside(e, await place(1));
+    await e.drag(words, [words[0] + 40, words[1]]);
+    await e.release();
+    const [, longer] = /for ([\d.]+) s at/.exec((await points(e))[1]);
+    assert.equal((Number(longer) - Number(held)).toFixed(1), '1.0', 'a tenth of a second for four pixels');
+    assert.match(await e.text('.sect.curve'), new RegExp(`for ${longer} s`), 'the inspector says it, too');
   });
 
   it('the curve is there again when the page is', { timeout: 60_000 }, async () => {

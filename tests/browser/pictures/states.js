@@ -40,11 +40,15 @@ async function waiting(e) {
   throw new Error('nobody waits in the picture');
 }
 
+/** A hand rests: all steps have run through. */
+const refined = (e) => e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
+
 /** The flag is in the hand, a third of the way back. */
 async function dragged(e) {
   const car = await selected(e);
   await e.drag(flag(car, 0), flag(car, 0.33), { moves: 3 });
   await e.settled();
+  await refined(e);
   return car;
 }
 
@@ -92,8 +96,8 @@ async function variants(e, count) {
 }
 
 /**
- * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read again.
- * One of its cars that turns has its goal from the log.
+ * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read
+ * again. One of its cars has its goal from the log.
  */
 async function recorded(e) {
   const reply = await e.page.request.get(new URL('/v1/scenes/demo-arterial/export?format=womd', e.page.url()).href);
@@ -122,6 +126,7 @@ async function fingered(e) {
   const [x, y] = await e.at(goal.x, goal.y);
   await f.drag([x + 12, y - 34], [x + 72, y - 40], 6);
   await e.settled();
+  await refined(e);
 }
 
 const dark = { colorScheme: 'dark' };

@@ -152,10 +152,12 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   if (!ps.length || (ps.every(seen) && (!end || seen({ x: end[0], y: end[1] })))) return;
   const all = ps.map((p): Vec => [p.x, p.y]);
   const b = boxOf(end ? [...all, end] : all);
-  const least = alone ? v.z * FURTHER : undefined;
-  v.fit({ x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M }, v.z, least);
-  // The end may be too far off to be seen with it.
-  if (alone && !ps.every(seen)) v.centre(ps[0].x, ps[0].y);
+  const around = { x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M };
+  const to = v.copy();
+  to.fit(around, v.z);
+  // Where the end is too far off to be seen with it one stays near.
+  if (!alone || to.z >= v.z * FURTHER) Object.assign(v, { cx: to.cx, cy: to.cy, z: to.z });
+  else if (!ps.every(seen)) v.centre(ps[0].x, ps[0].y);
   stage.viewChanged();
 }
 

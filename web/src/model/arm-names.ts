@@ -6,21 +6,25 @@ import { turnOf, type Lane, type LaneMap } from './lanemap';
 
 /** A turn is one from here on, radians. */
 const TURNS_RAD = 0.35;
-/** Ways across that lie within so many metres of each other are of one junction. */
-const JUNCTION_M = 70;
+/** Ways across within so many metres of a place are of one junction, and its arms begin within them. */
+const JUNCTION_M = 45;
+/** The junction that is meant has most of all ways across: those into a car park do not count. */
+const MOST = 0.6;
+/** More ways across than any one junction has. */
+const MANY = 400;
 /** Lanes so many before or after the junction are its arms. */
 const FAR_LANES = 4;
 
-const known = new WeakMap<LaneMap, { readonly one: boolean; readonly names: Map<string, string | null> }>();
+const known = new WeakMap<LaneMap, { readonly centre: Vec | null; readonly names: Map<string, string | null> }>();
 
 /** `W arm, left-turn lane`; null where compass words say more. */
 export function armWords(map: LaneMap, lane: Lane): string | null {
   let of = known.get(map);
-  if (!of) known.set(map, (of = { one: isOneJunction(map), names: new Map() }));
-  if (!of.one) return null;
+  if (!of) known.set(map, (of = { centre: mainJunction(map), names: new Map() }));
+  if (!of.centre) return null;
   const name = of.names.get(lane.id);
   if (name !== undefined) return name;
-  const words = lane.inside ? across(lane) : named(map, lane);
+  const words = lane.inside ? across(lane, of.centre) : named(map, lane, of.centre);
   of.names.set(lane.id, words);
   return words;
 }
@@ -30,12 +34,19 @@ const middle = (l: Lane): Vec => {
   return [p.x, p.y];
 };
 
-function isOneJunction(map: LaneMap): boolean {
+const near = (p: Vec, q: Vec): boolean => Math.hypot(p[0] - q[0], p[1] - q[1]) < JUNCTION_M;
+
+/** The middle of the junction that most ways across belong to; null where there is none such. */
+function mainJunction(map: LaneMap): Vec | null {
   const all = [...map.lanes.values()].filter((l) => l.inside).map(middle);
-  if (!all.length) return false;
-  const span = (k: 0 | 1): number => Math.max(...all.map((p) => p[k])) - Math.min(...all.map((p) => p[k]));
-  return Math.max(span(0), span(1)) < JUNCTION_M;
+  // On a large map nobody waits for all pairs: it has more than one junction.
+  if (!all.length || all.length > MANY) return null;
+  const around = all.map((p) => all.filter((q) => near(p, q)));
+  const most = around.reduce((a, b) => (b.length > a.length ? b : a));
+  return most.length >= MOST * all.length ? meanOf(most) : null;
 }
+
+const meanOf = (all: readonly Vec[]): Vec => [mean(all.map((p) => p[0])), mean(all.map((p) => p[1]))];
 
 const manner = (l: Lane): 'left' | 'right' | 'straight' => {
   const turn = turnOf(l.line);
@@ -43,20 +54,20 @@ const manner = (l: Lane): 'left' | 'right' | 'straight' => {
 };
 
 /** Those on the crossing that go straight on are lanes like others. */
-function across(lane: Lane): string | null {
-  return TEXTS.across[manner(lane)];
+function across(lane: Lane, junction: Vec): string | null {
+  return near(middle(lane), junction) ? TEXTS.across[manner(lane)] : null;
 }
 
-function named(map: LaneMap, lane: Lane): string | null {
+function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
   const into = reach(map, lane, 'next');
   const outOf = into.length ? [] : reach(map, lane, 'prev');
   const ways = into.length ? into : outOf;
   if (!ways.length) return null;
-  const all = ways.map(middle);
-  const centre: Vec = [mean(all.map((p) => p[0])), mean(all.map((p) => p[1]))];
+  const centre = meanOf(ways.map(middle));
+  if (!near(centre, junction)) return null;
   // Seen from the junction the end that is at it says which arm it is, however the road bends further out.
   const at = pointAt(lane.line, into.length ? lane.line.length : 0);
-  const arm = TEXTS.arm(compass(Math.atan2(at.y - centre[1], at.x - centre[0])));
+  const arm = TEXTS.arm(compass(Math.atan2(at.y - junction[1], at.x - junction[0])));
   if (lane.kind === 'bike') return TEXTS.bikeLane(arm);
   if (lane.type === 'bus_lane') return TEXTS.busLane(arm);
   const turns = new Set(into.map(manner));

@@ -206,7 +206,9 @@ function isLike(m: Motion, log: Motion): boolean {
   if (pathLength(log) < MOVES_M) return false;
   for (let t = 0; t <= lastStep(m) * STEP_S + 1e-6; t += 5 * STEP_S) {
     const [p, q] = [poseAt(m, t), poseAt(log, t)];
-    if (!p || !q || Math.hypot(p.x - q.x, p.y - q.y) > LIKE_LOG_M) return false;
+    // Where it was not seen there is nothing to be like.
+    if (!q) continue;
+    if (!p || Math.hypot(p.x - q.x, p.y - q.y) > LIKE_LOG_M) return false;
   }
   return true;
 }

@@ -184,7 +184,10 @@ export function timeOfStop(
     const moved = movedPoint(points, i, { t }, duration);
     const { speed } = motionOf({ path, points: moved }, limits, duration);
     const stands = speed.findIndex((v, k) => v === 0 && k * STEP_S >= moved[i].t - 1e-6);
-    const gone = speed.subarray(0, stands < 0 ? undefined : stands).reduce((s, v) => s + v * STEP_S, 0);
+    // As the motion itself adds them up.
+    const upTo = stands < 0 ? speed.length - 1 : stands;
+    let gone = 0;
+    for (let k = 1; k <= upTo; k++) gone += ((speed[k - 1] + speed[k]) / 2) * STEP_S;
     if (gone < wanted) from = t;
     else to = t;
   }

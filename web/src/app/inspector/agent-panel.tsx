@@ -70,7 +70,8 @@ function Head({ agent }: { agent: LiveAgent }) {
     const p = startPose(a);
     if (!p) return TEXTS.appearsAt(appearsAt(a));
     const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
-    return TEXTS.id(place, a.id);
+    // Where the name says it already the place has the room.
+    return a.name.endsWith(` ${a.id}`) ? place : TEXTS.id(place, a.id);
   });
   return (
     <div class="ih">
@@ -79,7 +80,9 @@ function Head({ agent }: { agent: LiveAgent }) {
       </div>
       <div class="grow">
         <NameField agent={agent} />
-        <p>{where}</p>
+        <p class="where" title={where}>
+          {where}
+        </p>
         <VerdictLine agent={agent} />
       </div>
       <IconButton id="follow" />

@@ -20,7 +20,7 @@ const FLICK = 0.45;
 
 export function Sheet() {
   const c = useApp();
-  const { editor, form, variants } = c;
+  const { editor, form, rounds, variants } = c;
   /** Pixels while the grip is in hand. */
   const inHand = useSignal<number | null>(null);
   const px = useComputed(() => {
@@ -31,13 +31,13 @@ export function Sheet() {
   // Who is selected has fields to show, unless the strip of variants has their room.
   useLiveEffect(() => {
     const id = editor.selection.value;
-    const room = !variants.open.peek();
+    const room = !variants.open.peek() && !rounds.isOpen.peek();
     if (room && id !== null && id !== opened.current && form.height.peek() === 'peek') form.open('half');
     opened.current = id;
   });
   // Strip and open sheet together would leave nothing of the picture.
   useLiveEffect(() => {
-    if (variants.open.value) form.open('peek');
+    if (variants.open.value || rounds.isOpen.value) form.open('peek');
   });
   // What floats over the picture stands above the sheet; a sheet that covers everything leaves it where it was.
   useLiveEffect(() => {
