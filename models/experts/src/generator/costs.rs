@@ -8,6 +8,7 @@ use super::passing::vias_missed;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
 use super::trajectory::PER_INSTANT;
+use crate::features::agent::AgentPlan;
 use crate::planning::INSTANTS;
 use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
@@ -51,7 +52,7 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .iter()
             .map(|c| tuning.deviating + deviation_m(&c.motion.states, kept) / tuning.deviation_m)
             .collect(),
-        None => central(actor, candidates, by.around, tuning),
+        None => central(&actor.plan, candidates, by.around, tuning),
     };
     let broken = |c: &Candidate| match &c.motion.states {
         // What is given costs nothing by itself.
@@ -80,7 +81,12 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
 
 /// How far each candidate is from all alternatives by their probability, and whether it misses its goal or a via
 /// point.
-fn central(actor: &Actor, candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning) -> Vec<f64> {
+fn central(
+    plan: &AgentPlan,
+    candidates: &[Candidate],
+    around: Option<Slot>,
+    tuning: &ChoiceTuning,
+) -> Vec<f64> {
     let all: Vec<&Trajectory> = candidates.iter().map(|c| &c.motion.states).collect();
     let extra = |c: &Candidate| {
         if around.is_some() && c.origin.slot() == around { tuning.around } else { 0.0 }
@@ -90,7 +96,7 @@ fn central(actor: &Actor, candidates: &[Candidate], around: Option<Slot>, tuning
         alternatives.map(|c| (&c.motion.states, c.probability + extra(c))).collect();
     let missed = |c: &Candidate| {
         let goal = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
-        goal + tuning.goal_missed * vias_missed(&actor.plan, &c.motion.states) as f64
+        goal + tuning.goal_missed * vias_missed(plan, &c.motion.states) as f64
     };
     medoid_costs(&all, &weighted).into_iter().zip(candidates).map(|(cost, c)| cost + missed(c)).collect()
 }
@@ -209,9 +215,13 @@ mod tests {
     use crate::tuning::SHIPPED;
     use scene::Goal;
 
+    fn plan() -> AgentPlan {
+        car_on_a_street(0.0, Goal::default())
+    }
+
     /// Standing, at so many metres to the front.
     fn at(x_m: f64, probability: f64, origin: Origin) -> Candidate {
-        let mut motion = rest(&car_on_a_street(0.0, Goal::default()));
+        let mut motion = rest(&plan());
         motion.states.iter_mut().for_each(|s| s.position.x = x_m);
         Candidate { probability, origin, motion }
     }
@@ -221,9 +231,9 @@ mod tests {
         let modes = [0.0, 4.0, 8.0];
         let of = |i: usize| at(modes[i], 1.0 / 3.0, Origin::Mode(Slot::new(i)));
         let all = [of(0), of(1), of(2), at(4.0, 0.0, Origin::PathMean(Slot::new(1)))];
-        let free = central(&all, None, &SHIPPED.choice);
+        let free = central(&plan(), &all, None, &SHIPPED.choice);
         assert!(free[1] < free[0] && free[1] < free[2] && free[1] == free[3], "{free:?}");
-        let around = central(&all, Some(Slot::new(2)), &SHIPPED.choice);
+        let around = central(&plan(), &all, Some(Slot::new(2)), &SHIPPED.choice);
         assert!(around[2] < around[1] && around[1] < around[0], "{around:?}");
     }
 
@@ -238,7 +248,7 @@ mod tests {
             limiting: Limiting::Speed,
             needs: None,
         };
-        let costs = central(&all, None, &SHIPPED.choice);
+        let costs = central(&plan(), &all, None, &SHIPPED.choice);
         assert!((costs[0] - costs[1] - SHIPPED.choice.goal_missed).abs() < 1e-12, "{costs:?}");
     }
 }
