@@ -43,6 +43,35 @@ fn endless(client: &str, revision: u64) -> Value {
     body
 }
 
+/// A drag brings its surroundings along once, and names them afterwards.
+#[test]
+fn a_scene_is_held_for_the_calls_that_follow() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = generate(6);
+    let plain = server.send(&ask(&body, "application/json")).unwrap();
+    assert_eq!(plain.header("dragtraffic-scene"), "");
+    body["hold"] = json!(true);
+    let first = server.send(&ask(&body, "application/x-ndjson")).unwrap();
+    let name = first.header("dragtraffic-scene").to_owned();
+    assert!(name.starts_with("held:"), "{name}");
+
+    let mut follows = body.clone();
+    follows.as_object_mut().unwrap().retain(|member, _| member != "scene" && member != "hold");
+    follows["scene_id"] = json!(name);
+    let second = server.send(&ask(&follows, "application/json")).unwrap();
+    assert_eq!(second.status, 200, "{}", second.text());
+    assert_eq!(second.json()["samples"], plain.json()["samples"], "the same answer as with the scene");
+    println!(
+        "a call with its scene takes {} bytes, one that names it {}",
+        body.to_string().len(),
+        follows.to_string().len()
+    );
+
+    follows["scene_id"] = json!("held:0190");
+    let gone = server.send(&ask(&follows, "application/json")).unwrap();
+    assert_eq!((gone.status, gone.json()["code"].clone()), (404, json!("not-found")), "{}", gone.text());
+}
+
 #[test]
 fn via_points_are_passed_reported_and_stored() {
     let server = Server::start(&[]).unwrap();

@@ -103,6 +103,26 @@ describe('generator', () => {
     expect(a.seen.final).toBe(1);
   });
 
+  it('brings the surroundings of a drag along once, and again when the server has forgotten them', async () => {
+    server = await startStandIn({ port: 0, delay: 1 });
+    const g = generator(server.url);
+    const surroundings = crossingJson();
+    const drag = async (): Promise<unknown[]> => {
+      const mark = server!.log.length;
+      for (const goal of [10, 11, 12]) {
+        const a = ask(true, goal);
+        g.ask({ ...a.ask, scene: () => ({ scene: surroundings }) });
+        await a.done;
+        expect(a.seen.final).toBe(1);
+      }
+      return server!.log.slice(mark).map((l) => l.scene ?? l.scene_id);
+    };
+    expect(await drag()).toEqual(['inline', 'held:1', 'held:1']);
+    server.forget();
+    // What is not there any more is asked for once.
+    expect(await drag()).toEqual(['held:1', 'inline', 'held:1', 'held:1']);
+  });
+
   it('keeps one on the way and one waiting while a drag goes on', async () => {
     server = await startStandIn({ port: 0, delay: 15 });
     const g = generator(server.url);

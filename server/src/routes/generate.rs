@@ -16,6 +16,7 @@ use crate::http::extract::Connection;
 use crate::scenes::bytes_of;
 use crate::work::Caller;
 use axum::extract::{FromRequest, Request, State};
+use axum::http::HeaderValue;
 use axum::response::Response;
 use experts::React;
 use experts::request::{DEFAULTS, ShownLast};
@@ -100,6 +101,10 @@ pub struct GenerateRequest {
     /// With `scene_id`: refuse when the scene has changed.
     #[serde(default)]
     etag: Option<String>,
+    /// With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
+    /// reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+    #[serde(default)]
+    hold: bool,
     /// Replace the scene's own conditions of these road users, whole.
     #[serde(default)]
     conditions: Members<ConditionsDoc>,
@@ -242,7 +247,12 @@ fn yes() -> bool {
 
 impl AboutScene for GenerateRequest {
     fn take_scene(&mut self) -> SceneRef {
-        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+        SceneRef {
+            scene: self.scene.take(),
+            scene_id: self.scene_id.take(),
+            etag: self.etag.take(),
+            hold: self.hold,
+        }
     }
 }
 
@@ -272,7 +282,7 @@ pub async fn generate(
     let caller = Caller { connection: Some(connection.number), ..body.caller()? };
     // Opening and preparing a scene costs more than a refusal may.
     app.pool.expects(caller.client.as_ref().map(|client| client.0.as_str()))?;
-    let Subject { scene, standings } = body.take_scene().open(&app).await?;
+    let Subject { scene, standings, held } = body.take_scene().open(&app).await?;
     let streams = form != Form::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
     let prepare = move || {
@@ -281,7 +291,11 @@ pub async fn generate(
     };
     let task = app.pool.document(bytes, prepare).await?;
     let reader = generation::submit(&app.pool, app.experts(), &app.limits, caller, task)?;
-    Ok(stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
+    let mut reply = stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await;
+    if let Some(name) = held.and_then(|name| HeaderValue::from_str(&name).ok()) {
+        reply.headers_mut().insert("dragtraffic-scene", name);
+    }
+    Ok(reply)
 }
 
 impl GenerateRequest {

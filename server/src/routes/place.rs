@@ -249,7 +249,12 @@ impl PlaceReply {
 
 impl AboutScene for PlaceBody {
     fn take_scene(&mut self) -> SceneRef {
-        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+        SceneRef {
+            scene: self.scene.take(),
+            scene_id: self.scene_id.take(),
+            etag: self.etag.take(),
+            hold: false,
+        }
     }
 }
 

@@ -19,6 +19,8 @@ pub struct SceneRef {
     pub scene_id: Option<String>,
     /// With `scene_id`: the version that is meant.
     pub etag: Option<String>,
+    /// With `scene`: calls that follow will name it.
+    pub hold: bool,
 }
 
 impl SceneRef {
@@ -31,8 +33,12 @@ impl SceneRef {
         match (self.scene, self.scene_id) {
             (Some(doc), None) => {
                 let scene = app.catalog.scene_of(doc).await;
-                let scene = Arc::new(scene.map_err(|problem| problem.under("/scene"))?);
-                Ok(Subject { scene, standings: None })
+                let scene = scene.map_err(|problem| problem.under("/scene"))?;
+                if !self.hold {
+                    return Ok(Subject { scene: Arc::new(scene), standings: None, held: None });
+                }
+                let (name, opened) = app.catalog.hold(scene);
+                Ok(Subject { scene: opened.scene, standings: Some(opened.standings), held: Some(name) })
             }
             (None, Some(id)) => {
                 let opened = app.catalog.open(&id).await?;
@@ -40,7 +46,7 @@ impl SceneRef {
                     let detail = "The stored scene is another than the one you read.";
                     return Err(Problem::new(Code::StaleEtag, detail).with(|m| m.etag = Some(opened.etag)));
                 }
-                Ok(Subject { scene: opened.scene, standings: Some(opened.standings) })
+                Ok(Subject { scene: opened.scene, standings: Some(opened.standings), held: None })
             }
             _ => {
                 let detail = "exactly one of scene and scene_id is needed";
@@ -62,6 +68,8 @@ pub struct Subject {
     pub scene: Arc<Scene>,
     /// What it comes to as it stands; not for one that came with the call and goes with it.
     pub standings: Option<Arc<Standings>>,
+    /// The name under which it is held from now on.
+    pub held: Option<String>,
 }
 
 /// A JSON body with the scene it is about.

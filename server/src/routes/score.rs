@@ -110,7 +110,12 @@ pub struct ScoreRequest {
 
 impl AboutScene for ScoreRequest {
     fn take_scene(&mut self) -> SceneRef {
-        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+        SceneRef {
+            scene: self.scene.take(),
+            scene_id: self.scene_id.take(),
+            etag: self.etag.take(),
+            hold: false,
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::opened::Opened;
 use super::record::{self, size};
 use super::store::{Expect, PackedScene, SceneRecord, Store, Written};
 use crate::base::cache::Cache;
+use crate::base::id;
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
 use crate::work::Pool;
@@ -19,6 +20,9 @@ const STEP_BYTES: usize = 40;
 const POINT_BYTES: usize = 20;
 /// Bytes that one line of a map takes in JSON, about.
 const LINE_BYTES: usize = 32 * POINT_BYTES;
+
+/// What the name of a scene begins with that came with a call and is held; ids of saved ones have no colon.
+const HELD: &str = "held:";
 
 /// All scenes and maps that the server knows. Cheap to clone.
 #[derive(Clone)]
@@ -85,11 +89,24 @@ impl Catalog {
         self.pool.document(bytes, read).await
     }
 
-    /// Opens a scene by id.
+    /// Keeps a scene that came with a call in memory, for the calls that follow, and gives it a name. Who holds many
+    /// pushes out the ones that nobody asked for longest.
+    pub fn hold(&self, scene: Scene) -> (String, Opened) {
+        let name = format!("{HELD}{}", id::fresh());
+        let opened = Opened::new(scene, String::new());
+        self.open.put(name.clone(), opened.clone(), held_bytes(&opened.scene));
+        (name, opened)
+    }
+
+    /// Opens a scene by its id, or by the name under which it is held.
     ///
     /// # Errors
     /// `not-found`.
     pub async fn open(&self, id: &str) -> Result<Opened, Problem> {
+        if id.starts_with(HELD) {
+            let forgotten = || Problem::new(Code::NotFound, "No scene is held under this name any more.");
+            return self.open.get(&id.to_owned()).ok_or_else(forgotten);
+        }
         if let Some(opened) = self.library.open(id).await? {
             return Ok(opened);
         }

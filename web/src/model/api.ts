@@ -1666,6 +1666,12 @@ export interface components {
             /** @description How futures are written, in drafts and in `final`. */
             futures?: components["schemas"]["FuturesForm"];
             /**
+             * @description With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
+             *     reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+             * @default false
+             */
+            hold?: boolean;
+            /**
              * Format: double
              * @description Seconds to generate. More than 9 is planned window after window.
              * @default 9

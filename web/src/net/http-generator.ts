@@ -52,6 +52,8 @@ export class HttpGenerator implements Generator {
   private readonly name = `editor-${Math.random().toString(36).slice(2, 10)}`;
   private readonly patience: Patience;
   private readonly texts = new WeakMap<SceneJson, string>();
+  /** Scenes that the server has, by the names that it gave them: a drag brings its surroundings along once. */
+  private readonly held = new WeakMap<SceneJson, string>();
   /** How long nobody has said anything, over questions that replaced each other. */
   private silent = 0;
 
@@ -152,8 +154,16 @@ export class HttpGenerator implements Generator {
     const began = this.now();
     try {
       const scene = ask.scene();
-      me.named = 'id' in scene;
-      let answer = await this.post(scene, me);
+      const name = 'id' in scene ? scene.id : this.held.get(scene.scene);
+      me.named = name !== undefined;
+      let answer = await this.post(name === undefined ? scene : { id: name }, me);
+      if (answer.problem?.code === 'not-found' && 'scene' in scene && me.named) {
+        // The server has forgotten it, or is another one by now.
+        this.held.delete(scene.scene);
+        me.named = false;
+        me.revision = ++this.revision;
+        answer = await this.post(scene, me);
+      }
       const { status, problem } = answer;
       if (problem && (status === 422 || status === 412 || status === 404)) {
         const badMap = RETRY_IN_PLACE.has(problem.code) || problem.errors?.some((e) => e.code === 'unknown-map');
@@ -236,15 +246,19 @@ export class HttpGenerator implements Generator {
     if (this.running === me) await this.run(ask);
   }
 
-  private post(scene: SceneRef, me: Running): Promise<Answer> {
+  private async post(scene: SceneRef, me: Running): Promise<Answer> {
+    const hold = 'scene' in scene && me.question.preview;
     const rest = JSON.stringify({
       client: this.name,
       revision: me.revision,
       futures: 'compact',
+      ...(hold ? { hold } : {}),
       ...me.question.options,
     });
     const part = 'id' in scene ? `"scene_id":${JSON.stringify(scene.id)}` : `"scene":${this.textOf(scene.scene)}`;
-    return this.line(`{${part},${rest.slice(1)}`, me.abort.signal);
+    const answer = await this.line(`{${part},${rest.slice(1)}`, me.abort.signal);
+    if (hold && answer.held !== undefined) this.held.set(scene.scene, answer.held);
+    return answer;
   }
 
   /** A drag asks sixty times a second about the same surroundings; they are written once. */

@@ -7,6 +7,8 @@ export interface Head {
   readonly status: number;
   /** When a server that is busy wants to be asked again, seconds; null where it says nothing. */
   readonly retryAfter_s: number | null;
+  /** Under what name the server holds the scene that came with the question. */
+  readonly held?: string | undefined;
   /** Why there are no events; null where there are. */
   readonly problem: Problem | null;
 }
@@ -30,7 +32,11 @@ export function lineHere(client: Client): Line {
       signal,
       headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
     });
-    const head = { status: reply.status, retryAfter_s: Number(reply.headers.get('retry-after')) || null };
+    const head = {
+      status: reply.status,
+      retryAfter_s: Number(reply.headers.get('retry-after')) || null,
+      held: reply.headers.get('dragtraffic-scene') ?? undefined,
+    };
     if (!reply.ok) return { ...head, problem: await problemOf(reply), events: none() };
     return { ...head, problem: null, events: readEvents(reply.body!) };
   };

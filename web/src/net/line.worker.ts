@@ -23,8 +23,8 @@ async function answer(id: number, body: string): Promise<void> {
   const abort = new AbortController();
   open.set(id, abort);
   try {
-    const { status, retryAfter_s, problem, events } = await ask(body, abort.signal);
-    tell({ id, head: { status, retryAfter_s, problem } });
+    const { events, ...head } = await ask(body, abort.signal);
+    tell({ id, head });
     for await (const event of events) tell({ id, event });
     tell({ id, ended: true });
   } catch (e) {

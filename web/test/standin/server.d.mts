@@ -35,6 +35,7 @@ export interface StandIn {
       ref: string;
     }
   >;
+  forget(): void;
   close(): Promise<void>;
 }
 export function startStandIn(options?: StandInOptions): Promise<StandIn>;

@@ -50,6 +50,7 @@ export function startStandIn(options = {}) {
   };
   const scenes = new Map();
   const maps = new Map();
+  const held = new Map();
   const log = [];
   const seen = new Map();
   const put = (scene, readonly) => {
@@ -97,7 +98,7 @@ export function startStandIn(options = {}) {
       return problem(res, 503, 'busy', 'The queue is full.');
     }
     log.push({ path: 'generate', ...b, scene: b.scene ? 'inline' : undefined });
-    const stored = b.scene_id ? scenes.get(b.scene_id)?.scene : null;
+    const stored = b.scene_id ? (held.get(b.scene_id) ?? scenes.get(b.scene_id)?.scene) : null;
     if (b.scene?.map?.ref && !maps.has(b.scene.map.ref))
       return problem(res, 422, 'unknown-map', 'This map is not known.');
     const scene = stored ?? b.scene;
@@ -106,7 +107,12 @@ export function startStandIn(options = {}) {
       if ((seen.get(b.client) ?? 0) >= b.revision) return problem(res, 409, 'stale-revision', 'Older than the newest.');
       seen.set(b.client, b.revision);
     }
-    res.writeHead(200, { 'Content-Type': 'application/x-ndjson' });
+    const name = b.hold && b.scene ? `held:${held.size + 1}` : null;
+    if (name) held.set(name, b.scene);
+    res.writeHead(200, {
+      'Content-Type': 'application/x-ndjson',
+      ...(name ? { 'Dragtraffic-Scene': name } : {}),
+    });
     const all = scene.agents.filter((a) => a.type !== 'other' && a.track.x_m.length);
     const wanted = b.agents === 'all' ? all : all.filter((a) => b.agents.includes(a.id));
     const reacting =
@@ -348,6 +354,8 @@ export function startStandIn(options = {}) {
         url: `http://127.0.0.1:${server.address().port}`,
         options: o,
         log,
+        /** Scenes that came with questions are no longer known. */
+        forget: () => held.clear(),
         scenes,
         close: () =>
           new Promise((r) => {
