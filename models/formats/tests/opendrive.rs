@@ -197,6 +197,7 @@ fn bad_files() -> Vec<Case> {
         (name, STREET.replacen(from, to, 1).into(), code, detail)
     };
     let (file, no, large) = ("malformed-file", "cannot-represent", "map-too-large");
+    let unfolds = "decoded-too-large";
     let road = |inner: &str| format!("<OpenDRIVE><road id='1' length='100'>{inner}</road></OpenDRIVE>");
     let plan = |count: usize, length: f64| {
         let piece = |i: usize| {
@@ -219,17 +220,19 @@ fn bad_files() -> Vec<Case> {
         ("deep nesting", format!("<OpenDRIVE>{}", "<road>".repeat(100_000)).into(), file, "deeper than 32"),
         ("no roads", b"<OpenDRIVE/>".into(), no, "no roads with lanes"),
         ("lines to the moon", plan(20_000, 1e5).into(), large, "reference lines"),
-        ("roads to the moon", long_roads(8).into(), large, "from its middle"),
-        ("records", records().into(), large, "records"),
+        ("roads far apart", long_roads(8, 1_000, 90_000).into(), large, "from its middle"),
+        ("roads to the moon", long_roads(8, 12_000, 9_000).into(), unfolds, "m of lanes"),
+        ("records", records().into(), unfolds, "100037 elements"),
     ]
 }
 
-fn long_roads(count: usize) -> String {
+/// Roads so long, and so far from each other, metres.
+fn long_roads(count: usize, length_m: usize, apart_m: usize) -> String {
     let road = |i: usize| {
         STREET
             .replace("<road id=\"1\"", &format!("<road id=\"{i}\""))
-            .replace("80\"", "12000\"")
-            .replace("x=\"100\"", &format!("x=\"{}\"", i * 9_000))
+            .replace("80\"", &format!("{length_m}\""))
+            .replace("x=\"100\"", &format!("x=\"{}\"", i * apart_m))
     };
     let inner = |text: String| {
         let (from, to) = (text.find("<road").unwrap(), text.find("</OpenDRIVE>").unwrap());

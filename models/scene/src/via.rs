@@ -141,7 +141,7 @@ mod tests {
         let back = [there[1], there[0]];
         let passed = passings(&back, 0.0, &east());
         assert_eq!(back.iter().zip(&passed).filter(|(v, p)| v.is_passed(p)).count(), 1);
-        assert!(passed[0].time_s <= passed[1].time_s);
+        assert!(passed[0].time_s <= passed[1].time_s + STEP_S, "the same stretch may be both");
         // Out and back: the first is taken on the way out, the second on the way back.
         let mut round = east();
         round.extend((0..90).rev().map(|i| State { x_m: f64::from(i), ..State::default() }));

@@ -371,7 +371,8 @@ mod tests {
         let region = Region::Circle { center: Vec2::new(-40.0, 0.0), radius_m: 30.0 };
         let found = arms(&graph, &region);
         assert_eq!(found.len(), 1, "{found:?}");
-        assert_eq!((found[0].id.as_str(), found[0].lanes.len()), ("west", 3));
+        // The turning lane opens inside: who turns comes in by the lane beside it.
+        assert_eq!((found[0].id.as_str(), found[0].lanes.len()), ("west", 2));
         for entry in &found[0].lanes {
             let place = graph.lanes()[entry.lane].path.position_at(entry.s_m);
             assert!(((place - Vec2::new(-40.0, 0.0)).norm() - 30.0).abs() < 0.01 && !entry.at_map_edge);
