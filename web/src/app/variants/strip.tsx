@@ -144,6 +144,14 @@ function Progress({ of: m }: { of: Making }) {
   const left = paused ? TEXTS.waiting : m.left ? leftWords(m.left) : '';
   return (
     <>
+      {/* They come first: what is behind them grows, and they stay under the pointer. */}
+      <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
+        <Icon name={paused ? 'play' : 'pause'} size={14} />
+        {paused ? TEXTS.goOn : TEXTS.pause}
+      </button>
+      <button type="button" class="btn line" onClick={() => variants.stop()}>
+        {m.done ? TEXTS.stopKeep(m.done) : TEXTS.stop}
+      </button>
       <small role="status">
         <b>{TEXTS.of(m.done, m.of)}</b>
         {left ? `, ${left}` : ''}
@@ -156,13 +164,6 @@ function Progress({ of: m }: { of: Making }) {
         {m.near ? <em class="tag near">{TEXTS.withAnEvent(m.near)}</em> : null}
         {m.hit ? <em class="tag collision">{TEXTS.withACollision(m.hit)}</em> : null}
       </span>
-      <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
-        <Icon name={paused ? 'play' : 'pause'} size={14} />
-        {paused ? TEXTS.goOn : TEXTS.pause}
-      </button>
-      <button type="button" class="btn line" onClick={() => variants.stop()}>
-        {m.done ? TEXTS.stopKeep(m.done) : TEXTS.stop}
-      </button>
     </>
   );
 }
