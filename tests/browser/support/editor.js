@@ -30,9 +30,9 @@ export class Editor {
   #listening = undefined;
 
   /**
-   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is done
-   * with the browser before the page comes; with `scene: false` nobody waits for a scene. `listening` is how closely the
-   * wire is listened to, which costs the page time.
+   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is
+   * done with the browser before the page comes; with `scene: false` nobody waits for a scene. `listening` is how
+   * closely the wire is listened to, which costs the page time.
    */
   static async open(browser, url, { stopwatch = true, now, arrange, scene = true, listening, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });

@@ -62,7 +62,7 @@ fn through(
     // The first thing to be in time for that lies beyond the window, and the last that lies in it.
     let timed = || vias.iter().zip(&at_m).filter_map(|(via, at)| Some((step(via)?, *at)));
     let next = timed().find(|(step, _)| *step > HORIZON_STEPS);
-    let passed_m = timed().filter(|(step, _)| *step <= HORIZON_STEPS).last().map_or(0.0, |(_, at)| at);
+    let passed_m = timed().rfind(|(step, _)| *step <= HORIZON_STEPS).map_or(0.0, |(_, at)| at);
     let (due, length_m, end_mps) = match next {
         Some((due, at)) => (due, at, None),
         None => (left, path.length_m(), goal.speed_mps),

@@ -44,10 +44,13 @@ fn all_pass(scene: &Scene, answer: &Answer, what: &str) {
     assert!(resolved.via.iter().all(|via| via.passed), "{what}: {:?}", resolved.via);
 }
 
+/// What it is, the places on the way, and the goal.
+type Case<'a> = (&'a str, &'a [Via], Option<(f64, f64)>);
+
 #[test]
 fn all_futures_pass_where_a_lane_leads_there() {
     // With its kind, via points and goal: straight on, round the corner, across, on foot.
-    let cases: [(&str, &[Via], Option<(f64, f64)>); 8] = [
+    let cases: [Case<'_>; 8] = [
         ("1", &[via(0.0, -1.75, 0.5, None)], Some((40.0, -1.75))),
         ("1", &[via(-20.0, -1.75, 0.5, None), via(20.0, -2.25, 0.5, None)], Some((50.0, -1.75))),
         ("1", &[via(1.75, 20.0, 0.5, None)], None),
