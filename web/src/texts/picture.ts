@@ -20,7 +20,7 @@ export const TEXTS = table('picture', {
   holdToPass: 'Hold to pass',
   altPasses: 'Alt passes',
   /** `on northbound lane`; some places say it themselves: `off the lanes`. */
-  on: (place: string) => (/^(on|off|inside|beside) /.test(place) ? place : `on ${place}`),
+  on: (place: string) => (/^(on|off|inside|beside|in) /.test(place) ? place : `on ${place}`),
   atAlongTheWay: (time: string, along: string) => `at ${time} · ${along} along the way`,
   somebodyStands: 'Somebody stands here',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,

@@ -95,7 +95,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
 }
 
 /** The words for a lane begin with their own preposition where "on" does not fit. */
-const onLane = (name: string): string => (/^(off|on|inside|in)\b/.test(name) ? name : TEXTS.on(name));
+const onLane = (name: string): string => (/^(off|on|inside|beside|in)\b/.test(name) ? name : TEXTS.on(name));
 
 interface RowProps {
   label: string;
