@@ -5,6 +5,7 @@ import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kind
 import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
 import { newcomer, type Newcomer } from '../model/newcomer';
 import { startPose, type Scene } from '../model/scene';
+import { areaText, lengthText } from '../model/units';
 import type { Footprint } from '../model/boxes';
 import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
@@ -154,7 +155,7 @@ function longSide(poly: readonly Vec[]): number {
 export const placeWords = (scene: Scene, n: Newcomer): string => {
   const { x, y, heading } = n.pose;
   const where = laneWords(scene.map, { type: typeOfKind(n.kind) }, x, y, heading);
-  return `${n.length.toFixed(1)} × ${n.width.toFixed(1)} m · ${where}`;
+  return `${areaText(n.length, n.width, (m) => lengthText(m, 1))} · ${where}`;
 };
 
 /** Each with whether it touches somebody, also one of those before it. */

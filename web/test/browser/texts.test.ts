@@ -107,6 +107,50 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
     expect(found).toEqual({});
   });
 
+  it('tell lengths in feet where speeds are in miles an hour', async () => {
+    d = await Driver.open(browser, { judged: true }, '/', (page) =>
+      page.addInitScript(() => localStorage.setItem('dragtraffic:speed-unit', '"mph"')),
+    );
+    await d.ready();
+    const found: Record<string, string[]> = {};
+    let feet = 0;
+    const state = async (name: string): Promise<void> => {
+      await d.settled();
+      const texts = await d.page.evaluate(() =>
+        // Places are metres, as in the file, and say so; so are the steps of the keys that move them.
+        [...document.querySelectorAll<HTMLElement>('body *')].flatMap((e) => {
+          if (e.closest('[data-file-text], script, noscript, style, .pal, .field:has([data-field$="-pos"])')) return [];
+          const own = [...e.childNodes].filter((n) => n.nodeType === Node.TEXT_NODE).map((n) => n.textContent!);
+          const said = ['aria-label', 'title', 'aria-valuetext'].map((a) => e.getAttribute(a) ?? '');
+          return [...(e.checkVisibility() ? [own.join('')] : []), ...said];
+        }),
+      );
+      feet += texts.filter((t) => /(?:^|\d )(?:ft|feet)\b/.test(t)).length;
+      const bare = texts.filter((t) => /^ ?m$|\d ?m(?![\w/²])|km\/h/.test(t.replace('km/h, mph or m/s', '')));
+      if (bare.length) found[name] = bare;
+    };
+    await state('first view');
+    await d.select('1');
+    await state('selected');
+    const flag = await d.at(...(await d.goal()));
+    await d.drag(flag, [flag[0] + 400, flag[1] + 10]);
+    await state('drag, out of reach');
+    await d.release();
+    await state('after it');
+    for (const [name, open, close] of [
+      ['all', () => d.key('Control+a'), 'Escape'],
+      ['place', () => d.key('n'), 'Escape'],
+      ['rounds', () => d.key('k'), 'Escape'],
+      ['variants', () => d.key('v'), 'v'],
+    ] as const) {
+      await open();
+      await state(name);
+      await d.key(close);
+    }
+    expect(found).toEqual({});
+    expect(feet).toBeGreaterThan(8);
+  });
+
   it('are German where it is chosen, and the page says so', async () => {
     d = await (await Driver.open(browser, {}, '/', speaking('de'))).ready();
     expect(await d.page.getAttribute('html', 'lang')).toBe('de');
