@@ -1,6 +1,7 @@
 // The inspector with nothing selected: who is here, what happens, what the map holds.
 import { useComputed } from '@preact/signals';
 import type { Agent, Scene } from '../../model/scene';
+import { drivingSide } from '../../model/driving-side';
 import { metres, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
@@ -141,6 +142,7 @@ function mapLines({ map, signals, licence }: Scene): string[] {
   return [
     parts.filter(Boolean).join(' · '),
     `${metres(x1 - x0, 0)} × ${metres(y1 - y0, 0)} · ${control}`,
+    ...(drivingSide(map) === 'left-hand' ? [TEXTS.leftHandTraffic] : []),
     ...(licence ? [TEXTS.licence(licence)] : []),
   ];
 }
