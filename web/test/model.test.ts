@@ -1,10 +1,25 @@
 import fc from 'fast-check';
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/geometry';
 import { findRoute, nearestLanes } from '../src/model/lanemap';
 import { limitsOf, rangesOf, topSpeed } from '../src/model/domain';
 import { furthestReach, leastReach, localReach } from '../src/model/reach';
-import { parseTyped, num, speedLabel } from '../src/model/units';
+import {
+  areaText,
+  densityText,
+  fromLength,
+  lengthRange,
+  lengthStep,
+  lengthUnit,
+  metres,
+  num,
+  parseTyped,
+  retold,
+  roundBelow,
+  speedLabel,
+  toldIn,
+  toLength,
+} from '../src/model/units';
 import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
 import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/write';
@@ -68,6 +83,55 @@ describe('numbers', () => {
     expect(num(-43.94, 1)).toBe('\u221243.9');
     expect(num(-0.01, 1)).toBe('0.0');
     expect(speedLabel(8.9, 'km/h')).toBe('32 km/h');
+  });
+});
+
+describe('feet', () => {
+  afterEach(() => void toldIn('km/h'));
+
+  it('come with miles an hour, and go with them', () => {
+    expect([metres(30.48), metres(1.5, 1), lengthUnit()]).toEqual(['30 m', '1.5 m', 'm']);
+    toldIn('mph');
+    expect([metres(30.48), metres(1.5, 1), metres(3.1), lengthUnit()]).toEqual(['100 ft', '4.9 ft', '10 ft', 'ft']);
+    expect(areaText(4.7, 2)).toBe('15.4 × 6.6 ft');
+    expect(densityText(3)).toBe('9.1 per 1000 ft of lane');
+    toldIn('m/s');
+    expect([metres(30.48), areaText(4.7, 2), densityText(3)]).toEqual(['30 m', '4.7 × 2.0 m', '3.0 per 100 m of lane']);
+  });
+
+  it('and metres are understood in any setting', () => {
+    expect(parseTyped('30 ft', 'length')).toBeCloseTo(9.144, 6);
+    expect(parseTyped('5 m', 'length')).toBe(5);
+    toldIn('mph');
+    expect(parseTyped('30 ft', 'length')).toBeCloseTo(30, 6);
+    expect(parseTyped('30', 'length')).toBe(30);
+    expect(parseTyped('5 m', 'length')).toBeCloseTo(16.404, 3);
+    expect(parseTyped('20 mph', 'mph')).toBeCloseTo(20, 6);
+    expect(parseTyped('(10+20) ft', 'place')).toBeCloseTo(9.144, 6);
+    expect(parseTyped('12', 'place')).toBe(12);
+  });
+
+  it('come back as they were typed, within their bounds', () => {
+    toldIn('mph');
+    fc.assert(
+      fc.property(fc.integer({ min: 1, max: 10_000 }), (tenths) => {
+        expect(toLength(fromLength(tenths / 10))).toBeCloseTo(tenths / 10, 4);
+      }),
+    );
+    const [min, max] = lengthRange([0.3, 25]);
+    expect(fromLength(min)).toBeGreaterThanOrEqual(0.3);
+    expect(fromLength(max)).toBeLessThanOrEqual(25);
+    expect([0.1, 0.5, 1, 10].map(lengthStep)).toEqual([0.2, 1, 2, 20]);
+    expect([0.9, 1, 4.99, 50, 99, 1000].map(roundBelow)).toEqual([0.5, 1, 2, 50, 50, 1000]);
+  });
+
+  it('stand in what the server says', () => {
+    const words = 'Needs 61 m at 50 km/h and brakes 4.2 m/s². Lane 1.5 m off.';
+    expect(retold(words)).toBe(words);
+    toldIn('mph');
+    expect(retold(words)).toBe('Needs 200 ft at 31 mph and brakes 4.2 m/s². Lane 4.9 ft off.');
+    toldIn('m/s');
+    expect(retold(words)).toBe('Needs 61 m at 13.9 m/s and brakes 4.2 m/s². Lane 1.5 m off.');
   });
 });
 

@@ -10,7 +10,7 @@ import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
-import type { SpeedUnit } from '../model/units';
+import { toldIn, type SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Filling } from './filling';
@@ -141,7 +141,7 @@ export class Editor {
   readonly #showForeseen = signal(true);
   readonly #drag = signal<DragInfo | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
-  readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
+  readonly #speedUnit = signal<SpeedUnit>(toldIn(recall<SpeedUnit>('speed-unit') ?? 'km/h'));
   readonly #undoName = signal<string | null>(null);
   readonly #redoName = signal<string | null>(null);
   readonly #beside = signal<Beside | null>(null);
@@ -591,7 +591,10 @@ export class Editor {
   }
 
   setUnit(unit: SpeedUnit): void {
-    this.#speedUnit.value = unit;
+    batch(() => {
+      this.#speedUnit.value = unit;
+      toldIn(unit);
+    });
     keep('speed-unit', unit);
   }
 

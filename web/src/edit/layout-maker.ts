@@ -1,5 +1,6 @@
 // Asks the server for the map as often as the wish changes, and makes a scene of it.
 import { effect } from '@preact/signals-core';
+import { drivingSide, type DrivingSide } from '../model/driving-side';
 import { nearestLanes } from '../model/lanemap';
 import { isMapRef, type AgentJson, type SceneJson } from '../model/json';
 import { readScene } from '../model/read';
@@ -38,18 +39,26 @@ export class LayoutMaker {
   /** A new map, from the template that was chosen last. */
   begin(): void {
     this.#open();
-    this.editor.layouts.choose(recall<TemplateName>('template') ?? FIRST_TEMPLATE);
+    this.editor.layouts.choose(recall<TemplateName>('template') ?? FIRST_TEMPLATE, this.traffic);
   }
 
   choose(template: TemplateName): void {
+    const { layouts } = this.editor;
     keep('template', template);
-    this.editor.layouts.choose(template);
+    // A side that was chosen by hand stays.
+    layouts.choose(template, layouts.parameters.peek()?.traffic ?? this.traffic);
   }
 
   /** What the map of the open scene was made from; null where it came from elsewhere. */
   get madeFrom(): Layout | null {
     const layout = this.file.raw?.x_layout as Layout | undefined;
     return layout?.template && layout.parameters ? layout : null;
+  }
+
+  /** The side that one drives on in the open scene: a new map is begun with the same. */
+  get traffic(): DrivingSide | undefined {
+    const scene = this.editor.scene.peek();
+    return (scene && drivingSide(scene.map, this.madeFrom)) ?? undefined;
   }
 
   /** The map of the open scene, to be changed. */
@@ -86,7 +95,10 @@ export class LayoutMaker {
     for (let wish: MapWish | null = first; wish; wish = this.#next()) {
       try {
         const began = performance.now();
-        const reply = await this.client.makeMap(wish.template, wish.parameters);
+        const reply = await this.client.makeMap(
+          wish.template,
+          wish.parameters ?? (wish.traffic ? { traffic: wish.traffic } : null),
+        );
         // What was closed or replaced by another template meanwhile is not shown.
         if (layouts.wish.peek()?.template === wish.template) layouts.settle(reply, performance.now() - began);
       } catch (e) {

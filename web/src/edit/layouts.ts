@@ -1,5 +1,6 @@
 // A map that is being made: the template with its parameters, what came of it, and the arm in hand.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
+import type { DrivingSide } from '../model/driving-side';
 import type { Vec } from '../model/geometry';
 import type { SceneJson } from '../model/json';
 import {
@@ -35,6 +36,8 @@ export interface MapWish {
   readonly template: TemplateName;
   /** Null for the template's own. */
   readonly parameters: Parameters | null;
+  /** The side of a template's own parameters; absent for the usual one. */
+  readonly traffic?: DrivingSide;
 }
 
 /** An arm while it is turned: how it lay before. */
@@ -123,11 +126,11 @@ export class Layouts {
   }
 
   /** Begins with a template; the last map stays on the picture until the new one is there. */
-  choose(template: TemplateName): void {
+  choose(template: TemplateName, traffic?: DrivingSide): void {
     batch(() => {
       this.#forget();
       this.#made.value = null;
-      this.#step({ template, parameters: null });
+      this.#step({ template, parameters: null, ...(traffic && { traffic }) });
     });
   }
 

@@ -1,7 +1,7 @@
 // What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
 // lanes lead, and what of it does not pass.
 import type { Vec } from '../model/geometry';
-import { num } from '../model/units';
+import { metres, num, retold } from '../model/units';
 import { pill, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { colours } from '../draw/theme';
@@ -169,7 +169,7 @@ export class ArmsOverlay {
         const angle = layouts.arms.value[k.arm]?.angle_deg ?? 0;
         const turned = layouts.turned.value;
         const length = layouts.arms.value[k.arm]?.length_m;
-        const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${num(length, 0)} m` : '';
+        const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${metres(length, 0)}` : '';
         const words = `${made.arms[k.arm].name} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
         const mine = k.arm === layouts.arm.value;
         pill(g, this.labels, x, y, words, {
@@ -182,13 +182,13 @@ export class ArmsOverlay {
           ],
         });
       } else if (k.kind === 'kerb' && k.corner === 0)
-        pill(g, this.labels, x, y, TEXTS.kerbM(num(made.corners[0].radius_m, 1)), { must: false });
+        pill(g, this.labels, x, y, TEXTS.kerb(metres(made.corners[0].radius_m, 1)), { must: false });
     }
     this.#paintCount(g, v);
     this.#paintFaults(g, v, made);
     const fault = layouts.fault.value;
     const [x, y] = v.to(...(all.find((k) => k.kind === 'arm' && k.arm === layouts.arm.value)?.at ?? [0, 0]));
-    if (fault) pill(g, this.labels, x, y, fault, { icon: 'triangle', bg: c.surface, fg: c.ink });
+    if (fault) pill(g, this.labels, x, y, retold(fault), { icon: 'triangle', bg: c.surface, fg: c.ink });
   }
 
   /** How many lanes an arm has, where one is about to come or go. */

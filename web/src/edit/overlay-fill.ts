@@ -2,6 +2,7 @@
 import { boxOf, type Vec } from '../model/geometry';
 import { typeOfKind } from '../model/kinds';
 import { comesLater, type Newcomer } from '../model/newcomer';
+import { metres } from '../model/units';
 import { paintRing } from '../draw/handles';
 import { pill, tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
@@ -177,7 +178,7 @@ export class FillOverlay {
   #paintCount(g: Pen, v: View, region: readonly Vec[], words: string): void {
     const c = colours();
     const b = boxOf(region);
-    const size = `${Math.round(b.x1 - b.x0)} m × ${Math.round(b.y1 - b.y0)} m`;
+    const size = `${metres(b.x1 - b.x0, 0)} × ${metres(b.y1 - b.y0, 0)}`;
     tag(g, this.labels, v.to((b.x0 + b.x1) / 2, b.y1), `${words} · ${size}`, {
       bg: c.focus,
       fg: c.surface,

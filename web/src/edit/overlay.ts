@@ -5,7 +5,7 @@ import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
 import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/scene';
-import { metres, num, seconds, speedLabel } from '../model/units';
+import { metres, seconds, speedLabel } from '../model/units';
 import { Labels, pill, tag, type Taken } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
 import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
@@ -403,7 +403,7 @@ export class Overlay {
         g,
         this.labels,
         [v.x((now.x + ghost.x) / 2), v.y((now.y + ghost.y) / 2)],
-        TEXTS.mApartAt(num(d, 1), seconds(t)),
+        TEXTS.apartAt(metres(d, 1), seconds(t)),
         {
           leader: c.log,
           radii: [52, 72, 96],

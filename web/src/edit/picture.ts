@@ -109,6 +109,7 @@ export class Picture {
         e.layouts.under.value,
         e.layouts.fault.value,
         e.notices.toast.value,
+        e.speedUnit.value,
       ];
       stage.invalidate('overlay');
     });

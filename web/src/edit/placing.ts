@@ -1,10 +1,12 @@
 // Where somebody new would stand: snapped to the lane under the pointer, with its heading and its speed.
 import { insidePolygon, makeLine, pointAt, project, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import { drivingSide } from '../model/driving-side';
 import { topSpeed } from '../model/domain';
 import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
 import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
 import { newcomer, type Newcomer } from '../model/newcomer';
 import { startPose, type Scene } from '../model/scene';
+import { areaText, lengthText } from '../model/units';
 import type { Footprint } from '../model/boxes';
 import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
@@ -154,7 +156,7 @@ function longSide(poly: readonly Vec[]): number {
 export const placeWords = (scene: Scene, n: Newcomer): string => {
   const { x, y, heading } = n.pose;
   const where = laneWords(scene.map, { type: typeOfKind(n.kind) }, x, y, heading);
-  return `${n.length.toFixed(1)} × ${n.width.toFixed(1)} m · ${where}`;
+  return `${areaText(n.length, n.width, (m) => lengthText(m, 1))} · ${where}`;
 };
 
 /** Each with whether it touches somebody, also one of those before it. */
@@ -211,7 +213,7 @@ export function overArea(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zo
   for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {
     const on = ghostAt(scene, choice, [x0 + w * radicalInverse(k, 2), y0 + h * radicalInverse(k, 3)], { zoom });
     if (on.pose.x < x0 || on.pose.x > x0 + w || on.pose.y < y0 || on.pose.y > y0 + h) continue;
-    const who = turned(on, bothWays(choice.kind, on.pose, x0 + w / 2, y0 + h / 2));
+    const who = turned(on, bothWays(scene.map, choice.kind, on.pose, x0 + w / 2, y0 + h / 2));
     if (inTheWay(who, taken)) continue;
     taken.push(who);
     out.push(who);
@@ -232,10 +234,11 @@ function radicalInverse(k: number, base: number): number {
   return v;
 }
 
-/** Those on foot come from both sides, and keep to the right of each other. */
-function bothWays(kind: PlacedKind, { x, y, heading }: Pose, mx: number, my: number): number {
+/** Those on foot come from both sides, and pass each other as those who drive do. */
+function bothWays(map: LaneMap, kind: PlacedKind, { x, y, heading }: Pose, mx: number, my: number): number {
   const left = -(x - mx) * Math.sin(heading) + (y - my) * Math.cos(heading);
-  return kind === 'pedestrian' && left > 0 ? wrapAngle(heading + Math.PI) : heading;
+  const wrong = drivingSide(map) === 'left-hand' ? left < 0 : left > 0;
+  return kind === 'pedestrian' && wrong ? wrapAngle(heading + Math.PI) : heading;
 }
 
 const turned = ({ kind, subtype, length, width, pose, goal, note, does }: Newcomer, heading: number): Newcomer => ({

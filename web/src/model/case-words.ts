@@ -1,7 +1,7 @@
 // A case in words: what is looked for, what a found one is, and what came nearest.
 import { KINDS, type Moment, type Sought, type What } from './cases';
 import { startPose, type Agent, type Scene } from './scene';
-import { num, seconds, speedLabel, type SpeedUnit } from './units';
+import { metres, num, seconds, speedLabel, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/cases';
 
 export const KIND_WORDS: Readonly<Record<What, string>> = {
@@ -35,9 +35,10 @@ export const sentenceOf = (what: What, a: string, b: string | null): string => S
 /** `0.3 m at 3.6 s` */
 export function momentWords({ what }: Sought, m: Moment): string {
   const at = TEXTS.at(seconds(m.time));
-  if (what === 'collision') return m.found ? TEXTS.collision2(at) : `${num(m.value, 1)} m ${at}`;
+  if (what === 'collision') return m.found ? TEXTS.collision2(at) : `${metres(m.value, 1)} ${at}`;
   if (what === 'first') return m.value >= 0 ? TEXTS.sAhead(num(m.value, 1), at) : TEXTS.sBehind(num(-m.value, 1), at);
-  return `${num(m.value, 1)} ${KINDS[what].unit} ${at}`;
+  const { unit } = KINDS[what];
+  return `${unit === 'm' ? metres(m.value, 1) : `${num(m.value, 1)} ${unit}`} ${at}`;
 }
 
 /** How it happens: where the other one is, and what the one who is tried begins with. */

@@ -7,7 +7,7 @@ import { answersAhead, guessReaction, reactionWords, type Answered, type Reactio
 import type { Agent, Scene } from './scene';
 import { doing, GOAL_TIME, startPose, staysAway } from './scene';
 import { heldStill, nowhere, straightOn } from './motion';
-import { num, type SpeedUnit } from './units';
+import { metres, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/reactions';
 
 /** A road user that does something else, and where it waits or is slowest. */
@@ -177,8 +177,8 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
       s0 = distances(a.log).at(-1) ?? 0;
     const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
     if (turn > 0.6) words = TEXTS.endsFacingAnother;
-    else if (s1 < s0 - 2) words = TEXTS.getsMLessFar(num(s0 - s1, 0));
-    else if (s1 > s0 + 2) words = TEXTS.getsMFurther(num(s1 - s0, 0));
+    else if (s1 < s0 - 2) words = TEXTS.getsLessFar(metres(s0 - s1, 0));
+    else if (s1 > s0 + 2) words = TEXTS.getsFurther(metres(s1 - s0, 0));
   }
   return { ...f, words };
 }

@@ -255,7 +255,7 @@ function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: 
   const [[, pa], [, pb]] = who;
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
   if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
-  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.closestGap, `${num(r.extent, 1)} m`]);
+  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.closestGap, metres(r.extent, 1)]);
   if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null) facts.push([fact, extentWords(r, unit)!.replace(/^at /, '')]);

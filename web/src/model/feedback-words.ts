@@ -1,7 +1,7 @@
 // Wishes, what they rest on, and why a card was kept or rejected, in plain words.
 import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from './feedback';
 import type { LearnedWishJson } from './json';
-import { num, seconds, speedText, type SpeedUnit } from './units';
+import { lengthText, lengthUnit, num, seconds, speedText, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/feedback';
 import { inSentence } from '../texts/language';
 
@@ -88,7 +88,11 @@ function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | nu
     case 'standing':
       return { does: TEXTS.stand, of: ' s', value: (r) => between(r, one) };
     case 'from_log':
-      return { does: TEXTS.are, of: TEXTS.mFromTheRecording, value: (r) => between(r, one) };
+      return {
+        does: TEXTS.are,
+        of: TEXTS.fromTheRecording(lengthUnit()),
+        value: (r) => between(r, (v) => lengthText(v, 1)),
+      };
     default:
       return null;
   }

@@ -4,7 +4,7 @@ import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type Se
 import type { Point, Pose, Vec } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
-import { metres } from './units';
+import { metres, retold } from './units';
 import { TEXTS } from '../texts/reach';
 
 export { LETTERS } from './names';
@@ -217,7 +217,7 @@ export function reachWords(
     const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
     return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
   }
-  const text = r.words?.trim() ?? '';
+  const text = retold(r.words?.trim() ?? '');
   const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';

@@ -1,4 +1,5 @@
 // Numbers as people read and type them. Inside the program everything is SI.
+import { signal } from '@preact/signals-core';
 import { TEXTS } from '../texts/places';
 import { deg } from './geometry';
 
@@ -20,18 +21,76 @@ export function num(value: number, decimals = 1): string {
   return value < 0 && Number(text) !== 0 ? `\u2212${text}` : text;
 }
 
-export const metres = (v: number, decimals = v < 10 ? 1 : 0): string => `${num(v, decimals)} m`;
+/** Who reads miles an hour reads feet. Places in the scene stay metres, as its files have them. */
+const shown = signal<SpeedUnit>('km/h');
+/** What lengths and speeds are told in from now on; the unit, for who keeps the setting. */
+export function toldIn(unit: SpeedUnit): SpeedUnit {
+  shown.value = unit;
+  return unit;
+}
+
+export type LengthUnit = 'm' | 'ft';
+const FOOT_M = 0.3048;
+export const lengthUnit = (): LengthUnit => (shown.value === 'mph' ? 'ft' : 'm');
+/** The unit as a word, for who hears the page. */
+export const lengthUnitWord = (): string => (lengthUnit() === 'ft' ? TEXTS.feet : TEXTS.metres);
+export const toLength = (m: number): number => (lengthUnit() === 'ft' ? m / FOOT_M : m);
+/** A length that was typed or scrubbed, without the dust of the sum. */
+export const fromLength = (v: number): number => (lengthUnit() === 'ft' ? Number((v * FOOT_M).toFixed(6)) : v);
+
+/** The number of a length of so many metres, in the unit it is told in. */
+export const lengthText = (m: number, decimals = toLength(m) < 10 ? 1 : 0): string => num(toLength(m), decimals);
+/** A length of so many metres, with its unit. */
+export const metres = (m: number, decimals?: number): string => `${lengthText(m, decimals)} ${lengthUnit()}`;
 /** The length or width of a road user: what is smaller than a metre has its centimetres. */
-export const sizeText = (v: number): string => num(v, v < 1 && Math.abs(v * 10 - Math.round(v * 10)) > 1e-6 ? 2 : 1);
+export const sizeText = (m: number): string =>
+  lengthText(m, lengthUnit() === 'm' && m < 1 && Math.abs(m * 10 - Math.round(m * 10)) > 1e-6 ? 2 : 1);
+/** `4.7 × 2.0 m` */
+export const areaText = (a: number, b: number, text: (m: number) => string = sizeText): string =>
+  `${text(a)} × ${text(b)} ${lengthUnit()}`;
+
+/** The largest of 1, 2, 5, 10, 20, … that is not above it. */
+export function roundBelow(v: number): number {
+  const power = 10 ** Math.floor(Math.log10(v) + 1e-9);
+  return Number(([5, 2, 1].map((k) => k * power).find((k) => k <= v * (1 + 1e-9)) ?? power).toPrecision(6));
+}
+
+/** To half a metre, or to a whole foot. */
+export const inHalves = (m: number): number =>
+  lengthUnit() === 'ft' ? fromLength(Math.round(toLength(m))) : Math.round(m * 2) / 2;
+
+/** What a field for a length steps by, where it steps by so many metres. */
+export const lengthStep = (m: number): number => (lengthUnit() === 'ft' ? roundBelow(m / FOOT_M) : m);
+/** The bounds of a field for a length: tenths of a foot that lie within those in metres. */
+export const lengthRange = ([min, max]: readonly [number, number]): readonly [number, number] =>
+  lengthUnit() === 'ft'
+    ? [Math.ceil((min / FOOT_M) * 10 - 1e-6) / 10, Math.floor((max / FOOT_M) * 10 + 1e-6) / 10]
+    : [min, max];
+
+/** How many there are on so much lane; one asks for a number for each 100 m. */
+export const densityText = (per100M: number): string =>
+  lengthUnit() === 'ft' ? TEXTS.per1000FtOfLane(num(per100M * 10 * FOOT_M, 1)) : TEXTS.per100MOfLane(num(per100M, 1));
+
+/** What the server says in metres and km/h, in the units that are read. */
+export const retold = (words: string): string =>
+  shown.value === 'km/h'
+    ? words
+    : words
+        .replace(/([\d.]+) km\/h/g, (_, v: string) => speedLabel(Number(v) / 3.6, shown.value))
+        .replace(/(\d+(?:\.\d+)?) m(?![\w/²])/g, (_, v: string) =>
+          metres(Number(v), lengthUnit() === 'm' ? (v.split('.')[1] ?? '').length : undefined),
+        );
+
 export const seconds = (v: number): string => `${num(v, 1)} s`;
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
 
-export type Quantity = 'count' | 'length' | 'angle' | 'time' | SpeedUnit;
+/** A `length` is told in the unit of lengths; a `place` is a coordinate of the scene and always in metres. */
+export type Quantity = 'count' | 'length' | 'place' | 'angle' | 'time' | SpeedUnit;
 
 const UNITS: Record<string, (v: number, as: Quantity) => number | null> = {
-  m: (v, as) => (as === 'length' ? v : null),
-  ft: (v, as) => (as === 'length' ? v * 0.3048 : null),
+  m: lengthTo,
+  ft: (v, as) => lengthTo(v * FOOT_M, as),
   s: (v, as) => (as === 'time' ? v : null),
   '\u00b0': (v, as) => (as === 'angle' ? v : null),
   deg: (v, as) => (as === 'angle' ? v : null),
@@ -42,6 +101,10 @@ const UNITS: Record<string, (v: number, as: Quantity) => number | null> = {
   'm/s': (v, as) => speedTo(v, as),
   mph: (v, as) => speedTo(v / PER_MPS.mph, as),
 };
+
+function lengthTo(m: number, as: Quantity): number | null {
+  return as === 'length' ? toLength(m) : as === 'place' ? m : null;
+}
 
 function speedTo(mps: number, as: Quantity): number | null {
   return as in PER_MPS ? mps * PER_MPS[as as SpeedUnit] : null;

@@ -18,14 +18,14 @@ export const VIA_TOLERANCE: readonly [number, number] = [tolerance_m[0], toleran
 export const LEAST_TIME_S = 0.5;
 export const NO_VIAS: readonly Via[] = Object.freeze([]);
 
-/** To the decimetre and half a decimetre, as handles go. */
+/** Places to the decimetre, as handles go; tolerances to the centimetre, as tenths of feet need. */
 const rounded = (v: number, steps: number): number => Math.round(v * steps) / steps;
 
 export const via = (pos: Vec, tolerance = default_tolerance_m, time: number | null = null): Via =>
   Object.freeze({ pos: Object.freeze([pos[0], pos[1]] as const), tolerance, time });
 
 export const heldTolerance = (m: number): number =>
-  rounded(Math.min(VIA_TOLERANCE[1], Math.max(VIA_TOLERANCE[0], m)), 20);
+  rounded(Math.min(VIA_TOLERANCE[1], Math.max(VIA_TOLERANCE[0], m)), 100);
 
 /** The list with one of it in another way; without it for null. */
 export const withVia = (all: readonly Via[], i: number, patch: Partial<Via> | null): readonly Via[] =>

@@ -43,7 +43,7 @@ export const TEXTS = table('agent', {
   speed3: (word: string) => `${word} speed`,
   type: 'Type',
   ownSize: (kind_name: string) => `${kind_name}, own size`,
-  inMetres2: (name: string) => `${name} in metres`,
+  sizeIn: (name: string, unit: string) => `${name} in ${unit}`,
   others: (n: number) => plural(n, { one: `${n} other`, other: `${n} others` }),
   othersThatChanged: 'Others that changed',
   changed: (others: string) => `${others} changed`,

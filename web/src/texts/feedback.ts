@@ -34,7 +34,7 @@ export const TEXTS = table('feedback', {
   leaveAtLeast: 'leave at least',
   brakeSpeedUp: 'brake, speed up or swerve with at most',
   brakeSpeedUpOr: 'brake, speed up or swerve with',
-  mFromTheRecording: ' m from the recording',
+  fromTheRecording: (unit: string) => ` ${unit} from the recording`,
   of: (count: number, count2: number) => `${count} of ${count2}`,
   soItIsInKept: (kept: string, rejected: string) => `So it is in ${kept} kept ones and in ${rejected} rejected ones.`,
   soItIsInKeptOnes: (kept: string) => `So it is in ${kept} kept ones.`,

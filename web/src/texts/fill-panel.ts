@@ -9,7 +9,6 @@ export const TEXTS = table('fill-panel', {
   fillAnArea: 'Fill an area',
   close: 'Close',
   howBusy: 'How busy',
-  per100MOfLane: (density: string) => `${density} per 100 m of lane`,
   empty: 'empty',
   freeFlow: 'free flow',
   queue: 'queue',

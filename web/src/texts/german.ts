@@ -4,6 +4,7 @@ import type { Forms } from './language';
 import type { Part } from './table';
 import type { TEXTS as Actions } from './actions';
 import type { TEXTS as Agent } from './agent';
+import type { TEXTS as Places } from './places';
 import type { TEXTS as ContextMenu } from './context-menu';
 import type { TEXTS as Empty } from './empty';
 import type { TEXTS as Events } from './events';
@@ -412,7 +413,7 @@ const counted = (plural: Plural) => {
     fixed2: 'Fest',
     free: 'Frei',
     inMetres: (word: string, name: string) => `${word}, ${name} in Metern`,
-    inMetres2: (name: string) => `${name} in Metern`,
+    sizeIn: (name: string, unit: string) => `${name} in ${unit}`,
     heading: 'Richtung',
     heading2: 'Richtung',
     headingInDegrees: (word: string) => `${word}, Richtung in Grad`,
@@ -732,6 +733,11 @@ const reach: Part<typeof Reach> = {
   it: 'es',
 };
 
+const places: Part<typeof Places> = {
+  metres: 'Metern',
+  feet: 'Fuß',
+};
+
 /** Area: its words in German. */
 export const german = (plural: Plural) => ({
   actions,
@@ -750,5 +756,6 @@ export const german = (plural: Plural) => ({
   verdicts,
   picture,
   reach,
+  places,
   ...counted(plural),
 });

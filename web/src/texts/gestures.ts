@@ -22,7 +22,7 @@ export const TEXTS = table('gestures', {
   lasso: 'Lasso',
   measure: 'Measure',
   moveThePicture: 'Move the picture',
-  orMFurtherOn: (far: string) => `, or ${far} m further on`,
+  orFurtherOn: (far: string) => `, or ${far} further on`,
   somebody: 'Somebody',
   standsHerePut: (name: string, where: string) => `${name} stands here. Put it here anyway${where}?`,
   furtherOn: 'Further on',

@@ -92,4 +92,5 @@ export const TEXTS = table('hud', {
   makingVariants: (done: number, of: number) => `Making variants: ${done} of ${of}`,
   searching: (tried: number, of: number, found: number) => `Searching: ${tried} of ${of} · ${found} found`,
   halfMetres: 'half metres',
+  wholeFeet: 'whole feet',
 });

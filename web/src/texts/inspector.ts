@@ -42,4 +42,5 @@ export const TEXTS = table('inspector', {
   notWorkedOut: 'Not worked out yet',
   noCollisions: 'No collisions, no near misses',
   signals: 'signals',
+  leftHandTraffic: 'Left-hand traffic',
 });

@@ -9,7 +9,7 @@ export const TEXTS = table('picture', {
   armComes: (arm: string, rate: number, now: number, later: number) =>
     `${arm} ${rate}/h · ${now} now${later ? `, ${later} later` : ''}`,
   thePreviewDid: 'The preview did not load. Try again when the network is back.',
-  kerbM: (radius_m: string) => `Kerb ${radius_m} m`,
+  kerb: (radius: string) => `Kerb ${radius}`,
   collision: (title: string) => `Collision · ${title}`,
   inTheLog: (text: string) => `${text} · in the log`,
   goal: (time: string) => `Goal · ${time}`,
@@ -26,7 +26,7 @@ export const TEXTS = table('picture', {
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,
   andMore: (rest: number) => `and ${rest} more`,
   log: 'Log',
-  mApartAt: (d: string, t: string) => `${d} m apart at ${t}`,
+  apartAt: (d: string, t: string) => `${d} apart at ${t}`,
   shownOnly: 'Shown only',
   clickToEditDrag: 'Click to edit · drag to move',
   clickToEdit: 'Click to edit',

@@ -13,5 +13,5 @@ export const TEXTS = table('place-panel', {
   ownSize: 'Own size',
   howMany: 'How many',
   howManyRoadUsers: 'How many road users',
-  ownInMetres: (name: string) => `Own ${name} in metres`,
+  ownIn: (name: string, unit: string) => `Own ${name} in ${unit}`,
 });

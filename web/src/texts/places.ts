@@ -16,6 +16,10 @@ export const TEXTS = table('places', {
   atTheStopLine: 'at the stop line',
   beforeTheCrosswalk: 'before the crosswalk',
   behind: (name: string) => `behind ${name}`,
+  per100MOfLane: (density: string) => `${density} per 100 m of lane`,
+  per1000FtOfLane: (density: string) => `${density} per 1000 ft of lane`,
+  metres: 'metres',
+  feet: 'feet',
   aboutMinLeft: (minutes: string) => `about ${minutes} min left`,
   aboutSLeft: (seconds: string) => `about ${seconds} s left`,
 });

@@ -22,7 +22,7 @@ export const TEXTS = table('via', {
   remove: 'Remove',
   removeOne: (via: string) => `Remove ${via}`,
   within: 'Within',
-  toleranceInMetres: (via: string) => `${via} tolerance in metres`,
+  toleranceIn: (via: string, unit: string) => `${via} tolerance in ${unit}`,
   timeInSeconds: (via: string) => `${via} time in seconds`,
   timeFixed: (via: string) => `${via} time fixed`,
   fixed: 'Fixed',
@@ -33,5 +33,5 @@ export const TEXTS = table('via', {
   tolerance: (via: string) => `${via} tolerance`,
   time: (via: string) => `${via} time`,
   metres: (x: string, y: string, lane: string) => `${x}, ${y} metres, ${lane}`,
-  metresWide: (metres: string) => `${metres} metres`,
+  wide: (tolerance: string, unit: string) => `${tolerance} ${unit}`,
 });

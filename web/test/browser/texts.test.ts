@@ -107,6 +107,69 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
     expect(found).toEqual({});
   });
 
+  it('tell lengths in feet where speeds are in miles an hour', async () => {
+    d = await Driver.open(browser, { judged: true }, '/', (page) =>
+      page.addInitScript(() => {
+        localStorage.setItem('dragtraffic:speed-unit', '"mph"');
+        // What is written on the picture goes to its painter.
+        const painted: string[] = ((window as unknown as { painted: string[] }).painted = []);
+        const send = Worker.prototype.postMessage as (this: Worker, ...all: unknown[]) => void;
+        Worker.prototype.postMessage = function (this: Worker, ...all: unknown[]) {
+          const [said] = all as [{ picture?: { news: { texts: string[] } } } | null];
+          painted.push(...(said?.picture?.news.texts ?? []));
+          send.apply(this, all);
+        };
+      }),
+    );
+    await d.ready();
+    const found: Record<string, string[]> = {};
+    const feet = new Set<string>();
+    const state = async (name: string): Promise<void> => {
+      await d.settled();
+      const texts = await d.page.evaluate(() => {
+        // Places are metres, as in the file, and say so; so are the steps of the keys that move them.
+        const metric = '[data-file-text], script, noscript, style, .field:has([data-field$="-pos"])';
+        const read = [...document.querySelectorAll<HTMLElement>('body *')].flatMap((e) => {
+          if (e.closest(metric)) return [];
+          const own = [...e.childNodes].filter((n) => n.nodeType === Node.TEXT_NODE).map((n) => n.textContent!);
+          const said = ['aria-label', 'title', 'aria-valuetext'].map((a) => e.getAttribute(a) ?? '');
+          return [...(e.checkVisibility() ? [own.join('')] : []), ...said];
+        });
+        return [...read, ...(window as unknown as { painted: string[] }).painted.splice(0)];
+      });
+      for (const t of texts) if (/(?:^|\d )(?:ft|feet)\b/.test(t)) feet.add(t);
+      const bare = texts.filter((t) => /^ ?m$|\d ?m(?![\w/²])|km\/h/.test(t.replace('km/h, mph or m/s', '')));
+      if (bare.length) found[name] = bare;
+    };
+    await state('first view');
+    await d.select('1');
+    await state('selected');
+    const flag = await d.at(...(await d.goal()));
+    await d.drag(flag, [flag[0] + 400, flag[1] + 10]);
+    await state('drag');
+    await d.release();
+    await state('after it');
+    for (const [name, open, close] of [
+      ['all', () => d.key('Control+a'), 'Escape'],
+      ['place', () => d.key('1'), 'Escape'],
+      ['fill', () => d.key('d'), 'v'],
+      ['measure', async () => (await d.key('m'), d.drag([500, 300], [700, 420])), 'v'],
+      ['rounds', () => d.key('Shift+k'), 'Escape'],
+    ] as const) {
+      await open();
+      await d.page.mouse.move(600, 400);
+      await state(name);
+      await d.page.mouse.up();
+      await d.key(close);
+    }
+    expect(found).toEqual({});
+    for (const words of [/^\d+ ft$/, /smallest gap .* ft/, /ft × .* ft/, /per 1000 ft of lane/, /^[\d.]+ × [\d.]+ ft/])
+      expect(
+        [...feet].some((t) => words.test(t)),
+        String(words),
+      ).toBe(true);
+  });
+
   it('are German where it is chosen, and the page says so', async () => {
     d = await (await Driver.open(browser, {}, '/', speaking('de'))).ready();
     expect(await d.page.getAttribute('html', 'lang')).toBe('de');

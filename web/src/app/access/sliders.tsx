@@ -3,7 +3,7 @@ import { useComputed, type ReadonlySignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import type { Command } from '../../model/commands';
 import { deg } from '../../model/geometry';
-import { num, speedLabel } from '../../model/units';
+import { lengthText, lengthUnitWord, num, speedLabel } from '../../model/units';
 import type { Field, Part } from '../../edit/editor';
 import * as moves from '../../edit/moves';
 import { laneWords } from '../../edit/snap';
@@ -176,7 +176,7 @@ function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
         part="goal"
         via={i}
         now={() => via()?.tolerance ?? 0}
-        text={() => VIA.metresWide(num(via()?.tolerance ?? 0, 1))}
+        text={() => VIA.wide(lengthText(via()?.tolerance ?? 0, 1), lengthUnitWord())}
         move={([, , more], far) =>
           widenVia(agent.peek(), i, agent.peek().goal.via[i].tolerance + more * (far ? 1 : 0.1), true)
         }

@@ -7,7 +7,7 @@ import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/fil
 import { comesLater, type Newcomer } from '../../model/newcomer';
 import { KIND_NAMES } from '../../model/kinds';
 import { STEP_S } from '../../model/motion';
-import { fromUnit, nextSpeedUnit, num, seconds, speedText, toUnit } from '../../model/units';
+import { densityText, fromUnit, nextSpeedUnit, num, seconds, speedText, toUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { SeedField } from '../parts/asking';
 import { ActionButton, KeyCaps } from '../parts/buttons';
@@ -46,7 +46,7 @@ export default function FillPanel() {
           value={wish.density}
           range={[LEAST_DENSITY, MOST_DENSITY]}
           step={0.5}
-          text={TEXTS.per100MOfLane(num(wish.density, 1))}
+          text={densityText(wish.density)}
           set={(v) => filling.setDensity(v)}
         />
         <div class="ends" aria-hidden="true">

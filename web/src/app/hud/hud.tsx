@@ -18,6 +18,7 @@ import { ScaleBar, ZoomBar } from './view';
 import { LoupeWords } from './loupe-words';
 import { Thumb } from './thumb';
 import { WayBack } from './way-back';
+import { lengthUnit } from '../../model/units';
 import { TEXTS } from '../../texts/hud';
 
 /** Those that are switched most; all are in the menu beside them. */
@@ -100,7 +101,9 @@ const TIPS = {
   ],
   time: [['Shift', TEXTS.wholeSeconds]],
   via: [['Alt', TEXTS.noSnapping]],
-  ring: [['Shift', TEXTS.halfMetres]],
+  get ring() {
+    return [['Shift', lengthUnit() === 'ft' ? TEXTS.wholeFeet : TEXTS.halfMetres]] as const;
+  },
 } as const;
 
 const AT_KERB = [

@@ -2,7 +2,7 @@
 import { useComputed } from '@preact/signals';
 import { rangesOf } from '../../model/domain';
 import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
-import { sizeText } from '../../model/units';
+import { areaText, lengthUnit, lengthUnitWord, sizeText } from '../../model/units';
 import { placedBy } from '../../actions/place';
 import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
@@ -52,9 +52,7 @@ function Panel({ kind }: { kind: PlacedKind }) {
           >
             <Icon name={kind} size={18} />
             {p.label}
-            <small>
-              {sizeText(p.length)} × {sizeText(p.width)} m
-            </small>
+            <small>{areaText(p.length, p.width)}</small>
           </button>
         ))}
         <div class={`preset own ${preset ? '' : 'on'}`}>
@@ -103,9 +101,9 @@ function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'widt
   const { placement } = useApp().editor;
   return (
     <NumberField
-      label={TEXTS.ownInMetres(name)}
+      label={TEXTS.ownIn(name, lengthUnitWord())}
       letter={name === 'length' ? 'L' : 'W'}
-      unit={() => ''}
+      unit={() => (lengthUnit() === 'ft' ? 'ft' : '')}
       quantity={() => 'length'}
       step={0.1}
       range={() => rangesOf({ type: typeOfKind(kind) })[`${name}_m`]}

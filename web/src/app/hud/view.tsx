@@ -1,5 +1,6 @@
 // Scale and zoom. The view changes many times a second; these follow once a frame at most.
 import { useComputed } from '@preact/signals';
+import { fromLength, lengthUnit, roundBelow, toLength } from '../../model/units';
 import { HOME_ZOOM } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
@@ -12,13 +13,13 @@ const LONGEST_PX = 90;
 export function ScaleBar() {
   const { stage } = useApp();
   void viewTick.value;
-  const longest = LONGEST_PX / stage.view.z;
-  const power = 10 ** Math.floor(Math.log10(longest));
-  const metres = [5, 2, 1].map((k) => k * power).find((v) => v <= longest) ?? power;
+  const length = roundBelow(toLength(LONGEST_PX / stage.view.z));
   return (
     <div class="card scale" aria-hidden="true">
-      <i style={{ width: `${metres * stage.view.z}px` }} />
-      <span>{metres} m</span>
+      <i style={{ width: `${fromLength(length) * stage.view.z}px` }} />
+      <span>
+        {length} {lengthUnit()}
+      </span>
     </div>
   );
 }

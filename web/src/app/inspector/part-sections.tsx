@@ -5,7 +5,16 @@ import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
 import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/kinds';
 import { hasGoal, type GoalSpec } from '../../model/scene';
-import { fromUnit, nextSpeedUnit, num, sizeText, speedText, toUnit } from '../../model/units';
+import {
+  fromUnit,
+  lengthUnit,
+  lengthUnitWord,
+  nextSpeedUnit,
+  num,
+  sizeText,
+  speedText,
+  toUnit,
+} from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
 import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
@@ -194,8 +203,8 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
     <NumberField
       label={TEXTS.inMetres(word, name)}
       letter={name}
-      unit={() => ''}
-      quantity={() => 'length'}
+      unit={() => (lengthUnit() === 'ft' ? 'm' : '')}
+      quantity={() => 'place'}
       step={0.1}
       field={`${props.part}-pos`}
       value={() => shown()?.[name] ?? null}
@@ -326,9 +335,9 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
   };
   return (
     <NumberField
-      label={TEXTS.inMetres2(name)}
+      label={TEXTS.sizeIn(name, lengthUnitWord())}
       letter={letter}
-      unit={() => 'm'}
+      unit={lengthUnit}
       quantity={() => 'length'}
       step={0.1}
       value={() => agent.value[name]}

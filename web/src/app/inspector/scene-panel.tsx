@@ -1,7 +1,8 @@
 // The inspector with nothing selected: who is here, what happens, what the map holds.
 import { useComputed } from '@preact/signals';
 import type { Agent, Scene } from '../../model/scene';
-import { num } from '../../model/units';
+import { drivingSide } from '../../model/driving-side';
+import { metres, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -140,7 +141,8 @@ function mapLines({ map, signals, licence }: Scene): string[] {
   const control = signals.length ? TEXTS.signals : map.stopSigns.length ? TEXTS.stopSigns : TEXTS.noSignals;
   return [
     parts.filter(Boolean).join(' · '),
-    `${num(x1 - x0, 0)} m × ${num(y1 - y0, 0)} m · ${control}`,
+    `${metres(x1 - x0, 0)} × ${metres(y1 - y0, 0)} · ${control}`,
+    ...(drivingSide(map) === 'left-hand' ? [TEXTS.leftHandTraffic] : []),
     ...(licence ? [TEXTS.licence(licence)] : []),
   ];
 }

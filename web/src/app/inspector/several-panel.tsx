@@ -3,7 +3,7 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { KIND_WORDS, kindsWords, PLACED_KINDS } from '../../model/kinds';
 import { doing, hasGoal, startPose, type Agent, type AgentType, type Others } from '../../model/scene';
-import { num, seconds, speedLabel } from '../../model/units';
+import { metres, seconds, speedLabel } from '../../model/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
 import { closestOf, gapNow } from '../../model/closest';
@@ -283,7 +283,7 @@ function ClosestLine({ those }: { those: Live }) {
       }}
     >
       <span class="grow">
-        {gap > 0.005 ? TEXTS.andM(a.name, b.name, num(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name)}
+        {gap > 0.005 ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name)}
       </span>
       <span class="mut">{TEXTS.at(seconds(time))}</span>
     </button>
@@ -312,7 +312,7 @@ function Who({ those }: { those: Live }) {
     <section class="sect last">
       <h3>
         {TEXTS.who}
-        <small>{gap === null ? '' : TEXTS.smallestGapM(num(gap, 1))}</small>
+        <small>{gap === null ? '' : TEXTS.smallestGap(metres(gap, 1))}</small>
       </h3>
       <ClosestLine those={those} />
       {shown.map((a) => {

@@ -4,7 +4,21 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
 import { startPose, type Agent } from '../../model/scene';
-import { fromUnit, num, readTyped, sizeText, speedText, toUnit, type Quantity } from '../../model/units';
+import {
+  fromLength,
+  fromUnit,
+  lengthRange,
+  lengthStep,
+  lengthUnit,
+  lengthUnitWord,
+  num,
+  readTyped,
+  sizeText,
+  speedText,
+  toLength,
+  toUnit,
+  type Quantity,
+} from '../../model/units';
 import type { Command } from '../../model/commands';
 import type { Editor } from '../../edit/editor';
 import { goalTime } from '../../edit/moves';
@@ -67,16 +81,27 @@ function sizeField(name: 'length' | 'width'): Shared {
   const word = name === 'length' ? TEXTS.length : TEXTS.width;
   return {
     word,
-    label: TEXTS.ofAllInMetres(word),
+    get label() {
+      return TEXTS.ofAllIn(word, lengthUnitWord());
+    },
     field: `all-${name}`,
-    step: 0.1,
-    unit: () => 'm',
+    get step() {
+      return lengthStep(0.1);
+    },
+    unit: lengthUnit,
     quantity: () => 'length',
-    of: (a) => a[name],
-    text: sizeText,
-    range: (all) => inAll(all, (a) => rangesOf(a)[`${name}_m`]),
+    of: (a) => toLength(a[name]),
+    text: (v) => sizeText(fromLength(v)),
+    range: (all) => lengthRange(inAll(all, (a) => rangesOf(a)[`${name}_m`])),
     command: (all, to, fold) =>
-      several.setAll(all, 'start', name, (a) => clamp(to(a[name]), ...rangesOf(a)[`${name}_m`]), word, fold),
+      several.setAll(
+        all,
+        'start',
+        name,
+        (a) => clamp(fromLength(to(toLength(a[name]))), ...rangesOf(a)[`${name}_m`]),
+        word,
+        fold,
+      ),
   };
 }
 

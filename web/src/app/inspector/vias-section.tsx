@@ -1,7 +1,7 @@
 // Places on the way: each with where it is, how near it is passed, and when.
 import { useComputed } from '@preact/signals';
 import type { Vec } from '../../model/geometry';
-import { metres, num, seconds } from '../../model/units';
+import { lengthText, lengthUnit, lengthUnitWord, metres, num, seconds } from '../../model/units';
 import { passed, VIA_TOLERANCE } from '../../model/via';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/via-times';
@@ -79,8 +79,8 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
     <NumberField
       label={TEXTS.inMetres(name, axis ? 'y' : 'x')}
       letter={axis ? 'y' : 'x'}
-      unit={() => ''}
-      quantity={() => 'length'}
+      unit={() => (lengthUnit() === 'ft' ? 'm' : '')}
+      quantity={() => 'place'}
       step={0.1}
       value={() => via()?.pos[axis] ?? null}
       text={() => num(via()?.pos[axis] ?? 0, 1)}
@@ -115,13 +115,13 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
         <span class="lab">{TEXTS.within}</span>
         <div class="fs">
           <NumberField
-            label={TEXTS.toleranceInMetres(name)}
+            label={TEXTS.toleranceIn(name, lengthUnitWord())}
             letter="±"
-            unit={() => 'm'}
+            unit={lengthUnit}
             quantity={() => 'length'}
             step={0.1}
             value={() => via()?.tolerance ?? null}
-            text={() => num(via()?.tolerance ?? 0, 1)}
+            text={() => lengthText(via()?.tolerance ?? 0, 1)}
             range={() => VIA_TOLERANCE}
             field={`via-${i}-tolerance`}
             live={live('ring')}

@@ -2,7 +2,7 @@
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/layouts';
-import { num, type Quantity } from '../../model/units';
+import { fromUnit, lengthUnit, num, retold, speedText, toLength, toUnit } from '../../model/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
 import { useApp } from '../parts/app-context';
@@ -18,11 +18,10 @@ interface Line {
   readonly label: string;
   readonly unit: string;
   readonly step: number;
-  readonly quantity?: Quantity;
 }
 const LINES: Readonly<Record<string, Line>> = {
   length_m: { label: TEXTS.length, unit: 'm', step: 10 },
-  bend_deg: { label: TEXTS.bend, unit: '°', step: 5, quantity: 'angle' },
+  bend_deg: { label: TEXTS.bend, unit: '°', step: 5 },
   radius_m: { label: TEXTS.radius, unit: 'm', step: 5 },
   lanes: { label: TEXTS.lanes, unit: '', step: 1 },
   lanes_forward: { label: TEXTS.lanesForward, unit: '', step: 1 },
@@ -32,7 +31,7 @@ const LINES: Readonly<Record<string, Line>> = {
   ring_lane_width_m: { label: TEXTS.ringLaneWidth, unit: 'm', step: 0.25 },
   ring_speed_limit_kmh: { label: TEXTS.ringSpeedLimit, unit: 'km/h', step: 5 },
   parallel_m: { label: TEXTS.beside, unit: 'm', step: 10 },
-  ramp_angle_deg: { label: TEXTS.rampAngle, unit: '°', step: 1, quantity: 'angle' },
+  ramp_angle_deg: { label: TEXTS.rampAngle, unit: '°', step: 1 },
   ramp_speed_limit_kmh: { label: TEXTS.rampSpeedLimit, unit: 'km/h', step: 10 },
   aisles: { label: TEXTS.aisles, unit: '', step: 1 },
   bays: { label: TEXTS.baysOnASide, unit: '', step: 1 },
@@ -108,21 +107,41 @@ interface NumberRowProps {
 }
 
 function NumberRow({ place, name, value, set }: NumberRowProps) {
-  const { layouts } = useApp().editor;
-  const { label, unit, step, quantity = 'length' } = LINES[name];
+  const { layouts, speedUnit } = useApp().editor;
+  const { label, unit, step } = LINES[name];
   const template = layouts.wish.value!.template;
   const whole = Number.isInteger(step) && !unit;
   const digits = whole ? 0 : step < 1 ? 2 : 0;
+  if (unit === 'km/h')
+    return (
+      <Row label={label}>
+        <NumberField
+          label={label}
+          field={`layout-${place}`}
+          unit={() => speedUnit.value}
+          quantity={() => speedUnit.value}
+          step={speedUnit.value === 'km/h' ? step : 5}
+          value={() => toUnit(value() / 3.6, speedUnit.value)}
+          text={() => speedText(value() / 3.6, speedUnit.value)}
+          set={(v) => set(Number((fromUnit(v, speedUnit.peek()) * 3.6).toFixed(6)))}
+          range={() => {
+            const [min, max] = rangeOf(template, place);
+            return [toUnit(min / 3.6, speedUnit.value), toUnit(max / 3.6, speedUnit.value)];
+          }}
+        />
+      </Row>
+    );
+  const told = unit === 'm' ? toLength : (v: number) => v;
   return (
     <Row label={label}>
       <NumberField
         label={label}
         field={`layout-${place}`}
-        unit={() => unit}
-        quantity={() => quantity}
+        unit={() => (unit === 'm' ? lengthUnit() : unit)}
+        quantity={() => (unit === 'm' ? 'length' : unit ? 'angle' : 'count')}
         step={step}
         value={value}
-        text={() => num(value(), Number.isInteger(value()) ? 0 : digits || 1)}
+        text={() => num(told(value()), Number.isInteger(told(value())) ? 0 : lengthUnit() === 'm' ? digits || 1 : 1)}
         set={(v) => set(whole ? Math.round(v) : v)}
         range={() => rangeOf(template, place)}
       />
@@ -462,9 +481,9 @@ function Checks() {
     <section class="sect last" aria-label={TEXTS.checks}>
       <h3>{TEXTS.checks}</h3>
       <ul class="checks">
-        {fault ? <li class="bad">{fault}</li> : null}
+        {fault ? <li class="bad">{retold(fault)}</li> : null}
         {made?.checks.map((c) => (
-          <li key={c.text} class={c.passed ? 'ok' : 'bad'}>
+          <li key={retold(c.text)} class={c.passed ? 'ok' : 'bad'}>
             {c.at_m ? (
               <button
                 type="button"
@@ -473,10 +492,10 @@ function Checks() {
                   stage.glide.by((v) => Object.assign(v, { cx: x, cy: y }));
                 }}
               >
-                <b>{failed.indexOf(c) + 1}</b> {c.text}
+                <b>{failed.indexOf(c) + 1}</b> {retold(c.text)}
               </button>
             ) : (
-              c.text
+              retold(c.text)
             )}
           </li>
         ))}

@@ -4,7 +4,17 @@ import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
 import { useApp } from './app-context';
-import { num, parseTyped, readTyped, type Quantity } from '../../model/units';
+import {
+  fromLength,
+  lengthRange,
+  lengthStep,
+  lengthUnit,
+  num,
+  parseTyped,
+  readTyped,
+  toLength,
+  type Quantity,
+} from '../../model/units';
 import { TEXTS } from '../../texts/number-field';
 
 export interface NumberFieldProps {
@@ -12,6 +22,7 @@ export interface NumberFieldProps {
   /** Stands before the number and is dragged to change it. */
   letter?: string;
   unit: () => string;
+  /** Of a `length` all numbers here are metres, whatever unit is shown. */
   quantity: () => Quantity;
   step: number;
   /** Value in the shown unit; null when there is nothing to show. */
@@ -39,7 +50,23 @@ export const WHY_MS = 4000;
 /** Sums of steps are kept free of binary dust. */
 const clean = (v: number): number => Number(v.toFixed(6));
 
-export function NumberField(p: NumberFieldProps) {
+/** Who uses a field for a length gives and gets metres; who reads it sees the unit that lengths are told in. */
+function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
+  if (p.quantity() !== 'length' || lengthUnit() === 'm') return p;
+  return {
+    ...p,
+    step: lengthStep(p.step),
+    value: () => {
+      const m = p.value();
+      return m === null ? null : toLength(m);
+    },
+    set: (v, live) => p.set(fromLength(v), live),
+    range: p.range && (() => lengthRange(p.range!())),
+  };
+}
+
+export function NumberField(props: NumberFieldProps) {
+  const p = inUnitOfLengths(props);
   const { form } = useApp();
   const input = useRef<HTMLInputElement>(null);
   /** Something is typed that has not been taken over. */

@@ -2,6 +2,7 @@
 import type { Vec } from '../../model/geometry';
 import { KIND_WORDS, countWords, type PlacedKind } from '../../model/kinds';
 import type { Newcomer } from '../../model/newcomer';
+import { metres } from '../../model/units';
 import { alongLine, ghostsFor, overArea, snapNewcomer } from '../placing';
 import { freeShift, inTheWay, standing } from '../room';
 import type { Editor } from '../editor';
@@ -47,7 +48,7 @@ export function placeGhost(editor: Editor): void {
   const free = furtherOn(editor, ghost.who);
   const { x, y } = ghost.who.pose;
   const far = free && Math.hypot(free.pose.x - x, free.pose.y - y);
-  const where = far ? TEXTS.orMFurtherOn(far.toFixed(1)) : '';
+  const where = far ? TEXTS.orFurtherOn(metres(far, 1)) : '';
   editor.notices.show(
     {
       text: TEXTS.standsHerePut(there?.agent.name ?? TEXTS.somebody, where),

@@ -6,6 +6,7 @@ import type { View } from '../../draw/view';
 import type { Editor, Grip } from '../editor';
 import { laneWords, snapToLane } from '../snap';
 import { moveVia, widenVia } from '../vias';
+import { inHalves } from '../../model/units';
 import type { Modifiers } from './chart';
 import type { Move } from './dragging-handle';
 import type { Press } from './pressed';
@@ -38,7 +39,9 @@ export class ViaMove implements Move {
     if (this.grip.handle === 'ring') {
       const away = ([px, py]: Vec): number => Math.hypot(px - this.#from[0], py - this.#from[1]);
       const metres = this.agent.goal.via[this.#index].tolerance + away([x, y]) - away(this.#grab);
-      return widenVia(this.agent, this.#index, mods.shift ? Math.round(metres * 2) / 2 : metres)!;
+      // As a hand goes: to half a decimetre, or to what is a step to who reads it.
+      const held = Math.round(metres * 20) / 20;
+      return widenVia(this.agent, this.#index, mods.shift ? inHalves(metres) : held)!;
     }
     const wanted: Vec = [this.#from[0] + x - this.#grab[0], this.#from[1] + y - this.#grab[1]];
     return moveVia(this.agent, this.#index, this.#snapped(wanted, mods))!;

@@ -1,0 +1,77 @@
+// On which side one drives: worked out from the lanes, or said by what the map was made from.
+import { describe, expect, it } from 'vitest';
+import type { MapJson, Point, SceneJson } from '../src/model/json';
+import { drivingSide } from '../src/model/driving-side';
+import { readScene } from '../src/model/read';
+import { overArea } from '../src/edit/placing';
+import { PRESETS } from '../src/model/kinds';
+import { Layouts } from '../src/edit/layouts';
+import { crossing, crossingJson } from './helpers';
+
+/** All lanes of a scene on the other side of the x axis: who drove on the right drives on the left. */
+function mirrored(json: SceneJson): SceneJson {
+  const over = ([x, y, ...z]: Point): Point => [x, -y, ...z] as unknown as Point;
+  const map = json.map as MapJson;
+  return {
+    ...json,
+    map: {
+      ...map,
+      lanes: map.lanes!.map((l) => ({ ...l, points_m: l.points_m.map(over) })),
+      crosswalks: map.crosswalks?.map((a) => ({ ...a, polygon_m: a.polygon_m.map(over) })),
+    },
+  };
+}
+const leftHand = () => readScene(mirrored(crossingJson())).map;
+
+describe('the side of the road', () => {
+  it('is where the lanes of the other direction are not', () => {
+    expect(drivingSide(crossing().map)).toBe('right-hand');
+    expect(drivingSide(leftHand())).toBe('left-hand');
+  });
+
+  it('is not known of a map with one direction alone, or where as much speaks for both', () => {
+    const one = crossingJson();
+    const map = one.map as MapJson;
+    map.lanes = map.lanes!.filter((l) => l.id.startsWith('in'));
+    expect(drivingSide(readScene(one).map)).toBeNull();
+    const both = crossingJson();
+    const far = mirrored(crossingJson()).map as MapJson;
+    const away = (p: Point): Point => [p[0] + 1000, ...p.slice(1)] as unknown as Point;
+    (both.map as MapJson).lanes!.push(
+      ...far.lanes!.map((l) => ({
+        ...l,
+        id: `far ${l.id}`,
+        points_m: l.points_m.map(away),
+        predecessors: [],
+        successors: [],
+      })),
+    );
+    expect(drivingSide(readScene(both).map)).toBeNull();
+  });
+
+  it('is the one that a map was made with, whatever its lanes say', () => {
+    const { map } = crossing();
+    expect(drivingSide(map, { template: 'merge', parameters: { traffic: 'left-hand' } })).toBe('left-hand');
+    expect(drivingSide(map, { template: 'merge', parameters: { traffic: 'both' } })).toBe('right-hand');
+    expect(drivingSide(map, null)).toBe('right-hand');
+  });
+});
+
+describe('what follows the side', () => {
+  it('people on foot in an area keep to it', () => {
+    const right = crossing();
+    const left = { ...right, map: leftHand() };
+    const choice = { kind: 'pedestrian', size: PRESETS.pedestrian[0], spread: 'area', count: 12 } as const;
+    // Off the road all face along x or against it.
+    const sides = (scene: typeof right) =>
+      overArea(scene, choice, [40, 40], [60, 60], 10).map((n) => Math.sign((n.pose.y - 50) * Math.cos(n.pose.heading)));
+    expect(new Set(sides(right))).toEqual(new Set([-1]));
+    expect(new Set(sides(left))).toEqual(new Set([1]));
+  });
+
+  it('a new map has it until another one is chosen by hand', () => {
+    const layouts = new Layouts();
+    layouts.choose('four-arms', 'left-hand');
+    expect(layouts.wish.value).toEqual({ template: 'four-arms', parameters: null, traffic: 'left-hand' });
+  });
+});
