@@ -246,8 +246,10 @@ struct Drawing<'a, F> {
 
 impl<F: FnMut() -> String> Drawing<'_, F> {
     fn area(&mut self, polygon: Vec<Vec2>, holes: Vec<Vec<Vec2>>) {
+        let polygon = fitting(polygon);
         if polygon.len() > 2 {
-            let holes = holes.into_iter().filter(|hole| hole.len() > 2).map(Into::into).collect();
+            let holes =
+                holes.into_iter().map(fitting).filter(|hole| hole.len() > 2).map(Into::into).collect();
             self.map.drivable.push(Area { id: (self.id)(), polygon: polygon.into(), holes });
         }
     }
@@ -302,6 +304,21 @@ impl<F: FnMut() -> String> Drawing<'_, F> {
     }
 }
 
+/// A ring of no more points than a map may have in one: what is too fine is drawn as finely as it may be.
+fn fitting(ring: Vec<Vec2>) -> Vec<Vec2> {
+    let mut kept = ring;
+    let mut off_m = KEPT_M.0;
+    while kept.len() > MAX_POLYLINE_POINTS {
+        let before = kept.len();
+        off_m *= 2.0;
+        kept = simplify(&kept, off_m, f64::INFINITY);
+        if kept.len() == before {
+            kept = kept.iter().copied().step_by(2).collect();
+        }
+    }
+    kept
+}
+
 fn pieces_of(contour: &[(Vec2, Label)]) -> impl Iterator<Item = ((Vec2, Vec2), Label)> + '_ {
     (0..contour.len()).map(|i| ((contour[i].0, contour[(i + 1) % contour.len()].0), contour[i].1))
 }
@@ -347,6 +364,19 @@ mod tests {
 
     fn length(map: &LaneMap) -> f64 {
         map.road_edges.iter().map(|edge| crate::polyline::length(&edge.points.xy)).sum()
+    }
+
+    #[test]
+    fn rings_have_no_more_points_than_a_map_may_have() {
+        let jagged = |count: usize, deep_m: f64| -> Vec<Vec2> {
+            (0..count).map(|i| Vec2::new(i as f64, if i % 2 == 0 { 0.0 } else { deep_m })).collect()
+        };
+        for (count, deep_m) in [(4_097, 0.03), (10_000, 5.0), (20_000, 1e6)] {
+            let ring = fitting(jagged(count, deep_m));
+            assert!((3..=MAX_POLYLINE_POINTS).contains(&ring.len()), "{}", ring.len());
+        }
+        let small = jagged(4_096, 0.0);
+        assert_eq!(fitting(small.clone()), small, "one that fits stays as it is");
     }
 
     #[test]
