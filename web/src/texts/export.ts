@@ -44,6 +44,4 @@ export const TEXTS = table('export', {
   theOriginIsThat: 'The origin is that of the scene.',
   theRecording: 'the recording',
   theOriginLies: (x_m: number, y_m: number, crs: string) => `The origin lies at ${x_m}, ${y_m} m of ${crs}.`,
-  videoWebmCodecs: 'video/webm;codecs=vp9',
-  videoWebmCodecsVp8: 'video/webm;codecs=vp8',
 });

@@ -1,16 +1,9 @@
 import { table } from './table';
 
 export const TEXTS = table('gestures', {
-  turningAnArm: 'turning an arm',
-  bendingAKerb: 'bending a kerb',
   makeAMap: 'Make a map',
   roadUser: 'road user',
-  draggingCopies: 'dragging copies',
   copyOf: (whoWords: string) => `Copy of ${whoWords}`,
-  draggingHandle: 'dragging handle',
-  draggingSeveral: 'dragging several',
-  draggingStop: 'dragging stop',
-  movingACorner: 'moving a corner',
   fillAnArea: 'Fill an area',
   goalHeading: 'Goal heading',
   heading: 'Heading',
@@ -33,5 +26,4 @@ export const TEXTS = table('gestures', {
   placeA: (kind_name: string) => `Place a ${kind_name}`,
   selectAndDrag: 'Select and drag',
   selected: (kindsWords: string) => `${kindsWords} selected.`,
-  turningByFingers: 'turning by fingers',
 });

@@ -93,3 +93,6 @@ export function speak(name: LanguageName): void {
   }
   location.reload();
 }
+
+/** Places that say themselves where they are: `off the lanes`, `in the crossing`. */
+export const SAYS_WHERE = /^(on|off|inside|beside|in) /;

@@ -1,3 +1,4 @@
+import { SAYS_WHERE } from './language';
 import { table } from './table';
 
 export const TEXTS = table('picture', {
@@ -20,7 +21,7 @@ export const TEXTS = table('picture', {
   holdToPass: 'Hold to pass',
   altPasses: 'Alt passes',
   /** `on northbound lane`; some places say it themselves: `off the lanes`. */
-  on: (place: string) => (/^(on|off|inside|beside|in) /.test(place) ? place : `on ${place}`),
+  on: (place: string) => (SAYS_WHERE.test(place) ? place : `on ${place}`),
   atAlongTheWay: (time: string, along: string) => `at ${time} · ${along} along the way`,
   somebodyStands: 'Somebody stands here',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,

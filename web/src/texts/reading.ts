@@ -1,7 +1,6 @@
 import { table } from './table';
 
 export const TEXTS = table('reading', {
-  dragtrafficRoad: 'dragtraffic road users',
   aColumnIsBroken: 'a column is broken',
   thisIsNotAScene: 'This is not a scene: it has no list of road users.',
   thisSceneWas: (version: undefined | number) =>

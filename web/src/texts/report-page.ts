@@ -29,7 +29,6 @@ export const TEXTS = table('report-page', {
   endsAt: (unit: string) => `Ends at, ${unit}`,
   unitsAndAxes: 'Units and axes',
   axesInMetres: 'Metres and seconds; x east, y north; headings from the x axis, to the left. 0 s is the first step.',
-  axesInFeet: 'Feet and seconds; x east, y north; headings from the x axis, to the left. 0 s is the first step.',
   nothingJudged: 'Nothing that is judged.',
   inTheLog: 'in the log',
   when: 'When',

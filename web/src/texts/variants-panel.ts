@@ -67,7 +67,6 @@ export const TEXTS = table('variants-panel', {
   seedDiversity: (seed: number, diversity: number) => `seed ${seed}, diversity ${diversity}%`,
   waysOfFrom: (who: string, from: string) => `ways of ${who}, from ${from}`,
   everybodyAnew: (from: string) => `everybody anew, from ${from}`,
-  ofWaiting: (done: number, ofIt: number) => `${done} of ${ofIt}, waiting`,
   of: (done: number, ofIt: number) => `${done} of ${ofIt}`,
   goOn: 'Go on',
   pause: 'Pause',

@@ -25,6 +25,7 @@ import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
 import { TEXTS } from '../../texts/agent';
+import { SAYS_WHERE } from '../../texts/language';
 
 /** Places lie within this many metres of the middle of the scene. */
 const FAR_M = 10_000;
@@ -104,7 +105,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
 }
 
 /** The words for a lane begin with their own preposition where "on" does not fit. */
-const onLane = (name: string): string => (/^(off|on|inside|beside|in)\b/.test(name) ? name : TEXTS.on(name));
+const onLane = (name: string): string => (SAYS_WHERE.test(name) ? name : TEXTS.on(name));
 
 interface RowProps {
   label: string;
