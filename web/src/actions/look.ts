@@ -10,6 +10,7 @@ import { lanesFor } from '../edit/snap';
 import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
 import type { Context } from './context';
+import { turning } from './turning';
 import { TEXTS } from '../texts/actions';
 
 /** Metres of road shown around the selected road user and its goal, and the closest that "zoom to" goes. */
@@ -255,6 +256,7 @@ export const look = inGroup('look', [
     help: 'aThirdFurther',
     run: (c) => zoom(c, 1 / 1.33),
   },
+  ...turning,
   {
     id: 'follow',
     label: TEXTS.keepInView,

@@ -64,6 +64,10 @@ export const HELPS = table('helps', {
   theSelectedRoad: 'The selected road users and their goals',
   aThirdCloser: 'A third closer',
   aThirdFurther: 'A third further',
+  theSelectedDrives:
+    'Whoever is selected drives up the picture; with nobody selected the road at the pointer lies level or upright',
+  turnsThePicture: 'Turns the picture back; the compass, while it is there, does the same',
+  by15DegreesAbout: 'By 15°, about the middle',
   thePicture: 'The picture follows the selected road user in playback',
   whereTheOthers: 'Where the others would wait, shown or hidden while a handle is dragged',
   whereEverybody: 'Where everybody may go',

@@ -18,8 +18,8 @@ export function followView(stage: Stage): void {
       tick.value++;
       moving.value = stage.glide.going;
       // Lets scripts that drive the page find world points on the screen.
-      const { cx, cy, z } = stage.view;
-      stage.element.dataset.view = [cx, cy, z].map((v) => v.toFixed(4)).join(' ');
+      const { cx, cy, z, turn } = stage.view.camera;
+      stage.element.dataset.view = [cx, cy, z, turn].map((v) => v.toFixed(4)).join(' ');
     });
   });
 }
