@@ -1,6 +1,8 @@
 // The picture turned: along a road, by steps, and north up again.
 import { nearestLanes } from '../model/lanemap';
-import { rad, type OnLine } from '../model/geometry';
+import { rad, type OnLine, type Vec } from '../model/geometry';
+import { startPose } from '../model/scene';
+import type { Editor } from '../edit/editor';
 import { poseShown } from '../edit/frame';
 import { lanesFor } from '../edit/snap';
 import { hasScene, type Action } from './action';
@@ -11,11 +13,29 @@ const STEP_RAD = rad(15);
 const QUARTER_RAD = rad(90);
 /** Somebody drives on a lane within so many metres. */
 const ON_ROAD_M = 4;
+/** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */
+const EDGE_PX = 40;
 /** A road is looked for as far as this from the pointer, metres. */
 const NEAR_M = 60;
+/** Metres of road shown around the selected road users and their goals. */
+export const AROUND_M = 18;
 
 function stepBy(c: Context, angle: number): void {
   c.stage.glide.by((v) => v.turnTo(v.turn + angle));
+}
+
+/** Where the selected ones start, and where they go. */
+export function placesOfSelected(e: Editor): Vec[] {
+  return e.chosenOnes.flatMap((a): Vec[] => {
+    const p = startPose(a);
+    const goal = p && (e.goalPose(a) ?? p);
+    return goal
+      ? [
+          [p.x, p.y],
+          [goal.x, goal.y],
+        ]
+      : [];
+  });
 }
 
 /** Where the selected one is, or the first of several, and where its road leads there. */
@@ -48,14 +68,13 @@ function alignWithRoad(c: Context): void {
     editor.notices.show({ text: TEXTS.noRoadIsNear });
     return;
   }
+  const places = placesOfSelected(editor);
   stage.glide.by((v) => {
     const now = way.heading + v.turn;
-    const seen = v.shows(way.x, way.y);
     const turn = (mine ? QUARTER_RAD : Math.round(now / QUARTER_RAD) * QUARTER_RAD) - way.heading;
-    // What it is turned for stays where it is.
-    if (seen) v.turnAt(...v.to(way.x, way.y), turn);
-    else v.turnTo(turn);
-    if (!seen) v.centre(way.x, way.y);
+    // What it is turned for stays where it is, unless its way leads out of the picture.
+    v.turnAt(...v.to(way.x, way.y), turn);
+    if (mine && !places.every(([x, y]) => v.bares(x, y, EDGE_PX))) v.fitPlaces(places, AROUND_M, v.z);
   });
 }
 

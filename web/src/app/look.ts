@@ -3,7 +3,7 @@
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
-import { boxOf, wrapAngle, type Vec } from '../model/geometry';
+import { wrapAngle, type Vec } from '../model/geometry';
 import type { Camera, HistoryStep } from '../model/history';
 import { poseShown } from '../edit/frame';
 import { endPose, poseAt } from '../model/motion';
@@ -142,17 +142,11 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const alone = ids.length === 1 ? scene?.agents.get(ids[0]) : undefined;
   const end = alone && endShown(editor, alone);
   const v = stage.view;
-  const { left, right, top, bottom } = v.inset;
-  const seen = (p: { x: number; y: number }): boolean => {
-    const [x, y] = v.to(p.x, p.y);
-    return x > left + EDGE_PX && x < v.w - right - EDGE_PX && y > top + EDGE_PX && y < v.h - bottom - EDGE_PX;
-  };
+  const seen = (p: { x: number; y: number }): boolean => v.bares(p.x, p.y, EDGE_PX);
   if (!ps.length || (ps.every(seen) && (!end || seen({ x: end[0], y: end[1] })))) return;
   const all = ps.map((p): Vec => [p.x, p.y]);
-  const b = boxOf(end ? [...all, end] : all);
-  const around = { x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M };
   const to = v.copy();
-  to.fit(around, v.z);
+  to.fitPlaces(end ? [...all, end] : all, AROUND_M, v.z);
   // Where the end is too far off to be seen with it one stays near.
   if (!alone || to.z >= v.z * FURTHER) v.look(to.camera);
   else if (!ps.every(seen)) v.centre(ps[0].x, ps[0].y);

@@ -207,11 +207,8 @@ const CHIP_TRIES: readonly Offset[] = [
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
 function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
-  const { left, right, top, bottom } = v.inset;
-  for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--) {
-    const [x, y] = v.to(m.x[i], m.y[i]);
-    if (x > left && x < v.w - right && y > top && y < v.h - bottom) return [x, y];
-  }
+  for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--)
+    if (v.bares(m.x[i], m.y[i])) return v.to(m.x[i], m.y[i]);
   return null;
 }
 

@@ -127,6 +127,14 @@ export class View {
     return x > -margin && x < this.w + margin && y > -margin && y < this.h + margin;
   }
 
+  /** Is a world point in the part that no panel covers, so many pixels away from its edge? */
+  bares(wx: number, wy: number, edge = 0): boolean {
+    const { left, right, top, bottom } = this.inset;
+    const x = this.x(wx, wy),
+      y = this.y(wx, wy);
+    return x > left + edge && x < this.w - right - edge && y > top + edge && y < this.h - bottom - edge;
+  }
+
   panBy(dx: number, dy: number): void {
     const [x, y] = this.way(dx, dy);
     this.cx -= x;
@@ -167,12 +175,18 @@ export class View {
   }
 
   fit(b: Box, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
+    this.fitPlaces(corners(b), 0, maxZoom, minZoom);
+  }
+  /** Puts places, and so many metres around them, into the visible part. */
+  fitPlaces(places: readonly Vec[], around: number, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
     const { left, right, top, bottom } = this.inset;
     const w = Math.max(80, this.w - left - right),
       h = Math.max(80, this.h - top - bottom);
-    const { x0, x1, y0, y1 } = boxOf(corners(b).map(([x, y]) => this.across(x, y)));
-    this.z = clamp(Math.min(w / Math.max(1, x1 - x0), h / Math.max(1, y1 - y0)), minZoom, maxZoom);
-    this.centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2);
+    const { x0, x1, y0, y1 } = boxOf(places.map(([x, y]) => this.across(x, y)));
+    const wide = Math.max(1, x1 - x0 + 2 * around),
+      high = Math.max(1, y1 - y0 + 2 * around);
+    this.z = clamp(Math.min(w / wide, h / high), minZoom, maxZoom);
+    this.centre(...this.along((x0 + x1) / 2, (y0 + y1) / 2));
   }
 
   /** Puts a world point into the middle of the visible part. */
