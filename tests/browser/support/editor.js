@@ -182,7 +182,7 @@ export class Editor {
   // -------------------------------------------------------------- where things are
 
   async view() {
-    const [cx, cy, zoom, turn] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
+    const [cx, cy, zoom, turn = 0] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
     return { cx, cy, zoom, turn, box: await this.page.locator('main.stage').boundingBox() };
   }
 

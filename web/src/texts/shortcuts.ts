@@ -34,7 +34,7 @@ export const TEXTS = table('shortcuts', {
   chooseACard: 'Choose a card',
   cardBeforeAfter: 'Card before, after',
   zoomInOut: 'Zoom in, out',
-  turnThePicture: 'Turn the picture 15°',
+  turnThePicture: 'Turn picture 15°',
   panZoomTurn: 'Pan, zoom, turn the picture',
   twoFingers: 'two fingers',
   shortcuts: 'Shortcuts',
