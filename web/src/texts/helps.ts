@@ -65,9 +65,9 @@ export const HELPS = table('helps', {
   aThirdCloser: 'A third closer',
   aThirdFurther: 'A third further',
   theSelectedDrives:
-    'Whoever is selected drives up the picture; with nobody selected the road at the pointer lies level or upright',
-  turnsThePicture: 'Turns the picture back; the compass, while it is there, does the same',
-  by15DegreesAbout: 'By 15°, about the middle',
+    'Rotates the picture: whoever is selected drives up; with nobody selected the road at the pointer lies level or upright',
+  turnsThePicture: 'Rotates the picture back, as the compass does while it is there',
+  by15DegreesAbout: 'Rotates it by 15° about its middle',
   thePicture: 'The picture follows the selected road user in playback',
   whereTheOthers: 'Where the others would wait, shown or hidden while a handle is dragged',
   whereEverybody: 'Where everybody may go',
