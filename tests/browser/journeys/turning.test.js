@@ -64,8 +64,19 @@ journeys('turning', (stage) => {
     // Undo looks where the step was done.
     await e.key('Control+z');
     await e.settled();
-    assert.equal(await e.page.getByRole('switch', { name: 'Goal position fixed' }).getAttribute('aria-checked'), 'false');
+    assert.equal(
+      await e.page.getByRole('switch', { name: 'Goal position fixed' }).getAttribute('aria-checked'),
+      'false',
+    );
 
+    // The compass turns it freely, and back.
+    const { turn: from } = await e.view();
+    const on = await e.page.locator('.compass').boundingBox();
+    const [mx, my] = [on.x + on.width / 2, on.y + on.height / 2];
+    await e.drag([mx + 12, my], [mx, my - 12], { moves: 4 });
+    await e.release();
+    const by = turn((await e.view()).turn, from);
+    assert.ok(Math.abs(by - Math.PI / 2) < 0.05, `turned by ${by}`);
     await e.page.locator('.compass [data-action="north-up"]').click();
     await e.settled();
     assert.equal((await e.view()).turn, 0);
