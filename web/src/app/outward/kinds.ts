@@ -1,4 +1,5 @@
 // What can go out: the server's formats, and what is made here of what is on screen.
+import { deg } from '../../model/geometry';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
@@ -97,8 +98,9 @@ export function ofScreen(c: Context): Kind[] {
       make: async () => {
         const pen = new SvgPen();
         stage.paintWith(pen, ['map', 'agents', 'overlay']);
-        const { w, h, z } = stage.view;
-        const about = TEXTS.pxAMetreXEast(z.toFixed(2));
+        const { w, h, z, turn } = stage.view;
+        const turned = turn ? TEXTS.turnedCounterClockwise(deg(turn).toFixed(1)) : '';
+        const about = TEXTS.pxAMetreXEast(z.toFixed(2)) + turned;
         const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
       },
