@@ -41,6 +41,26 @@ journeys('looking', (stage) => {
     assert.equal(await picture(e), still, 'beside it everything stands');
   });
 
+  it('leaves no trail of a flag that went far and came back', { timeout: 60_000 }, async () => {
+    const { e } = await selected(stage, { reducedMotion: 'reduce' });
+    await e.page.locator('.coach button').click();
+    await e.page.mouse.move(700, 120);
+    await leave(e);
+    await e.frames(4);
+    const before = await picture(e);
+    const { x, y } = await e.pose('Goal');
+    const [fx, fy] = await e.at(x, y);
+    await e.drag([fx, fy], [fx < 700 ? fx + 320 : fx - 320, fy < 400 ? fy + 180 : fy - 180], { moves: 16 });
+    assert.notEqual(await picture(e), before);
+    await e.page.keyboard.press('Escape');
+    await e.page.mouse.up();
+    await e.page.mouse.move(700, 120);
+    await leave(e);
+    await e.settled();
+    await e.frames(8);
+    assert.equal(await picture(e), before);
+  });
+
   it('shows where it ends, and nothing that moves, to those who like it calm', { timeout: 60_000 }, async () => {
     const { e } = await selected(stage, { reducedMotion: 'reduce' });
     const before = await picture(e);
