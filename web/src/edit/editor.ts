@@ -10,7 +10,7 @@ import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
-import { toldIn, type SpeedUnit } from '../model/units';
+import { type SpeedUnit, toldIn, walkingUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Filling } from './filling';
@@ -272,7 +272,7 @@ export class Editor {
   );
 
   unitOf(a: Agent): SpeedUnit {
-    return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value;
+    return a.type === 'pedestrian' ? walkingUnit(this.speedUnit.value) : this.speedUnit.value;
   }
 
   // -------------------------------------------------------------- the document

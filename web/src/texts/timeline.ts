@@ -30,6 +30,7 @@ export const TEXTS = table('timeline', {
   time: 'Time',
   playbackSpeed: 'Playback speed (Shift < >)',
   playbackSpeedTimes: (rate: number) => `Playback speed ${rate} times`,
+  and: ' and ',
   before: 'before',
   log: 'log',
 });

@@ -138,7 +138,7 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
         return [...read, ...(window as unknown as { painted: string[] }).painted.splice(0)];
       });
       for (const t of texts) if (/(?:^|\d )(?:ft|feet)\b/.test(t)) feet.add(t);
-      const bare = texts.filter((t) => /^ ?m$|\d ?m(?![\w/²])|km\/h/.test(t.replace('km/h, mph or m/s', '')));
+      const bare = texts.filter((t) => /^ ?m$|\d ?m(?!\w)|km\/h|m\/s/.test(t));
       if (bare.length) found[name] = bare;
     };
     await state('first view');

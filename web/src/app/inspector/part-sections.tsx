@@ -41,8 +41,8 @@ export function StartSection({ agent }: { agent: LiveAgent }) {
       <PoseRows agent={agent} part="start" />
       <TypeRow agent={agent} />
       <Row label={TEXTS.size}>
-        <SizeField agent={agent} name="length" letter="L" />
-        <SizeField agent={agent} name="width" letter="W" />
+        <SizeField agent={agent} name="length" />
+        <SizeField agent={agent} name="width" />
       </Row>
     </section>
   );
@@ -328,7 +328,7 @@ function TypeRow({ agent }: { agent: LiveAgent }) {
   );
 }
 
-function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' | 'width'; letter: string }) {
+function SizeField({ agent, name }: { agent: LiveAgent; name: 'length' | 'width' }) {
   const { editor } = useApp();
   const set = (v: number) => {
     const a = agent.peek();
@@ -336,8 +336,8 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
   };
   return (
     <NumberField
-      label={TEXTS.sizeIn(name, lengthUnitWord())}
-      letter={letter}
+      label={TEXTS.sizeIn(TEXTS.sizes[name], lengthUnitWord())}
+      letter={TEXTS.letters[name]}
       unit={lengthUnit}
       quantity={() => 'length'}
       step={0.1}
