@@ -1,4 +1,4 @@
-// Tables of texts: all have their German, which says the same values; how numbers are told, and who gets which language.
+// Tables of texts: all have their German, which says the same values; how numbers are told, and who gets what language.
 import { describe, expect, it } from 'vitest';
 import { german } from '../src/texts/german';
 import { inSentence, languageFor, LANGUAGE, plural } from '../src/texts/language';

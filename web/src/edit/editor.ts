@@ -322,11 +322,11 @@ export class Editor {
   }
 
   undo(): void {
-    this.#travel((h) => h.undo(), TEXTS.undone);
+    this.#travel((h) => h.undo(), 'back');
   }
 
   redo(): void {
-    this.#travel((h) => h.redo(), TEXTS.doneAgain);
+    this.#travel((h) => h.redo(), 'forth');
   }
 
   /** To any step of the history; null for how the scene was before the first. */
@@ -367,12 +367,13 @@ export class Editor {
     return lock !== null;
   }
 
-  #travel(move: (h: History) => HistoryStep | null, word: string): void {
+  #travel(move: (h: History) => HistoryStep | null, way: 'back' | 'forth'): void {
     const before = this.#history?.scene;
     const step = this.#history && !this.#refused() ? move(this.#history) : null;
     if (!step || !this.#history || !before) return;
     this.#committed(this.#history.scene, before, step.name, true);
-    this.onTravel?.(step, word === 'Undone' ? 'back' : 'forth');
+    this.onTravel?.(step, way);
+    const word = way === 'back' ? TEXTS.undone : TEXTS.doneAgain;
     this.notices.show({ text: `${word}: ${step.name}.` });
     this.notices.say(`${word}: ${step.name}.`);
   }

@@ -2,6 +2,7 @@ import { plural, table } from './table';
 
 export const TEXTS = table('generation', {
   generatorAway: 'Generator away. Nothing is lost.',
+  change: 'Change',
   undone: 'Undone',
   doneAgain: 'Done again',
   backToTheBeginning: 'Back to the beginning',

@@ -80,7 +80,7 @@ export const german: Said<typeof TEXTS> = {
   nothingThatCould: 'Nichts Überfahrbares ist im Weg.',
   generate: 'Berechnen',
   newSeed: 'Neuer Startwert',
-  resetToLog: 'Zurück zur Aufzeichnung',
+  resetToLog: 'Zurücksetzen',
   selected: (who: string) => `${who} ausgewählt.`,
   nobodyWhoIsSelected: 'Keiner der Ausgewählten steht auf einer Spur.',
   selectEverybody: 'Alle auswählen',

@@ -4,6 +4,7 @@ import type { Said } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   generatorAway: 'Generator weg. Nichts ist verloren.',
+  change: 'Änderung',
   undone: 'Rückgängig gemacht',
   doneAgain: 'Wiederholt',
   backToTheBeginning: 'Zurück am Anfang',

@@ -3,7 +3,7 @@ import type { Said } from '../table';
 
 export const german: Said<typeof KEYS> = {
   Ctrl: 'Strg',
-  Shift: 'Umschalt',
+  Shift: '⇧',
   Space: 'Leertaste',
   Home: 'Pos1',
   End: 'Ende',

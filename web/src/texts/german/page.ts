@@ -18,7 +18,7 @@ export const german: Said<typeof TEXTS> = {
   example: 'Beispiel',
   saved: 'Gesichert',
   saving: 'Sichert …',
-  savedOnThisComputer: 'Auf diesem Rechner gesichert',
+  savedOnThisComputer: 'Hier gesichert',
   changedElsewhere: 'Anderswo geändert',
   noRoomToSave: 'Kein Platz zum Sichern',
   notSaved: 'Nicht gesichert',

@@ -8,7 +8,7 @@ export const german: Said<typeof TEXTS> = {
   generate: 'Berechnen',
   howFarTheSix: 'Wie verschieden die sechs sein dürfen',
   react: 'Reagieren',
-  replayLog: 'Aufzeichnung',
+  replayLog: 'Wiedergabe',
   holdStill: 'Stehen',
   everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an.',
   theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde.',

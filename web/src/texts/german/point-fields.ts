@@ -9,7 +9,7 @@ export const german: Said<typeof TEXTS> = {
   cannotStopBy: (by, reached) => `Anhalten geht bis ${by} nicht: dann noch ${reached}.`,
   giveItSMore: (by) => `${by} s mehr geben`,
   shorterStopS: (hold) => `Kürzer halten, ${hold} s`,
-  leaveAt: (toIt) => `Bei ${toIt} lassen`,
+  leaveAt: (toIt) => `Mit ${toIt} weiter`,
   onlyDownTo: (toIt) => `Nur bis auf ${toIt}`,
   onlyUpTo: (toIt) => `Nur bis ${toIt}`,
   pointOfTheSpeed: 'Punkt der Tempokurve',

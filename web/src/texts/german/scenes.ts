@@ -16,7 +16,7 @@ export const german: Said<typeof TEXTS> = {
   examples: 'Beispiele',
   recorded: 'Aufgezeichnet',
   newName: 'Neuer Name',
-  roadUsers: (n: number) => `${n} Verkehrsteilnehmer`,
+  roadUsers: (n: number) => `${n} Teilnehmer`,
   nobodyYet: 'noch niemand',
   or: 'oder ',
   recorded2: 'aufgezeichnet',
