@@ -110,8 +110,8 @@ export const acceleration = (mps2: number, decimals = 1): string =>
   `${num(toLength(mps2), decimals)} ${accelerationUnit()}`;
 
 /**
- * A `length` is told in the unit of lengths, an `acceleration` too; a `place` is a coordinate of the scene and always in
- * metres.
+ * A `length` is told in the unit of lengths, an `acceleration` too; a `place` is a coordinate of the scene and always
+ * in metres.
  */
 export type Quantity = 'count' | 'length' | 'acceleration' | 'place' | 'angle' | 'time' | SpeedUnit;
 

@@ -23,6 +23,8 @@ export const TEXTS = table('agent', {
   partlyFree: 'partly free',
   freeTheGenerator: 'free: the generator decides',
   goal: 'Goal',
+  /** Before the name of a field, where nothing else says whose it is. */
+  ofTheGoal: 'Goal ',
   time: 'Time',
   timeAtTheGoal: 'Time at the goal in seconds',
   takeBack: (words: string) => `${words}: take back`,

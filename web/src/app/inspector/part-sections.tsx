@@ -64,7 +64,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   };
   const time = { value: () => agent.value.goal.time, step: 0.1, set: run, range: () => timeRange(editor.scene.value) };
   return (
-    <section class="sect goalsec" aria-label={TEXTS.goal}>
+    <section class="sect goalsec" aria-label={TEXTS.goal} style={`--whose: "${TEXTS.ofTheGoal}"`}>
       <h3>
         <span class="mk">
           <Icon name="flag" size={15} />

@@ -24,6 +24,7 @@ export const german: Said<typeof TEXTS> = {
   partlyFree: 'teils frei',
   freeTheGenerator: 'frei: der Generator entscheidet',
   goal: 'Ziel',
+  ofTheGoal: 'Ziel: ',
   time: 'Zeit',
   timeAtTheGoal: 'Zeit am Ziel in Sekunden',
   takeBack: (words: string) => `${words}: zurücknehmen`,

@@ -70,7 +70,7 @@ export const german: Said<typeof TEXTS> = {
   placing: (kind: string) => `Einsetzen: ${kind}`,
   ofSelected: (some: number, all: number) => `${some} von ${all} ausgewählt`,
   drawing: 'Zeichnet …',
-  lanesCrosswalks: (driven, count, ms) => `${driven} Spuren · ${count} Zebrastreifen · berechnet in ${ms} ms`,
+  lanesCrosswalks: (driven, count, ms) => `${driven} Spuren · ${count} Zebrastreifen · ${ms} ms`,
   ms: (ms) => `${ms} ms`,
   refining: (part: string, after: string) => `Verfeinert ${part} · ${after}`,
   refiningStep: (step: number, steps: number, after: string) => `Verfeinert, Schritt ${step} von ${steps} · ${after}`,
@@ -85,8 +85,7 @@ export const german: Said<typeof TEXTS> = {
   showingFutures: 'Zukünfte zum nächsten erreichbaren Punkt',
   six: 'Sechs',
   futures: (n: number | string) => `${n} Zukünfte`,
-  othersAdapted: (adapted) =>
-    plural(adapted, { one: `${adapted} anderer passte sich an`, other: `${adapted} andere passten sich an` }),
+  othersAdapted: (adapted) => plural(adapted, { one: `${adapted} reagiert`, other: `${adapted} reagieren` }),
   ready: 'Bereit',
   mapReadyLanes: (count) => `Karte bereit · ${count} Spuren`,
   readyRoadUsers: (n: number) => `Bereit · ${n} Verkehrsteilnehmer`,
