@@ -32,6 +32,9 @@ const THOUSANDS = /\B(?=(?:\d{3})+(?:\.|$))(?<!\.\d*)/g;
 const written = (text: string): string =>
   LANGUAGE === 'de' ? (/^\d{5}/.test(text) ? text.replace(THOUSANDS, '\u202f') : text).replace('.', ',') : text;
 
+/** A number with the decimals that it has: `0.25`, `4`. */
+export const figure = (value: number): string => written(String(value));
+
 /** Who reads miles an hour reads feet. Places in the scene stay metres, as its files have them. */
 const shown = signal<SpeedUnit>('km/h');
 /** What lengths and speeds are told in from now on; the unit, for who keeps the setting. */

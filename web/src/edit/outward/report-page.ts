@@ -22,7 +22,7 @@ export interface ReportOf {
 
 const text = (s: string): string => s.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
 const cell = (s: string): string => `<td>${text(s)}</td>`;
-const place = ([x, y]: Vec): string => `${num(x)}, ${num(y)}`;
+const place = ([x, y]: Vec): string => TEXTS.place(num(x), num(y));
 
 const STYLE = `
 body{font:14px/1.5 system-ui,sans-serif;color:#14181d;max-width:1000px;margin:32px auto;padding:0 16px}

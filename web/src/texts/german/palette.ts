@@ -17,5 +17,10 @@ export const german: Said<typeof TEXTS> = {
   choose: 'wählen',
   doIt: 'ausführen',
   typeANumberTo: 'Eine Nummer findet jemanden, eine Zeit wie 4,2 springt dorthin',
+  askedForNear: 'beinahe knapp nah',
+  askedForCollision: 'zusammensto unfall crash trifft',
+  askedForFirst: 'zuerst vor',
+  askedForBraking: 'brems',
+  askedForGoal: 'ziel ankunft',
   parked: 'parkt',
 };

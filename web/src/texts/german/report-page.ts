@@ -36,6 +36,7 @@ export const german: Said<typeof TEXTS> = {
   what: 'Was',
   where: (unit) => `Wo, ${unit}`,
   at: (place, time) => `${place} bei ${time}`,
+  place: (x, y) => `${x}; ${y}`,
   comesLater: 'kommt später',
   parked: 'parkt',
 };

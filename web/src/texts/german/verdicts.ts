@@ -57,7 +57,7 @@ export const german: Said<typeof TEXTS> = {
   runsARedLight: 'fährt bei Rot',
   goesTheWrong: 'fährt in falscher Richtung',
   goesOverTheMedian: 'fährt über den Mittelstreifen',
-  somebody: 'jemanden',
+  somebody: 'jemand',
   brakes: (extent) => `bremst mit ${extent}`,
   steers: (extent) => `lenkt mit ${extent}`,
   stop: 'halten',
