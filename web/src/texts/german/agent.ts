@@ -44,7 +44,7 @@ export const german: Said<typeof TEXTS> = {
   speed2: 'Tempo',
   speed3: (word: string) => `${word}, Tempo`,
   type: 'Art',
-  ownSize: (kind: string) => `${kind}, eigene Größe`,
+  ownSize: (kind) => `${kind}, eigene`,
   sizes: { length: 'Länge', width: 'Breite' },
   letters: { length: 'L', width: 'B' },
   sizeIn: (name, unit) => `${name} in ${unit}`,

@@ -19,7 +19,7 @@ export const german: Said<typeof TEXTS> = {
   roadUsers: (n: number) => `${n} Teilnehmer`,
   nobodyYet: 'noch niemand',
   or: 'oder ',
-  recorded2: 'aufgezeichnet',
+  recorded2: 'Aufnahme',
   example: 'Beispiel',
   own: 'eigene',
 };
