@@ -198,15 +198,19 @@ fn scoring_takes_given_motion() {
     assert_eq!(server.post("/v1/score", &stranger).unwrap().code(), "unknown-agent");
 }
 
-/// A form with parts of these names.
+/// A trial of a form with parts of these names.
 fn form(parts: &[(&str, &str)]) -> Request {
+    form_to("/v1/import?dry_run=true", parts)
+}
+
+fn form_to(target: &str, parts: &[(&str, &str)]) -> Request {
     let part = |(name, text): &(&str, &str)| {
         format!(
             "--cut\r\ncontent-disposition: form-data; name=\"{name}\"; filename=\"{name}.xml\"\r\n\r\n{text}\r\n"
         )
     };
     let body: String = parts.iter().map(part).collect();
-    let request = Request::new("POST", "/v1/import?dry_run=true");
+    let request = Request::new("POST", target);
     request.header("content-type", "multipart/form-data; boundary=cut").body(body + "--cut--\r\n")
 }
 
@@ -226,10 +230,59 @@ fn sumo_files_are_imported_with_their_network() {
     assert!(!scenes[0]["scene"]["map"]["lanes"].as_array().unwrap().is_empty());
     let wrong = server.send(&form(&[("net", &net), ("file", &net)])).unwrap();
     assert_eq!((wrong.status, wrong.code()), (422, "invalid-field".to_owned()));
-    // A second file is refused, not passed over.
-    let two = server.send(&form(&[("file", &net), ("file", &fcd)])).unwrap();
+    // A second network is refused, not passed over.
+    let two = server.send(&form(&[("net", &net), ("net", &net), ("file", &fcd)])).unwrap();
     assert_eq!((two.status, two.code()), (422, "invalid-field".to_owned()));
-    assert_eq!(two.json()["errors"][0]["pointer"], "/file");
+    assert_eq!(two.json()["errors"][0]["pointer"], "/net");
+}
+
+#[test]
+fn several_files_of_a_form_are_told_one_by_one() {
+    const BROKEN: &str = "{\"format\": \"dragtraffic.scene\",";
+    let server = Server::start(&[]).unwrap();
+    let net = std::fs::read_to_string(root().join("models/formats/tests/fixtures/street.net.xml")).unwrap();
+    let (scene, noncommercial) = (street(2, 5), {
+        let mut scene = street(1, 5);
+        scene["meta"]["licence"] = "waymo-nc".into();
+        scene.to_string()
+    });
+    let parts = [("file", "not a scene"), ("file", &scene.to_string()), ("file", BROKEN), ("file", &net)];
+    let names = |reply: &Value, member: &str| {
+        let files = reply["files"].as_array().unwrap().iter();
+        files.map(|file| file[member].as_str().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    // A trial says of each what the scenes are, and so does the store.
+    let tried = server.send(&form(&parts)).unwrap();
+    assert_eq!(tried.status, 200, "{}", tried.text());
+    let tried = tried.json();
+    assert_eq!(names(&tried, "format"), ["", "dragtraffic", "", "sumo-net"]);
+    assert_eq!(names(&tried, "name"), ["file.xml"; 4]);
+    assert_eq!(tried["files"][1]["scenes"][0]["scene"]["agents"].as_array().unwrap().len(), 2);
+    assert_eq!(tried["files"][0]["problem"]["code"], "format-unknown");
+    assert_eq!(tried["files"][2]["problem"]["code"], "malformed-json");
+    let made = server.send(&form_to("/v1/import", &parts)).unwrap();
+    assert_eq!(made.status, 201, "{}", made.text());
+    let ids: Vec<String> =
+        [1, 3].map(|at| made.json()["files"][at]["scenes"][0]["id"].as_str().unwrap().into()).into();
+    assert_eq!(made.header("location"), format!("/v1/scenes/{}", ids[0]));
+    for id in &ids {
+        assert_eq!(server.get(&format!("/v1/scenes/{id}")).unwrap().status, 200);
+    }
+    // Nothing can be read: the call is refused, with each reason.
+    let none = server.send(&form(&[("file", "not a scene"), ("file", BROKEN)])).unwrap();
+    let pointers: Vec<Value> =
+        none.json()["errors"].as_array().unwrap().iter().map(|error| error["pointer"].clone()).collect();
+    assert_eq!(
+        (none.code().as_str(), pointers),
+        ("format-unknown", vec!["/file/0".into(), "/file/1".into()])
+    );
+    let many = server.send(&form(&vec![("file", "x"); 33])).unwrap();
+    assert_eq!((many.code().as_str(), many.json()["limit"].as_u64()), ("invalid-field", Some(32)));
+    // One whose licence is refused does not hold up the others.
+    let strict = Server::start(&["--refuse-nc"]).unwrap();
+    let reply = strict.send(&form(&[("file", &noncommercial), ("file", &scene.to_string())])).unwrap().json();
+    assert_eq!(reply["files"][0]["problem"]["code"], "licence-refused");
+    assert_eq!(reply["files"][1]["scenes"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import type { MapJson, Point, SceneJson } from '../src/model/json';
 import { drivingSide } from '../src/model/driving-side';
 import { readScene } from '../src/model/read';
+import { View } from '../src/draw/view';
 import { overArea } from '../src/edit/placing';
 import { PRESETS } from '../src/model/kinds';
 import { Layouts } from '../src/edit/layouts';
@@ -64,7 +65,9 @@ describe('what follows the side', () => {
     const choice = { kind: 'pedestrian', size: PRESETS.pedestrian[0], spread: 'area', count: 12 } as const;
     // Off the road all face along x or against it.
     const sides = (scene: typeof right) =>
-      overArea(scene, choice, [40, 40], [60, 60], 10).map((n) => Math.sign((n.pose.y - 50) * Math.cos(n.pose.heading)));
+      overArea(scene, choice, new View().frame([40, 40], [60, 60]), 10).map((n) =>
+        Math.sign((n.pose.y - 50) * Math.cos(n.pose.heading)),
+      );
     expect(new Set(sides(right))).toEqual(new Set([-1]));
     expect(new Set(sides(left))).toEqual(new Set([1]));
   });

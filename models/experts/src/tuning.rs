@@ -176,6 +176,9 @@ tuning! {
         past_edges = 8.0, off 0.0;
         /// How far beyond counts, metres. Set by hand. 2026-11-21.
         past_edge_m = 0.1;
+        /// One that leaves the road, or drives against every lane, at all: as bad as coming close to somebody, so
+        /// that a kerb is no way past a queue. Set by hand. 2026-11-25.
+        leaving_the_road = 1.5, off 0.0;
         /// A goal that is missed: worse than anything but an overlap. Set by hand. 2026-11-21.
         goal_missed = 3.0, off 0.0;
         /// A vehicle against the direction of every lane there, by the share of the time. Set by hand.

@@ -66,6 +66,12 @@ const KINDS: &[Kind] = &[
         marks: &[Mark::At(4, b"\x0a\x09OSMHeader")],
         instead: "make a SUMO network of it with netconvert --osm-files, and import that",
     },
+    Kind {
+        what: "a GeoJSON file",
+        ends: &["geojson"],
+        marks: &[Mark::Words(&["\"featurecollection\"", "\"features\""])],
+        instead: "it has no lane graph: import the roads as OpenDRIVE, Lanelet2 or an OpenStreetMap extract, and road users as a table",
+    },
     Kind { what: "a KML file", ends: &["kml"], marks: &[Mark::Root("kml")], instead: DRAWING },
     Kind {
         what: "a web page",
@@ -215,6 +221,11 @@ mod tests {
             (b"PK\x03\x04\x14", "a.zip", "a ZIP archive is not read; unpack it"),
             (b"\x00\x00\x00\x0d\x0a\x09OSMHeader", "a.osm.pbf", "an OpenStreetMap extract in PBF"),
             (b"<!DOCTYPE html><html>", "a.html", "a web page"),
+            (
+                b"{\"type\": \"FeatureCollection\", \"features\": []}",
+                "a.geojson",
+                "a GeoJSON file is not read; it has no lane graph",
+            ),
         ] {
             let said = said(head, name).unwrap_or_default();
             assert!(said.starts_with(expected) && !said.contains("its name"), "{said}");

@@ -42,6 +42,7 @@ limits! {
     regenerated_agents = 128, "road users regenerated or reacting in one call";
     reply_points = 500_000, "samples x modes x road users x steps of a reply";
     import_scenes = 200, "scenes taken from one upload";
+    import_files = 32, "files in one form";
     running = 0, "calls worked on at the same time, and as many long ones beside them; 0 means half the cores, 1 to 8";
     queue = 16, "calls that wait, and as many long ones beside them";
     generate_s = 60, "wall time of a generation and of other work";

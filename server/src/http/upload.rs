@@ -112,30 +112,31 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// The part of each of these names in a form.
+/// The parts of each of these names in a form, in its order; of each name at most so many.
 ///
 /// # Errors
-/// `malformed-file`, and `invalid-field` for several of a name: none is passed over in silence.
+/// `malformed-file`, and `invalid-field` for more of a name: none is passed over in silence.
 pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
-    names: [&str; N],
-) -> Result<[Option<Part>; N], Problem> {
+    names: [(&str, usize); N],
+) -> Result<[Vec<Part>; N], Problem> {
     let boundary = multer::parse_boundary(content_type)
         .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
-    let mut found = [const { None }; N];
+    let mut found = [const { Vec::new() }; N];
     let mut read = form_of(form, &boundary).map_err(broken)?;
     while let Some(mut field) = now(read.next_field()).map_err(broken)? {
-        let place = names.iter().position(|name| Some(*name) == field.name());
-        if let Some(slot) = place.and_then(|at| found.get_mut(at)) {
-            if slot.is_some() {
-                let name = field.name().unwrap_or_default();
-                let detail = format!("one part named {name} expected; send several files one by one");
-                return Err(Problem::field(&format!("/{name}"), Code::InvalidField, detail));
+        let named = |((name, _), _): &(&(&str, usize), &mut Vec<Part>)| Some(*name) == field.name();
+        if let Some((&(name, most), of_name)) = names.iter().zip(&mut found).find(named) {
+            if of_name.len() == most {
+                let detail = format!("at most {most} {name} expected; send the others in calls of their own");
+                return Err(
+                    Problem::field(&format!("/{name}"), Code::InvalidField, detail).limit(most as u64)
+                );
             }
             let label = field.file_name().map(str::to_owned);
             let (form, boundary) = (Arc::clone(form), boundary.clone());
-            *slot = Some(Part { label, form, boundary, index: field.index() });
+            of_name.push(Part { label, form, boundary, index: field.index() });
         }
         while now(field.chunk()).map_err(broken)?.is_some() {}
     }

@@ -14,8 +14,8 @@ use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use experts::Cancel;
-use formats::Source;
 use formats::native::{MapForm, SceneDoc};
+use formats::{FieldProblem, Source};
 use scene::licence::is_noncommercial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -66,20 +66,25 @@ struct File {
 }
 
 impl File {
-    /// What was uploaded: a file, or the parts `file` and, where they are there, `net` and `columns` of a form of
-    /// this type.
-    fn of(upload: &Arc<Upload>, form: Option<&str>) -> Result<Self, Problem> {
+    /// What was uploaded: a file, or the parts `file` of a form of this type, at most so many, each with the parts
+    /// `net` and `columns` where they are there.
+    fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
         let Some(content_type) = form else {
             let beside = transfer::Beside::default();
-            return Ok(Self { file: Arc::<Upload>::clone(upload), label: None, beside });
+            return Ok(vec![Self { file: Arc::<Upload>::clone(upload), label: None, beside }]);
         };
-        let missing = || Problem::field("/file", Code::InvalidField, "the form needs a part named file");
-        let [file, net, columns] = upload::parts(upload, content_type, ["file", "net", "columns"])?;
-        let mut file = file.ok_or_else(missing)?;
-        let label = file.label.take();
+        let names = [("file", most), ("net", 1), ("columns", 1)];
+        let [files, mut net, mut columns] = upload::parts(upload, content_type, names)?;
+        if files.is_empty() {
+            return Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"));
+        }
         let source = |part| Arc::new(part) as Arc<dyn Source>;
-        let beside = transfer::Beside { net: net.map(source), columns: columns.map(source) };
-        Ok(Self { file: Arc::new(file), label, beside })
+        let beside = transfer::Beside { net: net.pop().map(source), columns: columns.pop().map(source) };
+        let file = |mut part: upload::Part| {
+            let label = part.label.take();
+            Self { file: source(part), label, beside: beside.clone() }
+        };
+        Ok(files.into_iter().map(file).collect())
     }
 }
 
@@ -115,7 +120,7 @@ pub struct SkippedRecord {
     problem: ProblemDoc,
 }
 
-/// What an import gave.
+/// What a file gave.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportReply {
     /// A name of the formats table.
@@ -126,15 +131,46 @@ pub struct ImportReply {
     skipped: Vec<SkippedRecord>,
 }
 
-/// A file that was read.
-enum Ready {
-    /// Scenes to be stored, in the order of the reply.
-    Store(ImportReply, Vec<(String, PackedScene)>),
-    /// The reply of a dry run, and the name of the format.
-    Tried(PackedText, &'static str),
+/// One of several files: what it gave, or why it gave nothing.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(transform = formats::never_null)]
+pub struct ImportedFile {
+    /// Name of the file, as the form gave it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(flatten)]
+    read: Option<ImportReply>,
+    /// Why nothing of it was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    problem: Option<ProblemDoc>,
 }
 
-/// What the worker is to do with a file.
+/// What several files gave.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ImportedFiles {
+    /// In the order of the form.
+    files: Vec<ImportedFile>,
+}
+
+/// What a file gave, or each of several.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ImportedBody {
+    /// The file that came alone.
+    One(ImportReply),
+    /// Files of a form that has several.
+    Several(ImportedFiles),
+}
+
+/// Files that were read.
+enum Ready {
+    /// Scenes to be stored, in the order of the reply.
+    Store(ImportedBody, Vec<(String, PackedScene)>),
+    /// The reply of a dry run.
+    Tried(PackedText),
+}
+
+/// What the worker is to do with an upload.
 struct Order {
     upload: Arc<Upload>,
     /// Content-Type of a form.
@@ -144,6 +180,7 @@ struct Order {
     /// Scenes to pass over, and how many to take.
     window: (usize, usize),
     most: usize,
+    most_files: usize,
     dry_run: bool,
     refuse_nc: bool,
 }
@@ -151,11 +188,12 @@ struct Order {
 refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
     FormatUnknown, CannotRepresent, PickleRefused, LicenceRefused, StoreFull);
 
-/// Stores the scenes of a file.
+/// Stores the scenes of a file, or of the files of a form: each of several is told by itself, and the call is refused
+/// when none of them can be read.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
-    responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportReply")),
-        (status = 200, description = "dry run", body = ref("#/components/schemas/ImportReply")), Refused))]
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody")),
+        (status = 200, description = "dry run", body = ref("#/components/schemas/ImportedBody")), Refused))]
 pub async fn import(
     State(app): State<App>,
     connection: Connection,
@@ -167,12 +205,12 @@ pub async fn import(
     let content_type = request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());
     let form = content_type.filter(|_| media_type == MULTIPART).map(str::to_owned);
     let upload = Arc::new(Reading::from_ref(&app).upload(request).await?);
-    let most = app.limits.import_scenes as usize;
     let format = params.format.filter(|f| f != "auto");
     let label = known(format.as_deref().unwrap_or("auto"));
     // Readers take about this long a byte.
     let cost = Duration::from_nanos(20 * upload.expected_bytes());
     let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
+    let (most, most_files) = (app.limits.import_scenes as usize, app.limits.import_files as usize);
     let order = Order {
         upload,
         form,
@@ -180,6 +218,7 @@ pub async fn import(
         name: params.name,
         window: wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1))),
         most,
+        most_files,
         dry_run: params.dry_run,
         refuse_nc: app.refuse_nc,
     };
@@ -189,132 +228,232 @@ pub async fn import(
         let _place = place;
         order.run(&room, cancel)
     };
-    let ready = app.pool.run(asked, work).await.inspect_err(|_| metrics::transfer(false, label, "error"))?;
+    let (ready, formats) =
+        app.pool.run(asked, work).await.inspect_err(|_| metrics::transfer(false, label, "error"))?;
+    let done = || formats.iter().for_each(|format| metrics::transfer(false, format, "done"));
     let (mut reply, rows) = match ready {
-        Ready::Tried(text, format) => {
-            metrics::transfer(false, format, "done");
+        Ready::Tried(text) => {
+            done();
             return Ok(text.into_response());
         }
         Ready::Store(reply, rows) => (reply, rows),
     };
     let ids: Vec<String> = rows.iter().map(|(id, _)| id.clone()).collect();
     let etags = if rows.is_empty() { Vec::new() } else { app.catalog.store.put_new(rows).await? };
-    for (scene, (id, etag)) in reply.scenes.iter_mut().zip(ids.into_iter().zip(etags)) {
+    done();
+    let first = ids.first().map(|id| format!("/v1/scenes/{id}"));
+    for (scene, (id, etag)) in reply.scenes().zip(ids.into_iter().zip(etags)) {
         (scene.id, scene.etag) = (Some(id), Some(etag));
     }
-    metrics::transfer(false, reply.format, "done");
-    let first = reply.scenes.first().and_then(|scene| scene.id.clone());
     let text = JsonText::of(&reply)?;
     Ok(match first {
-        Some(id) => {
-            (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], text).into_response()
-        }
+        Some(place) => (StatusCode::CREATED, [(header::LOCATION, place)], text).into_response(),
         None => (StatusCode::CREATED, text).into_response(),
     })
 }
 
+impl ImportedBody {
+    fn scenes(&mut self) -> Box<dyn Iterator<Item = &mut ImportedScene> + '_> {
+        match self {
+            Self::One(read) => Box::new(read.scenes.iter_mut()),
+            Self::Several(all) => {
+                let read = all.files.iter_mut().filter_map(|file| file.read.as_mut());
+                Box::new(read.flat_map(|read| &mut read.scenes))
+            }
+        }
+    }
+}
+
 impl Order {
-    /// Reads the file and makes its scenes ready: nothing is stored unless all of them can be.
-    fn run(self, room: &Room, cancel: &Cancel) -> Result<Ready, Problem> {
+    /// Reads the files and makes their scenes ready: nothing is stored unless all of them can be. Also the formats
+    /// of the files that were read.
+    fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
         let ready = self.read(room, cancel);
         // A body that is broken is told before what was made of it.
         self.upload.check()?;
         ready
     }
 
-    fn read(&self, room: &Room, cancel: &Cancel) -> Result<Ready, Problem> {
-        let File { file, label, beside } = File::of(&self.upload, self.form.as_deref())?;
-        let name = self.name.clone().or(label).unwrap_or_default();
-        let wanted = transfer::Wanted::of(&file, self.format.as_deref(), &name, &beside, self.window)?;
-        let format = wanted.format;
-        let mut taken = Taken::new(self, format)?;
-        let skipped = wanted.each(&file, |imported| {
-            if cancel.is_cancelled() {
-                return Err(Problem::new(Code::Cancelled, "The job was cancelled."));
-            }
-            taken.take(imported)
-        })?;
-        let skipped = skipped.iter();
-        let skipped =
-            skipped.map(|(index, problem)| SkippedRecord { index: *index, problem: problem.doc(None, None) });
-        taken.ready(skipped.collect(), room)
+    fn read(&self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
+        let files = File::all(&self.upload, self.form.as_deref(), self.most_files)?;
+        let mut taken = Taken::new(self)?;
+        let body = taken.files(&files, cancel)?;
+        let ready = match self.dry_run {
+            true => Ready::Tried(taken.text.finish(room)?),
+            false => Ready::Store(body, taken.rows),
+        };
+        Ok((ready, taken.formats))
     }
 }
 
-/// Scenes of a file so far. Of each only what is stored or replied is kept, in compressed form.
+/// What there is of an upload so far. Of each scene only what is stored or replied is kept, in compressed form.
 struct Taken<'o> {
     order: &'o Order,
-    format: &'static str,
+    /// Scenes of all files.
     count: usize,
-    refused: Option<Problem>,
-    scenes: Vec<ImportedScene>,
+    /// Formats of the files that were read.
+    formats: Vec<&'static str>,
     rows: Vec<(String, PackedScene)>,
+    /// The reply of a dry run.
     text: TextPacker,
+    /// Scenes of the file at hand stand at the end of the text.
+    open: bool,
 }
 
-/// The reply's text about its scenes begins behind this.
+/// The text about a file's scenes begins behind this.
 const SCENES: &str = "\"scenes\":[";
 
 impl<'o> Taken<'o> {
-    fn new(order: &'o Order, format: &'static str) -> Result<Self, Problem> {
-        let (scenes, rows, text) = (Vec::new(), Vec::new(), TextPacker::new()?);
-        Ok(Self { order, format, count: 0, refused: None, scenes, rows, text })
+    fn new(order: &'o Order) -> Result<Self, Problem> {
+        let (formats, rows, text) = (Vec::new(), Vec::new(), TextPacker::new()?);
+        Ok(Self { order, count: 0, formats, rows, text, open: false })
     }
 
-    fn take(&mut self, imported: transfer::Imported) -> Result<(), Problem> {
-        let transfer::Imported { scene, warnings } = imported;
-        self.count += 1;
-        if self.count > self.order.most {
-            let most = self.order.most;
-            let detail = format!(
-                "The file has more than {most} scenes; take some with index, or use the command line."
-            );
-            return Err(Problem::field("/query/index", Code::OutOfRange, detail).limit(most as u64));
+    fn files(&mut self, files: &[File], cancel: &Cancel) -> Result<ImportedBody, Problem> {
+        if let [file] = files {
+            return Ok(ImportedBody::One(self.file(file, None, cancel)?));
         }
-        if self.order.refuse_nc && scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
-            let detail = "The source is for non-commercial use only.";
-            self.refused.get_or_insert_with(|| Problem::new(Code::LicenceRefused, detail));
+        let (mut told, mut faults) = (Vec::new(), Vec::new());
+        for (at, file) in files.iter().enumerate() {
+            self.text.push(if at == 0 { b"{\"files\":[" } else { b"," })?;
+            let (name, kept) = (file.label.clone(), self.rows.len());
+            let (read, problem) = match self.file(file, name.as_deref(), cancel) {
+                Ok(read) => (Some(read), None),
+                Err(problem) if self.ends(&problem) => return Err(problem),
+                Err(problem) => {
+                    self.rows.truncate(kept);
+                    (None, Some(self.fault(at, name.as_deref(), problem, &mut faults)?))
+                }
+            };
+            told.push(ImportedFile { name, read, problem });
         }
-        if self.refused.is_some() {
-            return Ok(());
-        }
-        let facts = Facts::of(&scene);
-        let (counts, steps, name) = (facts.counts, facts.steps, scene.name.clone());
-        let mut imported = ImportedScene { id: None, etag: None, name, warnings, counts, steps, scene: None };
-        if self.order.dry_run {
-            imported.scene = Some(SceneDoc::from_scene(&scene, MapForm::Inline));
-            drop(scene);
-            if self.count == 1 {
-                self.text.push(format!("{{\"format\":\"{}\",{SCENES}", self.format).as_bytes())?;
-            } else {
-                self.text.push(b",")?;
+        self.text.push(b"]}")?;
+        match faults.first().filter(|_| faults.len() == files.len()) {
+            None => Ok(ImportedBody::Several(ImportedFiles { files: told })),
+            Some((code, _)) => {
+                let detail = format!("Not one of the {} files can be read.", files.len());
+                let errors = faults.iter().map(|(_, error)| error.clone()).collect();
+                Err(Problem::new(*code, detail).with(|m| m.errors = Some(errors)))
             }
-            return self.text.push_json(&imported);
+        }
+    }
+
+    /// It is the call that cannot be answered, not one of its files that cannot be read.
+    fn ends(&self, problem: &Problem) -> bool {
+        self.count > self.order.most || matches!(problem.code, Code::Cancelled | Code::Internal)
+    }
+
+    /// One of several files that cannot be read.
+    fn fault(
+        &mut self,
+        at: usize,
+        name: Option<&str>,
+        problem: Problem,
+        faults: &mut Vec<(Code, FieldProblem)>,
+    ) -> Result<ProblemDoc, Problem> {
+        metrics::transfer(false, known(self.order.format.as_deref().unwrap_or("auto")), "error");
+        let doc = problem.doc(None, None);
+        let text = serde_json::to_string(&doc).map_err(Problem::internal)?;
+        if std::mem::take(&mut self.open) {
+            self.text.push(format!("],\"skipped\":[],\"problem\":{text}}}").as_bytes())?;
+        } else {
+            let entry = ImportedFile {
+                name: name.map(str::to_owned),
+                read: None,
+                problem: Some(problem.doc(None, None)),
+            };
+            self.text.push_json(&entry)?;
+        }
+        faults.push((
+            problem.code,
+            FieldProblem::new(format!("/file/{at}"), problem.code.name(), problem.detail),
+        ));
+        Ok(doc)
+    }
+
+    /// Takes the scenes of a file. `name`: what it is called among several.
+    fn file(&mut self, file: &File, name: Option<&str>, cancel: &Cancel) -> Result<ImportReply, Problem> {
+        let order = self.order;
+        let labels = [order.name.as_deref(), file.label.as_deref()];
+        let label = name.or_else(|| labels.into_iter().flatten().next()).unwrap_or_default();
+        let wanted =
+            transfer::Wanted::of(&file.file, order.format.as_deref(), label, &file.beside, order.window)?;
+        let mut read = ImportReply { format: wanted.format, scenes: Vec::new(), skipped: Vec::new() };
+        let mut refused = None;
+        let skipped = wanted.each(&file.file, |imported| {
+            if cancel.is_cancelled() {
+                return Err(Problem::new(Code::Cancelled, "The job was cancelled."));
+            }
+            self.count += 1;
+            if self.count > order.most {
+                let most = order.most;
+                let detail = format!(
+                    "The file has more than {most} scenes; take some with index, or use the command line."
+                );
+                return Err(Problem::field("/query/index", Code::OutOfRange, detail).limit(most as u64));
+            }
+            if order.refuse_nc && imported.scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
+                let detail = "The source is for non-commercial use only.";
+                refused.get_or_insert_with(|| Problem::new(Code::LicenceRefused, detail));
+            }
+            if refused.is_some() { Ok(()) } else { self.take(imported, name, &mut read) }
+        })?;
+        if let Some(refused) = refused {
+            return Err(refused);
+        }
+        let skipped = skipped.iter();
+        read.skipped = skipped
+            .map(|(index, problem)| SkippedRecord { index: *index, problem: problem.doc(None, None) })
+            .collect();
+        if order.dry_run {
+            let (lead, rest) = around_scenes(name, &read)?;
+            if !std::mem::take(&mut self.open) {
+                self.text.push(lead.as_bytes())?;
+            }
+            self.text.push(rest.as_bytes())?;
+        }
+        self.formats.push(read.format);
+        Ok(read)
+    }
+
+    fn take(
+        &mut self,
+        imported: transfer::Imported,
+        name: Option<&str>,
+        read: &mut ImportReply,
+    ) -> Result<(), Problem> {
+        let transfer::Imported { scene, warnings } = imported;
+        let facts = Facts::of(&scene);
+        let (counts, steps, called) = (facts.counts, facts.steps, scene.name.clone());
+        let mut told =
+            ImportedScene { id: None, etag: None, name: called, warnings, counts, steps, scene: None };
+        if self.order.dry_run {
+            told.scene = Some(SceneDoc::from_scene(&scene, MapForm::Inline));
+            drop(scene);
+            match std::mem::replace(&mut self.open, true) {
+                false => self.text.push(around_scenes(name, read)?.0.as_bytes())?,
+                true => self.text.push(b",")?,
+            }
+            return self.text.push_json(&told);
         }
         let id = id::fresh();
         let row = record::of_scene(scene, &id)?.packed()?;
         self.rows.push((id, row));
-        self.scenes.push(imported);
+        read.scenes.push(told);
         Ok(())
     }
+}
 
-    fn ready(mut self, skipped: Vec<SkippedRecord>, room: &Room) -> Result<Ready, Problem> {
-        if let Some(refused) = self.refused {
-            return Err(refused);
-        }
-        let reply = ImportReply { format: self.format, scenes: self.scenes, skipped };
-        if !self.order.dry_run {
-            return Ok(Ready::Store(reply, self.rows));
-        }
-        // The text of a reply without scenes, from the end of their list on where some are written.
-        let text = serde_json::to_string(&reply).map_err(Problem::internal)?;
-        let rest = match text.split_once(SCENES) {
-            Some((_, rest)) if self.count > 0 => rest,
-            _ => &text,
-        };
-        self.text.push(rest.as_bytes())?;
-        Ok(Ready::Tried(self.text.finish(room)?, self.format))
-    }
+/// The text of a reply about a file, before its scenes and behind them.
+fn around_scenes(name: Option<&str>, read: &ImportReply) -> Result<(String, String), Problem> {
+    let name = name.map(|name| serde_json::json!(name));
+    let text = serde_json::to_string(read).map_err(Problem::internal)?;
+    let (lead, rest) = text.split_once(SCENES).ok_or_else(|| Problem::internal("a reply without scenes"))?;
+    let lead = match name {
+        Some(name) => format!("{{\"name\":{name},{}", lead.trim_start_matches('{')),
+        None => lead.to_owned(),
+    };
+    Ok((lead + SCENES, rest.to_owned()))
 }
 
 /// A name of the table, for labels.

@@ -61,8 +61,10 @@ fn tidy(document: &mut Value) {
         }
         if id == "importScenes" {
             let part = json!({"type": "string", "format": "binary"});
+            let most = crate::base::limits::Limits::default().import_files;
+            let files = json!({"type": "array", "items": part, "minItems": 1, "maxItems": most});
             let form = json!({"type": "object", "required": ["file"], "properties":
-                    {"file": part, "net": part, "columns": part}});
+                    {"file": files, "net": part, "columns": part}});
             content.insert("multipart/form-data".into(), json!({"schema": form}));
         }
     }
@@ -98,7 +100,7 @@ fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<events::Event>();
     generator.subschema_for::<Score>();
     generator.subschema_for::<place::PlaceReply>();
-    generator.subschema_for::<import::ImportReply>();
+    generator.subschema_for::<import::ImportedBody>();
     generator.subschema_for::<info::Info>();
     generator.subschema_for::<health::Health>();
     generator.subschema_for::<scenes::SceneList>();

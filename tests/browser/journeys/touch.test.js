@@ -95,7 +95,7 @@ journeys('fingers', (stage) => {
     assert.deepEqual(await e.goal(), there);
   });
 
-  it('one finger moves the picture, two zoom it, and the page itself stays', { timeout: 40_000 }, async () => {
+  it('one finger moves the picture, two zoom and turn it, and the page itself stays', { timeout: 40_000 }, async () => {
     const { e, f } = await open(stage);
     const before = await e.view();
     const ground = await e.at(before.cx - 20, before.cy + 30);
@@ -109,6 +109,16 @@ journeys('fingers', (stage) => {
     await f.up();
     const zoomed = await e.view();
     assert.ok(zoomed.zoom > 1.8 * panned.zoom, `${panned.zoom} to ${zoomed.zoom}`);
+    assert.equal(zoomed.turn, 0, 'drawn apart they do not turn it');
+    const pair = (angle) => [-60, 60].map((r) => [195 + r * Math.cos(angle), 300 - r * Math.sin(angle)]);
+    await f.down(...pair(0));
+    for (let i = 1; i <= 10; i++) await f.move(...pair(0.08 * i));
+    await f.up();
+    const turned = await e.view();
+    assert.ok(turned.turn > 0.5 && turned.turn < 0.9, `turned by ${turned.turn}`);
+    await e.page.locator('.compass [data-action="north-up"]').tap();
+    await e.settled();
+    assert.equal((await e.view()).turn, 0, 'north is up');
     const page = await e.page.evaluate(() => [visualViewport.scale, scrollX, scrollY, document.body.scrollTop]);
     assert.deepEqual(page, [1, 0, 0, 0]);
     assert.equal(await e.page.locator('.fu').count(), 0, 'nobody was selected by it');

@@ -182,14 +182,16 @@ export class Editor {
   // -------------------------------------------------------------- where things are
 
   async view() {
-    const [cx, cy, zoom] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
-    return { cx, cy, zoom, box: await this.page.locator('main.stage').boundingBox() };
+    const [cx, cy, zoom, turn = 0] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
+    return { cx, cy, zoom, turn, box: await this.page.locator('main.stage').boundingBox() };
   }
 
   /** Page position of a place in the scene. */
   async at(x, y) {
-    const { cx, cy, zoom, box } = await this.view();
-    return [box.x + box.width / 2 + (x - cx) * zoom, box.y + box.height / 2 - (y - cy) * zoom];
+    const { cx, cy, zoom, turn, box } = await this.view();
+    const [c, s] = [Math.cos(turn) * zoom, Math.sin(turn) * zoom];
+    const [dx, dy] = [x - cx, y - cy];
+    return [box.x + box.width / 2 + dx * c - dy * s, box.y + box.height / 2 - dx * s - dy * c];
   }
 
   /** Is the picture, and no panel, under a page position? */

@@ -1,6 +1,5 @@
 // Select and look: tools, who is selected, the view, the layers.
 import type { Help } from '../texts/helps';
-import { boxOf } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
 import { canChange, startPose, type Agent } from '../model/scene';
 import { knowsLimits } from '../draw/ground';
@@ -10,10 +9,10 @@ import { lanesFor } from '../edit/snap';
 import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
 import type { Context } from './context';
+import { AROUND_M, placesOfSelected, turning } from './turning';
 import { TEXTS } from '../texts/actions';
 
-/** Metres of road shown around the selected road user and its goal, and the closest that "zoom to" goes. */
-const AROUND_M = 18;
+/** The closest that "zoom to" goes. */
 const CLOSEST = 22;
 /** So far from the middle of a lane one still stands on it. */
 const ON_LANE_M = 2.2;
@@ -118,14 +117,8 @@ function zoom(c: Context, factor: number): void {
 }
 
 function zoomToSelection(c: Context): void {
-  const places = c.editor.chosenOnes.flatMap((a) => {
-    const p = startPose(a);
-    return p ? [p, c.editor.goalPose(a) ?? p] : [];
-  });
-  if (!places.length) return;
-  const box = boxOf(places.map((p) => [p.x, p.y] as const));
-  const grown = { x0: box.x0 - AROUND_M, x1: box.x1 + AROUND_M, y0: box.y0 - AROUND_M, y1: box.y1 + AROUND_M };
-  c.stage.glide.by((v) => v.fit(grown, CLOSEST));
+  const places = placesOfSelected(c.editor);
+  if (places.length) c.stage.glide.by((v) => v.fitPlaces(places, AROUND_M, CLOSEST));
 }
 
 const layer = (
@@ -255,6 +248,7 @@ export const look = inGroup('look', [
     help: 'aThirdFurther',
     run: (c) => zoom(c, 1 / 1.33),
   },
+  ...turning,
   {
     id: 'follow',
     label: TEXTS.keepInView,

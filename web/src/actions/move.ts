@@ -2,6 +2,7 @@
 import type { Help } from '../texts/helps';
 import type { Agent } from '../model/scene';
 import type { Command } from '../model/commands';
+import type { View } from '../draw/view';
 import type { Editor, Part } from '../edit/editor';
 import { freeOnes } from '../edit/copying';
 import * as moves from '../edit/moves';
@@ -11,11 +12,11 @@ import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
 import { TEXTS } from '../texts/actions';
 
-type Move = (e: Editor, a: Agent, part: Part) => Command | null;
+type Move = (e: Editor, a: Agent, part: Part, v: View) => Command | null;
 /** The same for several; a way of moving that has none is for one alone. */
-type MoveAll = (all: readonly Agent[]) => Command | null;
+type MoveAll = (all: readonly Agent[], v: View) => Command | null;
 /** The same for who is about to be placed; false where nobody is. */
-type MoveGhost = (e: Editor) => boolean;
+type MoveGhost = (e: Editor, v: View) => boolean;
 
 interface Also {
   readonly icon?: string;
@@ -42,22 +43,23 @@ const move = (
   },
   run(c) {
     const { editor } = c;
+    const v = c.stage.view;
     if (ghost && placedBy(c)) {
-      ghost(editor);
+      ghost(editor, v);
       return;
     }
     const many = all && editor.selected.peek().length > 1;
     const free = many ? freeOnes(editor) : [];
     const a = editor.agent.peek();
-    const command = many ? free.length && all(free) : a && make(editor, a, activePart(c));
+    const command = many ? free.length && all(free, v) : a && make(editor, a, activePart(c), v);
     if (command) editor.run(command);
   },
 });
 
 const ghostBy =
-  (dx: number, dy: number): MoveGhost =>
-  (e) =>
-    e.placement.again(e.scene.peek()!, dx, dy);
+  (right: number, up: number): MoveGhost =>
+  (e, v) =>
+    e.placement.again(e.scene.peek()!, ...v.along(right, up));
 
 const DIRECTIONS = [
   ['Left', TEXTS.at01MLeft, TEXTS.at1MLeft, -1, 0],
@@ -66,18 +68,26 @@ const DIRECTIONS = [
   ['Down', TEXTS.at01MDown, TEXTS.at1MDown, 0, -1],
 ] as const;
 
-const nudges = DIRECTIONS.flatMap(([key, near, far, dx, dy]) => {
+/** As one sees it: left is left also where the picture is turned. */
+const nudges = DIRECTIONS.flatMap(([key, near, far, right, up]) => {
   const word = key.toLowerCase();
   const help = 'movesTheStart';
   return [
-    move(`nudge-${word}`, near, key, help, (e, a, p) => moves.nudge(e, a, p, dx * 0.1, dy * 0.1), {
-      all: (all) => several.moveAll(all, dx * 0.1, dy * 0.1, false, 'nudge'),
-      ghost: ghostBy(dx * 0.5, dy * 0.5),
+    move(`nudge-${word}`, near, key, help, (e, a, p, v) => moves.nudge(e, a, p, ...v.along(right * 0.1, up * 0.1)), {
+      all: (all, v) => several.moveAll(all, ...v.along(right * 0.1, up * 0.1), false, 'nudge'),
+      ghost: ghostBy(right * 0.5, up * 0.5),
     }),
-    move(`nudge-far-${word}`, far, `Shift+${key}`, 'tenTimesAs', (e, a, p) => moves.nudge(e, a, p, dx, dy), {
-      all: (all) => several.moveAll(all, dx, dy, false, 'nudge'),
-      ghost: ghostBy(dx * 5, dy * 5),
-    }),
+    move(
+      `nudge-far-${word}`,
+      far,
+      `Shift+${key}`,
+      'tenTimesAs',
+      (e, a, p, v) => moves.nudge(e, a, p, ...v.along(right, up)),
+      {
+        all: (all, v) => several.moveAll(all, ...v.along(right, up), false, 'nudge'),
+        ghost: ghostBy(right * 5, up * 5),
+      },
+    ),
   ];
 });
 

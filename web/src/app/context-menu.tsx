@@ -36,6 +36,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'select-lane',
     'find-case',
     'zoom-selection',
+    'align-road',
   ],
   several: [
     ...COPIES,
@@ -67,6 +68,8 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     null,
     'select-all',
     'fit',
+    'align-road',
+    'north-up',
   ],
 };
 

@@ -107,7 +107,7 @@ function connect(c: Context): void {
   gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
   sharing.onOpened = (at) => {
     if (!at) return;
-    Object.assign(stage.view, at.camera);
+    stage.view.look(at.camera);
     stage.viewChanged();
     editor.setTime(at.time);
   };

@@ -3,7 +3,7 @@
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
-import { boxOf, type Vec } from '../model/geometry';
+import { wrapAngle, type Vec } from '../model/geometry';
 import type { Camera, HistoryStep } from '../model/history';
 import { poseShown } from '../edit/frame';
 import { endPose, poseAt } from '../model/motion';
@@ -35,7 +35,10 @@ export function lookAtMade({ editor, stage }: Opening): void {
     looked = made.layout.template;
     const { x0, y0, x1, y1 } = made.scene.map.box;
     const near = (v: number, far: number): number => Math.min(far, Math.max(-far, v));
-    stage.glide.by((v) => v.fit({ x0: near(x0, 62), y0: near(y0, 42), x1: near(x1, 62), y1: near(y1, 42) }));
+    stage.glide.by((v) => {
+      v.turn = 0;
+      v.fit({ x0: near(x0, 62), y0: near(y0, 42), x1: near(x1, 62), y1: near(y1, 42) });
+    });
   });
 }
 
@@ -69,13 +72,10 @@ export function followSelected({ editor, stage }: Opening): void {
   stage.viewChanged();
 }
 
-const cameraOf = ({ stage }: Opening): Camera => {
-  const { cx, cy, z } = stage.view;
-  return { cx, cy, z };
-};
-
 const moved = (a: Camera, b: Camera): boolean =>
-  Math.hypot(a.cx - b.cx, a.cy - b.cy) * a.z > SAME_PX || Math.abs(Math.log(a.z / b.z)) > 0.02;
+  Math.hypot(a.cx - b.cx, a.cy - b.cy) * a.z > SAME_PX ||
+  Math.abs(Math.log(a.z / b.z)) > 0.02 ||
+  Math.abs(wrapAngle((a.turn ?? 0) - (b.turn ?? 0))) > 0.02;
 
 /**
  * Undo and redo show what they change: where the picture moved with the step it moves back, and where what changes
@@ -83,10 +83,10 @@ const moved = (a: Camera, b: Camera): boolean =>
  */
 export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
-  editor.camera = () => cameraOf(c);
+  editor.camera = () => stage.view.camera;
   editor.onTravel = (step: HistoryStep, way) => {
     const there = way === 'back' ? step.from : step.to;
-    if (!there || !step.from || !step.to || !moved(there, cameraOf(c))) return;
+    if (!there || !step.from || !step.to || !moved(there, stage.view.camera)) return;
     const a = step.agent === null ? undefined : editor.scene.peek()?.agents.get(step.agent);
     if (moved(step.from, step.to) || (a && !inView(c, a))) stage.glide.to(there);
   };
@@ -94,9 +94,8 @@ export function lookWhereItWas(c: Opening): void {
 
 /** Are the start and the goal of a road user in the picture? */
 function inView({ editor, stage }: Opening, a: Agent): boolean {
-  const box = stage.view.box(-20);
   const places = [startPose(a), editor.goalPose(a)].filter((p) => p !== null);
-  return places.every((p) => p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1);
+  return places.every((p) => stage.view.shows(p.x, p.y, -20));
 }
 
 /** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */
@@ -143,20 +142,13 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const alone = ids.length === 1 ? scene?.agents.get(ids[0]) : undefined;
   const end = alone && endShown(editor, alone);
   const v = stage.view;
-  const { left, right, top, bottom } = v.inset;
-  const seen = (p: { x: number; y: number }): boolean => {
-    const x = v.x(p.x),
-      y = v.y(p.y);
-    return x > left + EDGE_PX && x < v.w - right - EDGE_PX && y > top + EDGE_PX && y < v.h - bottom - EDGE_PX;
-  };
+  const seen = (p: { x: number; y: number }): boolean => v.bares(p.x, p.y, EDGE_PX);
   if (!ps.length || (ps.every(seen) && (!end || seen({ x: end[0], y: end[1] })))) return;
   const all = ps.map((p): Vec => [p.x, p.y]);
-  const b = boxOf(end ? [...all, end] : all);
-  const around = { x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M };
   const to = v.copy();
-  to.fit(around, v.z);
+  to.fitPlaces(end ? [...all, end] : all, AROUND_M, v.z);
   // Where the end is too far off to be seen with it one stays near.
-  if (!alone || to.z >= v.z * FURTHER) Object.assign(v, { cx: to.cx, cy: to.cy, z: to.z });
+  if (!alone || to.z >= v.z * FURTHER) v.look(to.camera);
   else if (!ps.every(seen)) v.centre(ps[0].x, ps[0].y);
   stage.viewChanged();
 }
@@ -168,6 +160,7 @@ export function openMenu(c: Context): void {
   if (first) reveal(c, [first.id]);
   const p = first && poseShown(editor, first);
   const v = stage.view;
-  const at = p ? { x: v.x(p.x) + EDGE_PX, y: v.y(p.y) } : { x: v.w / 2, y: v.h / 3 };
+  const [x, y] = p ? v.to(p.x, p.y) : [v.w / 2 - EDGE_PX, v.h / 3];
+  const at = { x: x + EDGE_PX, y };
   ui.openContextMenu({ ...at, on: !first ? 'ground' : more.length ? 'several' : 'road-user' });
 }

@@ -78,7 +78,10 @@ function connect(o: Opening): void {
   effect(() => followForm(o));
   library.onOpen = (scene, again) => {
     nameInAddress(o, scene.id);
-    if (!again) lookAtOpened(o);
+    if (!again) {
+      stage.view.turn = 0;
+      lookAtOpened(o);
+    }
     ui.showEvents(false);
   };
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));

@@ -45,11 +45,13 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     null,
     ...LAYER_ACTIONS,
     'fit',
+    'align-road',
+    'north-up',
     null,
     'palette',
     'theme',
   ],
-  layers: LAYER_ACTIONS,
+  layers: [...LAYER_ACTIONS, null, 'align-road', 'north-up'],
 };
 
 /** Opens its menu, or closes it when it is open. */

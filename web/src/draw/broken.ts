@@ -19,7 +19,7 @@ const MOST_STEPS = 8;
 /** Corner points of a stretch on screen. */
 function pointsOf(v: View, s: Stretch): [number, number][] {
   const m = s.motion;
-  const at = (i: number): [number, number] => [v.x(m.x[i]), v.y(m.y[i])];
+  const at = (i: number): [number, number] => v.to(m.x[i], m.y[i]);
   const inside = (i: number): boolean => i >= 0 && i < m.x.length && isValidAt(m, m.first + i);
   let i0 = Math.round(s.from / STEP_S) - m.first,
     i1 = Math.round(s.to / STEP_S) - m.first;

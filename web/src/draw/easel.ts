@@ -16,11 +16,12 @@ export interface Size {
 /** CSS pixels of map painted beyond each side of the picture, so that it can be moved before it is painted again. */
 export const MARGIN = 192;
 
-/** Where the map that was painted last lies now, in CSS pixels from the middle. */
+/** Where the map that was painted last lies now, in CSS pixels from the middle, and how it is turned, clockwise. */
 export interface Shift {
   readonly dx: number;
   readonly dy: number;
   readonly scale: number;
+  readonly angle: number;
 }
 
 /** So many times larger is what the loupe shows. */
@@ -103,12 +104,20 @@ export class Easel {
     const { dpr } = this.#size!;
     const w = this.#map.width * shift.scale,
       h = this.#map.height * shift.scale;
+    const g = this.#pens.map;
+    if (shift.angle) {
+      g.setTransform(1, 0, 0, 1, width / 2 + shift.dx * dpr, height / 2 + shift.dy * dpr);
+      g.rotate(shift.angle);
+      g.drawImage(this.#map, -w / 2, -h / 2, w, h);
+      g.setTransform(1, 0, 0, 1, 0, 0);
+      return;
+    }
     // On whole pixels: a shift by a part of one would blur every line.
     const x = Math.round((width - w) / 2 + shift.dx * dpr),
       y = Math.round((height - h) / 2 + shift.dy * dpr);
-    this.#pens.map.drawImage(this.#map, x, y, w, h);
+    g.drawImage(this.#map, x, y, w, h);
   }
 }
 
 export const sameShift = (a: Shift, b: Shift | null): boolean =>
-  b !== null && a.dx === b.dx && a.dy === b.dy && a.scale === b.scale;
+  b !== null && a.dx === b.dx && a.dy === b.dy && a.scale === b.scale && a.angle === b.angle;

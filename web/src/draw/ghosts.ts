@@ -39,10 +39,12 @@ export function paintWay(g: Pen, v: View, m: Motion, from: number, to: number, s
   ] as const) {
     g.beginPath();
     for (const { x, y, heading } of brakeTicks(m, from, to, v.z)) {
-      const dx = Math.sin(heading) * TICK_PX,
-        dy = Math.cos(heading) * TICK_PX;
-      g.moveTo(v.x(x) - dx, v.y(y) - dy);
-      g.lineTo(v.x(x) + dx, v.y(y) + dy);
+      const [right, down] = v.ahead(heading);
+      const dx = -down * TICK_PX,
+        dy = right * TICK_PX;
+      const [px, py] = v.to(x, y);
+      g.moveTo(px - dx, py - dy);
+      g.lineTo(px + dx, py + dy);
     }
     g.strokeStyle = colour;
     g.lineWidth = width;
@@ -82,8 +84,7 @@ export function paintWaiting(g: Pen, v: View, a: Sized, p: OnLine, s: GhostStyle
   const c = colours();
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
-  g.translate(v.x(p.x), v.y(p.y));
-  g.rotate(-p.heading);
+  v.stand(g, p);
   outline(g, a.kind, l, w);
   if (s.filled) {
     g.globalAlpha = s.alpha * 0.7;

@@ -1,23 +1,17 @@
 // The picture goes over from one place to another in a moment, so that one sees where one comes from. Without motion,
 // where that is asked for, it is there at once.
+import { wrapAngle, type Vec } from '../model/geometry';
+import type { Camera } from '../model/history';
 import type { View } from './view';
 
 const GLIDE_MS = 180;
 
-interface Camera {
-  readonly cx: number;
-  readonly cy: number;
-  readonly z: number;
-}
-
-const cameraOf = ({ cx, cy, z }: View): Camera => ({ cx, cy, z });
-
 export class Glide {
-  #from: Camera | null = null;
-  #to: Camera | null = null;
+  #from: Required<Camera> | null = null;
+  #to: Required<Camera> | null = null;
   #began = 0;
   /** Where the last frame left the picture: elsewhere, somebody else has moved it. */
-  #left: Camera | null = null;
+  #left: Required<Camera> | null = null;
   readonly #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(
@@ -33,20 +27,20 @@ export class Glide {
   by(move: (v: View) => void): void {
     const { view } = this;
     const end = view.copy();
-    if (this.#to) Object.assign(end, this.#to);
+    if (this.#to) end.look(this.#to);
     move(end);
-    this.to(cameraOf(end));
+    this.to(end.camera);
   }
 
   to(camera: Camera): void {
     if (this.#calm.matches) {
-      Object.assign(this.view, cameraOf(Object.assign(this.view.copy(), camera)));
+      this.view.look(camera);
       this.stop();
       this.moved();
       return;
     }
-    this.#from = this.#left = cameraOf(this.view);
-    this.#to = cameraOf(Object.assign(this.view.copy(), camera));
+    this.#from = this.#left = this.view.camera;
+    this.#to = { turn: 0, ...camera };
     this.#began = performance.now();
     this.moved();
   }
@@ -62,16 +56,47 @@ export class Glide {
       to = this.#to,
       left = this.#left;
     if (!from || !to || !left) return;
-    if (v.cx !== left.cx || v.cy !== left.cy || v.z !== left.z) return this.stop();
+    if (v.cx !== left.cx || v.cy !== left.cy || v.z !== left.z || v.turn !== left.turn) return this.stop();
     const t = Math.min(1, (performance.now() - this.#began) / GLIDE_MS);
     const k = 1 - (1 - t) ** 3;
-    v.z = t === 1 ? to.z : from.z * (to.z / from.z) ** k;
-    // Along 1 / zoom a place that is under the pointer at both ends stays there on the way.
-    const u = from.z === to.z ? k : (1 / v.z - 1 / from.z) / (1 / to.z - 1 / from.z);
-    v.cx = t === 1 ? to.cx : from.cx + (to.cx - from.cx) * u;
-    v.cy = t === 1 ? to.cy : from.cy + (to.cy - from.cy) * u;
-    this.#left = cameraOf(v);
+    if (t === 1) v.look(to);
+    else onTheWay(v, from, to, k);
+    this.#left = v.camera;
     if (t === 1) this.stop();
     this.moved();
   }
+}
+
+/** A place that is under the pointer at both ends stays there on the way. */
+function onTheWay(v: View, from: Required<Camera>, to: Required<Camera>, k: number): void {
+  const z = from.z * (to.z / from.z) ** k;
+  const by = wrapAngle(to.turn - from.turn);
+  if (by) {
+    const [x, y] = fixedPoint(from, to);
+    v.look({ cx: x, cy: y, z, turn: from.turn + by * k });
+    // It lies off the middle by as much as before, in pixels.
+    const [right, up] = turned([x - from.cx, y - from.cy], from.turn, from.z);
+    const [dx, dy] = v.way(right, -up);
+    v.cx -= dx;
+    v.cy -= dy;
+    return;
+  }
+  const u = from.z === to.z ? k : (1 / z - 1 / from.z) / (1 / to.z - 1 / from.z);
+  v.look({ cx: from.cx + (to.cx - from.cx) * u, cy: from.cy + (to.cy - from.cy) * u, z, turn: from.turn });
+}
+
+const turned = ([x, y]: Vec, angle: number, scale: number): Vec => {
+  const [c, s] = [Math.cos(angle) * scale, Math.sin(angle) * scale];
+  return [x * c - y * s, x * s + y * c];
+};
+
+/** The place of the world that two views of different turns show at the same place of the screen. */
+function fixedPoint(from: Required<Camera>, to: Required<Camera>): Vec {
+  const [ax, ay] = turned([1, 0], from.turn, from.z);
+  const [bx, by] = turned([1, 0], to.turn, to.z);
+  const [px, py] = turned([from.cx, from.cy], from.turn, from.z);
+  const [qx, qy] = turned([to.cx, to.cy], to.turn, to.z);
+  const [dx, dy] = [ax - bx, ay - by];
+  const d2 = dx * dx + dy * dy;
+  return [((px - qx) * dx + (py - qy) * dy) / d2, ((py - qy) * dx - (px - qx) * dy) / d2];
 }

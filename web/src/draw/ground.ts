@@ -23,12 +23,12 @@ export function paintZones(g: Pen, v: View, zones: readonly Zone[]): void {
     g.beginPath();
     for (const { x, y, gap } of zones) {
       if (gap < above || gap >= below || x < box.x0 || x > box.x1 || y < box.y0 || y > box.y1) continue;
-      const [x0, x1] = [v.x(x - CELL_M / 2), v.x(x + CELL_M / 2)];
-      const [y0, y1] = [v.y(y - CELL_M / 2), v.y(y + CELL_M / 2)];
-      g.moveTo(x0, y0);
-      g.lineTo(x1, y0);
-      g.lineTo(x1, y1);
-      g.lineTo(x0, y1);
+      const [x0, x1] = [x - CELL_M / 2, x + CELL_M / 2];
+      const [y0, y1] = [y - CELL_M / 2, y + CELL_M / 2];
+      g.moveTo(v.x(x0, y0), v.y(x0, y0));
+      g.lineTo(v.x(x1, y0), v.y(x1, y0));
+      g.lineTo(v.x(x1, y1), v.y(x1, y1));
+      g.lineTo(v.x(x0, y1), v.y(x0, y1));
       g.closePath();
     }
     g.fillStyle = colours()[colour];
@@ -108,7 +108,7 @@ export function paintWays(g: Pen, v: View, ways: readonly { readonly pts: readon
 /** The ground between two distances around a place. */
 export function paintRing(g: Pen, v: View, [x, y]: Vec, least: number, most: number): void {
   g.beginPath();
-  g.arc(v.x(x), v.y(y), ((least + most) / 2) * v.z, 0, Math.PI * 2);
+  g.arc(...v.to(x, y), ((least + most) / 2) * v.z, 0, Math.PI * 2);
   g.strokeStyle = colours().goal;
   g.lineWidth = Math.max(2, (most - least) * v.z);
   g.globalAlpha = 0.14;

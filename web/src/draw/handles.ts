@@ -23,11 +23,10 @@ export interface HandlePoints {
 
 /** Where the handles of a pose lie on screen. */
 export function handlePoints(v: View, a: Sized, p: Pose): HandlePoints {
-  const c = Math.cos(p.heading),
-    s = Math.sin(p.heading);
+  const [right, down] = v.ahead(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
   const [x, y] = v.to(p.x, p.y);
-  const at = (d: number): Vec => [x + c * d, y - s * d];
+  const at = (d: number): Vec => [x + right * d, y + down * d];
   const arrow = Math.max(SHORTEST_ARROW * v.grip ** 2, p.speed * arrowSeconds(a.type) * v.z);
   return { centre: [x, y], knob: at(-(half + STALK * v.grip)), nose: at(half + GAP), tip: at(half + GAP + arrow) };
 }
@@ -49,15 +48,14 @@ export interface HandleStyle {
 export function paintHandles(g: Pen, labels: Labels, v: View, a: Sized, p: Pose, s: HandleStyle): HandlePoints {
   const k = v.grip;
   const h = handlePoints(v, a, p);
-  const c = Math.cos(p.heading),
-    n = Math.sin(p.heading);
+  const ahead = v.ahead(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
-  const rear: Vec = [h.centre[0] - c * (half + GAP), h.centre[1] + n * (half + GAP)];
+  const rear: Vec = [h.centre[0] - ahead[0] * (half + GAP), h.centre[1] - ahead[1] * (half + GAP)];
   haloLine(g, rear, h.knob, s.colour, 2, s.freeHeading);
   knob(g, h.knob, s.colour, s.freeHeading ?? false, 6 * k);
   haloLine(g, h.nose, h.tip, s.colour, 2.5, s.freeSpeed);
-  ticks(g, h, p, s, v.z * arrowSeconds(a.type));
-  arrowHead(g, h.tip, p.heading, s, k);
+  ticks(g, h, ahead, s, v.z * arrowSeconds(a.type));
+  arrowHead(g, h.tip, v.angle(p.heading), s, k);
   labels.block(h.tip[0] - 10, h.tip[1] - 10, 20, 20);
   labels.block(h.knob[0] - 8, h.knob[1] - 8, 16, 16);
   labels.block(
@@ -85,7 +83,7 @@ export function paintSpeed(
   const k = Math.min(1, most / Math.max(1, length));
   const end: Vec = [nose[0] + (tip[0] - nose[0]) * k, nose[1] + (tip[1] - nose[1]) * k];
   haloLine(g, nose, end, colour, 1.8, free);
-  arrowHead(g, end, p.heading, { colour, freeSpeed: free, tick: 1 }, most < Infinity ? 0.5 : 0.7);
+  arrowHead(g, end, v.angle(p.heading), { colour, freeSpeed: free, tick: 1 }, most < Infinity ? 0.5 : 0.7);
   return end;
 }
 
@@ -128,27 +126,25 @@ function knob(g: Pen, [x, y]: Vec, colour: string, free: boolean, r: number): vo
 }
 
 /** Marks along the arrow, so that its length can be read as a speed. */
-function ticks(g: Pen, h: HandlePoints, p: Pose, s: HandleStyle, pxPerMps: number): void {
-  const c = Math.cos(p.heading),
-    n = Math.sin(p.heading);
+function ticks(g: Pen, h: HandlePoints, [right, down]: Vec, s: HandleStyle, pxPerMps: number): void {
   const length = Math.hypot(h.tip[0] - h.nose[0], h.tip[1] - h.nose[1]);
   g.strokeStyle = s.colour;
   g.lineWidth = 1.5;
   for (let d = s.tick * pxPerMps, i = 0; d < length - 6 && i < 60; d += s.tick * pxPerMps, i++) {
-    const x = h.nose[0] + c * d,
-      y = h.nose[1] - n * d;
+    const x = h.nose[0] + right * d,
+      y = h.nose[1] + down * d;
     g.beginPath();
-    g.moveTo(x + n * 3.2, y + c * 3.2);
-    g.lineTo(x - n * 3.2, y - c * 3.2);
+    g.moveTo(x - down * 3.2, y + right * 3.2);
+    g.lineTo(x + down * 3.2, y - right * 3.2);
     g.stroke();
   }
 }
 
-function arrowHead(g: Pen, [x, y]: Vec, heading: number, s: HandleStyle, k: number): void {
+function arrowHead(g: Pen, [x, y]: Vec, angle: number, s: HandleStyle, k: number): void {
   const c = colours();
   g.save();
   g.translate(x, y);
-  g.rotate(-heading);
+  g.rotate(angle);
   g.beginPath();
   g.moveTo(9 * k, 0);
   g.lineTo(-4 * k, 7 * k);
@@ -254,8 +250,7 @@ export function paintRing(
 ): void {
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
-  g.translate(v.x(p.x), v.y(p.y));
-  g.rotate(-p.heading);
+  v.stand(g, p);
   roundRect(g, -l / 2 - gap, -w / 2 - gap, l + 2 * gap, w + 2 * gap, 6);
   g.strokeStyle = colours().halo;
   g.lineWidth = width + 2.5;
@@ -280,8 +275,7 @@ export function paintGhost(
 ): void {
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
-  g.translate(v.x(p.x), v.y(p.y));
-  g.rotate(-p.heading);
+  v.stand(g, p);
   outline(g, a.kind, l, w);
   if (fill) {
     g.fillStyle = fill;

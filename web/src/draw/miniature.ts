@@ -25,7 +25,7 @@ export class Miniatures {
   }
 
   #map(v: View, map: MapPicture): HTMLCanvasElement | OffscreenCanvas {
-    const key = `${v.w} ${v.h} ${v.cx} ${v.cy} ${v.z} ${v.dpr} ${paletteStamp()}`;
+    const key = `${v.w} ${v.h} ${v.cx} ${v.cy} ${v.z} ${v.turn} ${v.dpr} ${paletteStamp()}`;
     if (this.#ground?.key !== key || this.#of !== map) {
       const canvas = surface(Math.round(v.w * v.dpr), Math.round(v.h * v.dpr));
       paintOn(pen2d(canvas), (pen) => map.paint(pen, v, false));

@@ -94,7 +94,7 @@ export class MapPicture {
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     g.fillStyle = this.recorded ? c['map-paved'] : c['map-ground'];
     g.fillRect(0, 0, v.w, v.h);
-    g.setTransform(v.dpr * v.z, 0, 0, -v.dpr * v.z, v.dpr * v.x(0), v.dpr * v.y(0));
+    v.lay(g);
     g.lineJoin = 'round';
     g.lineCap = 'round';
     if (!this.recorded) this.paintSidewalk(g, box, px);

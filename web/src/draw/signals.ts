@@ -1,6 +1,6 @@
 // Traffic signals at the stop line. Red is a solid bar, green a row of dots, so that colour is not needed.
 import type { Pen } from './pen';
-import { pointAt } from '../model/geometry';
+import { pointAt, type Vec } from '../model/geometry';
 import { STEP_S } from '../model/motion';
 import type { Scene, Signal } from '../model/scene';
 import { colours } from './theme';
@@ -38,16 +38,15 @@ export function paintSignals(g: Pen, v: View, scene: Scene, t: number): void {
     const light = stateAt(s, t);
     if (!lane) {
       // A signal for people on foot, or one whose lane is not on the map: no direction, so a disc.
-      disc(g, v.x(at[0]), v.y(at[1]), Math.max(3.2, 0.4 * v.z), light, paint[light]);
+      disc(g, ...v.to(at[0], at[1]), Math.max(3.2, 0.4 * v.z), light, paint[light]);
       continue;
     }
     const nearStart = entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
     const heading = pointAt(lane.line, nearStart ? 0 : lane.line.length).heading;
     bar(
       g,
-      v.x(at[0]),
-      v.y(at[1]),
-      heading,
+      ...v.to(at[0], at[1]),
+      v.ahead(heading),
       Math.max(9, Math.min(2.5, lane.width - 0.7) * v.z),
       Math.max(3, 0.32 * v.z),
       light,
@@ -60,15 +59,15 @@ function bar(
   g: Pen,
   x: number,
   y: number,
-  heading: number,
+  [right, down]: Vec,
   length: number,
   thick: number,
   light: Light,
   colour: string,
 ): void {
-  // Across the lane, in screen directions.
-  const dx = (Math.sin(heading) * length) / 2,
-    dy = (Math.cos(heading) * length) / 2;
+  // Across the lane.
+  const dx = (-down * length) / 2,
+    dy = (right * length) / 2;
   g.beginPath();
   g.moveTo(x - dx, y - dy);
   g.lineTo(x + dx, y + dy);

@@ -33,11 +33,11 @@ export function sizeOnScreen(a: Sized, z: number): [number, number] {
 /** The upright rectangle around a road user, in pixels. */
 export function boxOnScreen(v: View, a: Sized, p: OnLine): { x: number; y: number; w: number; h: number } {
   const [l, s] = sizeOnScreen(a, v.z);
-  const c = Math.abs(Math.cos(p.heading)),
-    n = Math.abs(Math.sin(p.heading));
+  const [c, n] = v.ahead(p.heading).map(Math.abs);
   const w = l * c + s * n,
     h = l * n + s * c;
-  return { x: v.x(p.x) - w / 2, y: v.y(p.y) - h / 2, w, h };
+  const [x, y] = v.to(p.x, p.y);
+  return { x: x - w / 2, y: y - h / 2, w, h };
 }
 
 const PAD = 3;
@@ -64,10 +64,8 @@ export function stamp(g: Pen, v: View, a: Sized, p: OnLine, active = false): voi
   const s = sprite(a, v.z, v.dpr, active);
   const w = s.width / v.dpr,
     h = s.height / v.dpr;
-  const c = Math.cos(p.heading),
-    n = Math.sin(p.heading);
-  // Screen y points down, so the rotation is the other way round.
-  g.setTransform(v.dpr * c, -v.dpr * n, v.dpr * n, v.dpr * c, v.dpr * v.x(p.x), v.dpr * v.y(p.y));
+  const [c, n] = v.ahead(p.heading);
+  g.setTransform(v.dpr * c, v.dpr * n, -v.dpr * n, v.dpr * c, v.dpr * v.x(p.x, p.y), v.dpr * v.y(p.x, p.y));
   g.stamp(s, -w / 2, -h / 2, w, h);
 }
 

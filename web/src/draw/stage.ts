@@ -1,19 +1,19 @@
 // When what is painted: each of map, road users and overlay anew only when what it shows has changed, all inside one
-// animation frame. While the view moves, the finished map picture is shifted and scaled; it is painted afresh when the
-// movement rests or when its margin is used up.
+// animation frame. While the view moves, the finished map picture is shifted, scaled and turned; it is painted afresh
+// when the movement rests or when its margin is used up.
 import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
 import { paintOn } from './replay';
 import { Screen } from './screen';
-import type { Point } from '../model/geometry';
+import type { Point, Vec } from '../model/geometry';
 import { View } from './view';
 import { readPalette } from './theme';
 
 export type Painter = (pen: Pen, v: View) => void;
 
 const REST_MS = 90;
-const IN_PLACE: Shift = { dx: 0, dy: 0, scale: 1 };
+const IN_PLACE: Shift = { dx: 0, dy: 0, scale: 1, angle: 0 };
 
 export class Stage {
   readonly view = new View();
@@ -205,10 +205,15 @@ export class Stage {
       v = this.view;
     if (!p || p.w !== v.w || p.h !== v.h || p.dpr !== v.dpr) return null;
     const scale = v.z / p.z;
-    const dx = (p.cx - v.cx) * v.z,
-      dy = (v.cy - p.cy) * v.z;
-    const reachX = (p.w / 2 + MARGIN) * scale - v.w / 2,
-      reachY = (p.h / 2 + MARGIN) * scale - v.h / 2;
-    return scale > 3 || Math.abs(dx) > reachX || Math.abs(dy) > reachY ? null : { dx, dy, scale };
+    const [x, y] = v.to(p.cx, p.cy);
+    const covered = ([sx, sy]: Vec): boolean => p.shows(...v.from(sx, sy), MARGIN);
+    const corners: readonly Vec[] = [
+      [0, 0],
+      [v.w, 0],
+      [v.w, v.h],
+      [0, v.h],
+    ];
+    if (scale > 3 || !corners.every(covered)) return null;
+    return { dx: x - v.w / 2, dy: y - v.h / 2, scale, angle: p.turn - v.turn };
   }
 }

@@ -25,7 +25,7 @@ export const UNSEEN_PX = 0.05;
 
 function tracePath(g: Pen, v: View, m: Motion, i0: number, i1: number): void {
   g.beginPath();
-  const at = (i: number): Vec => [v.x(m.x[i]), v.y(m.y[i])];
+  const at = (i: number): Vec => v.to(m.x[i], m.y[i]);
   for (const [from, to] of stretches(m, Math.max(0, i0), Math.min(i1, m.x.length - 1))) {
     let pen = false;
     thinned(from, to, at, UNSEEN_PX, ([x, y]) => {
@@ -69,10 +69,20 @@ function secondDots(g: Pen, v: View, m: Motion, s: TrailStyle, i0: number, i1: n
     if (step % every || !isValidAt(m, step)) continue;
     const r = step % 10 ? s.width * 0.35 + 0.6 : s.width * 0.5 + 1.2;
     g.beginPath();
-    g.arc(v.x(m.x[i]), v.y(m.y[i]), r, 0, Math.PI * 2);
+    g.arc(v.x(m.x[i], m.y[i]), v.y(m.x[i], m.y[i]), r, 0, Math.PI * 2);
     if (s.halo) g.stroke();
     g.fill();
   }
+}
+
+/** A line through places of the world, to be stroked or filled. */
+export function traceLine(g: Pen, v: View, pts: readonly Vec[]): void {
+  pts.forEach(([wx, wy], i) => {
+    const x = v.x(wx, wy),
+      y = v.y(wx, wy);
+    if (i) g.lineTo(x, y);
+    else g.moveTo(x, y);
+  });
 }
 
 export function polyline(
@@ -86,7 +96,7 @@ export function polyline(
   cap: CanvasLineCap = 'butt',
 ): void {
   g.beginPath();
-  pts.forEach((p, i) => (i ? g.lineTo(v.x(p[0]), v.y(p[1])) : g.moveTo(v.x(p[0]), v.y(p[1]))));
+  traceLine(g, v, pts);
   g.strokeStyle = colour;
   g.lineWidth = width;
   g.lineCap = cap;
@@ -197,12 +207,8 @@ const CHIP_TRIES: readonly Offset[] = [
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
 function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
-  const { left, right, top, bottom } = v.inset;
-  for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--) {
-    const x = v.x(m.x[i]),
-      y = v.y(m.y[i]);
-    if (x > left && x < v.w - right && y > top && y < v.h - bottom) return [x, y];
-  }
+  for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--)
+    if (v.bares(m.x[i], m.y[i])) return v.to(m.x[i], m.y[i]);
   return null;
 }
 

@@ -1,10 +1,15 @@
-// World to screen: one scale and one offset. y points up in the world and down on the screen.
-import { clamp, type Box, type Vec } from '../model/geometry';
+// World to screen and back: one scale, one turn and one offset, known here alone. y points up in the world and down on
+// the screen.
+import { boxOf, clamp, wrapAngle, type Box, type OnLine, type Point, type Quad, type Vec } from '../model/geometry';
+import type { Camera } from '../model/history';
+import type { Pen } from './pen';
 
 const MIN_ZOOM = 0.5;
 const MAX_ZOOM = 40;
 /** 100 % in the zoom control. */
 export const HOME_ZOOM = 8;
+/** A turn by less than this is none, and a quarter turn is exact to it, radians. */
+const EXACT_RAD = 1e-9;
 
 export class View {
   cx = 0;
@@ -18,69 +23,197 @@ export class View {
   grip = 1;
   /** Part of the stage that panels cover, so that "fit" means the part one sees. */
   inset = { left: 0, right: 0, top: 0, bottom: 0 };
+  private turned = 0;
+  private cos = 1;
+  private sin = 0;
 
-  x(wx: number): number {
-    return this.w / 2 + (wx - this.cx) * this.z;
+  /** By how much the picture is turned counter-clockwise, radians: at 0 north is up. */
+  get turn(): number {
+    return this.turned;
   }
-  y(wy: number): number {
-    return this.h / 2 - (wy - this.cy) * this.z;
+  set turn(angle: number) {
+    const near = (v: number, to: number): number => (Math.abs(v - to) < EXACT_RAD ? to : v);
+    this.turned = near(wrapAngle(angle), 0);
+    const exact = (v: number): number => near(near(near(v, 0), 1), -1);
+    this.cos = exact(Math.cos(this.turned));
+    this.sin = exact(Math.sin(this.turned));
+  }
+
+  x(wx: number, wy: number): number {
+    return this.w / 2 + ((wx - this.cx) * this.cos - (wy - this.cy) * this.sin) * this.z;
+  }
+  y(wx: number, wy: number): number {
+    return this.h / 2 - ((wx - this.cx) * this.sin + (wy - this.cy) * this.cos) * this.z;
   }
   to(wx: number, wy: number): [number, number] {
-    return [this.x(wx), this.y(wy)];
+    return [this.x(wx, wy), this.y(wx, wy)];
   }
   from(sx: number, sy: number): Vec {
-    return [this.cx + (sx - this.w / 2) / this.z, this.cy - (sy - this.h / 2) / this.z];
+    const [dx, dy] = this.way(sx - this.w / 2, sy - this.h / 2);
+    return [this.cx + dx, this.cy + dy];
   }
 
-  /** The world rectangle on screen, grown by some pixels. */
+  /** How far a world point is from a place of the screen, pixels. */
+  away([wx, wy]: Vec, { x, y }: Point): number {
+    return Math.hypot(this.x(wx, wy) - x, this.y(wx, wy) - y);
+  }
+
+  /** So many pixels to the right and down, in metres of the world. */
+  way(right: number, down: number): Vec {
+    return this.along(right / this.z, -down / this.z);
+  }
+  /** So many metres to the right and up on the screen, in metres of the world. */
+  along(right: number, up: number): Vec {
+    return [right * this.cos + up * this.sin, up * this.cos - right * this.sin];
+  }
+  /** The same for metres of the world: how far they lead to the right and up on the screen. */
+  across(dx: number, dy: number): Vec {
+    return [dx * this.cos - dy * this.sin, dy * this.cos + dx * this.sin];
+  }
+
+  /** Where a heading points on the screen: a way of length one, to the right and down. */
+  ahead(heading: number): Vec {
+    const angle = heading + this.turned;
+    return [Math.cos(angle), -Math.sin(angle)];
+  }
+  /** The same as an angle of the screen, which is clockwise. */
+  angle(heading: number): number {
+    return -(heading + this.turned);
+  }
+
+  /** A pen draws from here on as seen by somebody who stands there: forward is to the right. */
+  stand(g: Pen, p: OnLine): void {
+    g.translate(...this.to(p.x, p.y));
+    g.rotate(this.angle(p.heading));
+  }
+  /** A pen draws in metres of the world from here on. */
+  lay(g: Pen): void {
+    const k = this.dpr * this.z;
+    const [c, s] = [k * this.cos, k * this.sin];
+    g.setTransform(c, -s, -s, -c, this.dpr * this.x(0, 0), this.dpr * this.y(0, 0));
+  }
+
+  /** The upright world rectangle around what is on screen, grown by some pixels. */
   box(margin = 0): Box {
     const hx = (this.w / 2 + margin) / this.z,
       hy = (this.h / 2 + margin) / this.z;
-    return { x0: this.cx - hx, x1: this.cx + hx, y0: this.cy - hy, y1: this.cy + hy };
+    const [c, s] = [Math.abs(this.cos), Math.abs(this.sin)];
+    const x = hx * c + hy * s,
+      y = hx * s + hy * c;
+    return { x0: this.cx - x, x1: this.cx + x, y0: this.cy - y, y1: this.cy + y };
+  }
+  /** The upright rectangle on the screen around a world rectangle, pixels. */
+  around(b: Box): Box {
+    return boxOf(corners(b).map(([x, y]) => this.to(x, y)));
+  }
+  /**
+   * The rectangle that is upright on the screen and has two world points for corners: its world corners,
+   * counter-clockwise from the lower left.
+   */
+  frame(a: Vec, b: Vec): Quad {
+    const [right, up] = this.across(b[0] - a[0], b[1] - a[1]);
+    const from = (r: number, u: number): Vec => {
+      const [dx, dy] = this.along(r, u);
+      return [a[0] + dx, a[1] + dy];
+    };
+    const [r0, r1] = [Math.min(0, right), Math.max(0, right)];
+    const [u0, u1] = [Math.min(0, up), Math.max(0, up)];
+    return [from(r0, u0), from(r1, u0), from(r1, u1), from(r0, u1)];
+  }
+  /** Is a world point on screen, or no more than some pixels beyond it? */
+  shows(wx: number, wy: number, margin = 0): boolean {
+    const x = this.x(wx, wy),
+      y = this.y(wx, wy);
+    return x > -margin && x < this.w + margin && y > -margin && y < this.h + margin;
+  }
+
+  /** Is a world point in the part that no panel covers, so many pixels away from its edge? */
+  bares(wx: number, wy: number, edge = 0): boolean {
+    const { left, right, top, bottom } = this.inset;
+    const x = this.x(wx, wy),
+      y = this.y(wx, wy);
+    return x > left + edge && x < this.w - right - edge && y > top + edge && y < this.h - bottom - edge;
   }
 
   panBy(dx: number, dy: number): void {
-    this.cx -= dx / this.z;
-    this.cy += dy / this.z;
+    const [x, y] = this.way(dx, dy);
+    this.cx -= x;
+    this.cy -= y;
   }
 
   /** The same, but not so far that the picture shows more beyond a part of the world than it does; false at its end. */
   panWithin(dx: number, dy: number, b: Box): boolean {
-    const { cx, cy } = this;
-    this.panBy(dx, dy);
-    const { x0, x1, y0, y1 } = this.box();
+    const { x0, x1, y0, y1 } = this.around(b);
     // Only the side that comes into view is held, so that nothing jumps where it lies outside already.
-    if (dx < 0) this.cx = Math.max(cx, this.cx - Math.max(0, x1 - b.x1));
-    else this.cx = Math.min(cx, this.cx + Math.max(0, b.x0 - x0));
-    if (dy > 0) this.cy = Math.max(cy, this.cy - Math.max(0, y1 - b.y1));
-    else this.cy = Math.min(cy, this.cy + Math.max(0, b.y0 - y0));
-    return this.cx !== cx || this.cy !== cy;
+    const held = (by: number, from: number, to: number, size: number): number =>
+      by < 0 ? Math.max(by, Math.min(0, size - to)) : Math.min(by, Math.max(0, -from));
+    const x = held(dx, x0, x1, this.w),
+      y = held(dy, y0, y1, this.h);
+    this.panBy(x, y);
+    return x !== 0 || y !== 0;
   }
 
   /** Zooms so that the world point under (sx, sy) stays there. */
   zoomAt(sx: number, sy: number, factor: number): void {
+    this.#about(sx, sy, () => (this.z = clamp(this.z * factor, MIN_ZOOM, MAX_ZOOM)));
+  }
+  /** Turns so that the world point under (sx, sy) stays there. */
+  turnAt(sx: number, sy: number, turn: number): void {
+    this.#about(sx, sy, () => (this.turn = turn));
+  }
+  /** Turns about the middle of the visible part. */
+  turnTo(turn: number): void {
+    const { left, right, top, bottom } = this.inset;
+    this.turnAt((this.w + left - right) / 2, (this.h + top - bottom) / 2, turn);
+  }
+  #about(sx: number, sy: number, change: () => void): void {
     const [wx, wy] = this.from(sx, sy);
-    this.z = clamp(this.z * factor, MIN_ZOOM, MAX_ZOOM);
-    this.cx = wx - (sx - this.w / 2) / this.z;
-    this.cy = wy + (sy - this.h / 2) / this.z;
+    change();
+    const [dx, dy] = this.way(sx - this.w / 2, sy - this.h / 2);
+    this.cx = wx - dx;
+    this.cy = wy - dy;
   }
 
   fit(b: Box, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
+    this.fitPlaces(corners(b), 0, maxZoom, minZoom);
+  }
+  /** Puts places, and so many metres around them, into the visible part. */
+  fitPlaces(places: readonly Vec[], around: number, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
     const { left, right, top, bottom } = this.inset;
     const w = Math.max(80, this.w - left - right),
       h = Math.max(80, this.h - top - bottom);
-    this.z = clamp(Math.min(w / Math.max(1, b.x1 - b.x0), h / Math.max(1, b.y1 - b.y0)), minZoom, maxZoom);
-    this.centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2);
+    const { x0, x1, y0, y1 } = boxOf(places.map(([x, y]) => this.across(x, y)));
+    const wide = Math.max(1, x1 - x0 + 2 * around),
+      high = Math.max(1, y1 - y0 + 2 * around);
+    this.z = clamp(Math.min(w / wide, h / high), minZoom, maxZoom);
+    this.centre(...this.along((x0 + x1) / 2, (y0 + y1) / 2));
   }
 
   /** Puts a world point into the middle of the visible part. */
   centre(wx: number, wy: number): void {
     const { left, right, top, bottom } = this.inset;
-    this.cx = wx - (left - right) / 2 / this.z;
-    this.cy = wy + (top - bottom) / 2 / this.z;
+    const [dx, dy] = this.way((left - right) / 2, (top - bottom) / 2);
+    this.cx = wx - dx;
+    this.cy = wy - dy;
+  }
+
+  get camera(): Required<Camera> {
+    const { cx, cy, z, turn } = this;
+    return { cx, cy, z, turn };
+  }
+  /** Looks as a camera does; one that says nothing of a turn has north up. */
+  look({ cx, cy, z, turn = 0 }: Camera): void {
+    Object.assign(this, { cx, cy, z, turn });
   }
 
   copy(): View {
     return Object.assign(new View(), this, { inset: { ...this.inset } });
   }
 }
+
+const corners = ({ x0, x1, y0, y1 }: Box): readonly Vec[] => [
+  [x0, y0],
+  [x1, y0],
+  [x1, y1],
+  [x0, y1],
+];

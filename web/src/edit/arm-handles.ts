@@ -29,9 +29,10 @@ export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(
 /** Handles of the arms that are in the picture. */
 export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {
   return arms.flatMap((arm) => {
+    if (!v.shows(...arm.at, EDGE_PX)) return [];
     const [x, y] = v.to(...arm.at);
-    if (x < -EDGE_PX || y < -EDGE_PX || x > v.w + EDGE_PX || y > v.h + EDGE_PX) return [];
-    const out: Vec = [-Math.cos(arm.heading), Math.sin(arm.heading)];
+    const inward = v.ahead(arm.heading);
+    const out: Vec = [-inward[0], -inward[1]];
     const rate = rates[arm.id] ?? 0;
     // Drawn in so far that the longest stem stays in the picture.
     const { left, right, top, bottom } = v.inset;

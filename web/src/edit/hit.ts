@@ -132,7 +132,7 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
 
 /** The diamond of a via point, or its ring where that is not the same place. */
 function viaAt(v: View, a: Agent, x: number, y: number): Grip | null {
-  const away = a.goal.via.map((via) => Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y));
+  const away = a.goal.via.map((via) => v.away(via.pos, { x, y }));
   const at = away.findIndex((d) => d <= 10);
   if (at >= 0) return { part: 'goal', handle: 'via', index: at };
   const ring = away.findIndex((d, i) => Math.abs(d - ringRadius(v, a.goal.via[i].tolerance)) <= 5);
@@ -162,7 +162,7 @@ function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | nu
     }
   }
   a.goal.via.forEach((via, index) => {
-    const away = Math.hypot(v.x(via.pos[0]) - x, v.y(via.pos[1]) - y);
+    const away = v.away(via.pos, { x, y });
     offer({ part: 'goal', handle: 'via', index }, away);
     // A finger inside the ring takes the point, unless it is nearer to the ring.
     offer({ part: 'goal', handle: 'ring', index }, Math.abs(away - ringRadius(v, via.tolerance)) + 6);
@@ -182,11 +182,12 @@ const rectAway = (r: Rect, x: number, y: number): number =>
 /** How far a place is from the box of somebody, in pixels. */
 function boxAway(v: View, a: Agent, p: OnLine, x: number, y: number): number {
   const [l, w] = sizeOnScreen(a, v.z);
-  const dx = x - v.x(p.x),
-    dy = v.y(p.y) - y;
-  const c = Math.cos(p.heading),
-    s = Math.sin(p.heading);
-  return Math.hypot(Math.max(0, Math.abs(dx * c + dy * s) - l / 2), Math.max(0, Math.abs(dy * c - dx * s) - w / 2));
+  const [px, py] = v.to(p.x, p.y);
+  const [dx, dy] = [x - px, y - py];
+  const [right, down] = v.ahead(p.heading);
+  const ahead = Math.abs(dx * right + dy * down) - l / 2,
+    aside = Math.abs(dy * right - dx * down) - w / 2;
+  return Math.hypot(Math.max(0, ahead), Math.max(0, aside));
 }
 
 /** Whose box is nearest to a finger that is on none. */

@@ -5,6 +5,7 @@ import type { Vec } from '../model/geometry';
 import { metres, num, retold } from '../model/units';
 import { pill, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
+import { traceLine } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
@@ -35,9 +36,10 @@ export class ArmsOverlay {
     this.#paintBefore(g, v, made);
     for (const k of all) if (k.kind === 'arm') this.#paintStem(g, v, made, k);
     for (const k of all) {
-      this.labels.block(v.x(k.at[0]) - 11, v.y(k.at[1]) - 11, 22, 22);
-      if (k.kind === 'lane') paintButton(g, v.to(...k.at), k.by, k.arm === layouts.arm.value);
-      else paintKnob(g, v.to(...k.at), k.kind === 'arm' ? KNOB_PX : 6, k.kind === 'arm' && k.arm === layouts.arm.value);
+      const at = v.to(...k.at);
+      this.labels.block(at[0] - 11, at[1] - 11, 22, 22);
+      if (k.kind === 'lane') paintButton(g, at, k.by, k.arm === layouts.arm.value);
+      else paintKnob(g, at, k.kind === 'arm' ? KNOB_PX : 6, k.kind === 'arm' && k.arm === layouts.arm.value);
     }
     this.#paintNames(g, v, made, all);
   }
@@ -56,7 +58,7 @@ export class ArmsOverlay {
       const mine = Number(from[1]) - 1 === inHand;
       const strong = lane.id === picked || lane.id === pointed;
       g.beginPath();
-      lane.line.pts.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+      traceLine(g, v, lane.line.pts);
       if (lane.id === picked) {
         g.strokeStyle = c.surface;
         g.lineWidth = 7;
@@ -102,7 +104,7 @@ export class ArmsOverlay {
     const [x, y] = v.to(...drawn.at);
     if (!drawn.to) {
       g.beginPath();
-      g.moveTo(v.x(from[0]), v.y(from[1]));
+      g.moveTo(...v.to(from[0], from[1]));
       g.lineTo(x, y);
       g.strokeStyle = c.ok;
       g.lineWidth = 2;
@@ -134,8 +136,7 @@ export class ArmsOverlay {
         Math.sin(from) * out + Math.cos(from) * left,
       ];
       g.beginPath();
-      g.moveTo(...v.to(...at(near)));
-      g.lineTo(...v.to(...at(far)));
+      traceLine(g, v, [at(near), at(far)]);
       g.stroke();
     };
     side(place.kerbs_m[0]);
@@ -145,7 +146,7 @@ export class ArmsOverlay {
     const r = (near + 9) * v.z;
     const back = Math.sin(to - from) < 0;
     g.beginPath();
-    g.arc(x, y, r, -from, -to, !back);
+    g.arc(x, y, r, v.angle(from), v.angle(to), !back);
     g.strokeStyle = c.ok;
     g.lineWidth = 2;
     g.stroke();
@@ -154,8 +155,7 @@ export class ArmsOverlay {
   #paintStem(g: Pen, v: View, made: Made, k: Extract<Placed, { kind: 'arm' }>): void {
     const [mx, my] = made.arms[k.arm].mouth_m;
     g.beginPath();
-    g.moveTo(v.x(mx), v.y(my));
-    g.lineTo(v.x(k.at[0]), v.y(k.at[1]));
+    traceLine(g, v, [[mx, my], k.at]);
     g.strokeStyle = k.arm === this.editor.layouts.arm.value ? colours().ok : colours().ink;
     g.lineWidth = 2;
     g.stroke();
@@ -265,7 +265,7 @@ function paintButton(g: Pen, [x, y]: Vec, by: 1 | -1, inHand: boolean): void {
 function paintHead(g: Pen, v: View, pts: readonly Vec[], colour: string): void {
   const [a, b] = [pts[Math.max(0, pts.length - 4)], pts.at(-1)!];
   const [x, y] = v.to(...b);
-  const h = Math.atan2(y - v.y(a[1]), x - v.x(a[0]));
+  const h = v.angle(Math.atan2(b[1] - a[1], b[0] - a[0]));
   g.beginPath();
   g.moveTo(x, y);
   g.lineTo(x - HEAD_PX * Math.cos(h - 0.42), y - HEAD_PX * Math.sin(h - 0.42));

@@ -7,7 +7,7 @@ import { paintFlag, paintGhost, paintRing } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { colourKey, stamp } from '../draw/sprites';
-import { trail } from '../draw/strokes';
+import { traceLine, trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Beside, Tries } from './editor';
@@ -23,7 +23,7 @@ const NOW_S = 0.45;
 export function paintTries(g: Pen, v: View, tries: Tries): void {
   if (!tries.length) return;
   g.beginPath();
-  for (const way of tries) way.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+  for (const way of tries) traceLine(g, v, way);
   g.strokeStyle = colours()['ink-2'];
   // Thinner ones lie over each other one by one, and many would be black.
   g.lineWidth = 1.25;

@@ -57,10 +57,8 @@ export class ChangesOverlay {
     for (const ch of e.changes.value.slice(0, LABELS)) {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
-      const x = p ? v.x(p.x) : -1,
-        y = p ? v.y(p.y) : -1;
-      if (x > 0 && x < v.w && y > 0 && y < v.h)
-        tag(g, this.labels, [x, y], `${ch.name} ${ch.words}`, {
+      if (p && v.shows(p.x, p.y))
+        tag(g, this.labels, v.to(p.x, p.y), `${ch.name} ${ch.words}`, {
           leader: colours().ink,
           radii: [44, 60, 84, 110],
           must: false,

@@ -95,7 +95,7 @@ function paintLabel(g: Pen, v: View, labels: Labels, ev: TrafficEvent): void {
       : ev.b
         ? `${seconds(ev.time)} · ${ev.short}`
         : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
-  tag(g, labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? TEXTS.inTheLog(text) : text, {
+  tag(g, labels, v.to(ev.at[0], ev.at[1]), ev.inLog ? TEXTS.inTheLog(text) : text, {
     ...styleOf(ev),
     radii: [44, 60, 84],
     height: 22,

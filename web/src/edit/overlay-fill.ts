@@ -7,6 +7,7 @@ import { paintRing } from '../draw/handles';
 import { pill, tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
+import { traceLine } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import { armHandles, armName, type ArmHandle } from './arm-handles';
@@ -51,7 +52,7 @@ export class FillOverlay {
   #paintOutline(g: Pen, v: View, outline: readonly Vec[], closed: boolean): void {
     const c = colours();
     g.beginPath();
-    outline.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+    traceLine(g, v, outline);
     if (closed) g.closePath();
     g.fillStyle = c.focus;
     g.globalAlpha = 0.12;
@@ -101,8 +102,8 @@ export class FillOverlay {
 
   #paintOne(g: Pen, v: View, n: Newcomer, pinned: boolean): void {
     const c = colours();
+    if (!v.shows(n.pose.x, n.pose.y, 40)) return;
     const [x, y] = v.to(n.pose.x, n.pose.y);
-    if (x < -40 || y < -40 || x > v.w + 40 || y > v.h + 40) return;
     const box = boxOfNewcomer(n);
     g.globalAlpha = pinned ? 1 : 0.65;
     stamp(g, v, box, n.pose, true);
@@ -179,7 +180,8 @@ export class FillOverlay {
     const c = colours();
     const b = boxOf(region);
     const size = `${metres(b.x1 - b.x0, 0)} × ${metres(b.y1 - b.y0, 0)}`;
-    tag(g, this.labels, v.to((b.x0 + b.x1) / 2, b.y1), `${words} · ${size}`, {
+    const seen = boxOf(region.map(([x, y]) => v.to(x, y)));
+    tag(g, this.labels, [(seen.x0 + seen.x1) / 2, seen.y0], `${words} · ${size}`, {
       bg: c.focus,
       fg: c.surface,
       tries: [

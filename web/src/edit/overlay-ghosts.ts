@@ -7,7 +7,7 @@ import type { Agent } from '../model/scene';
 import { Fades, type Faded } from '../draw/fades';
 import { paintWaiting, paintWay, type GhostStyle } from '../draw/ghosts';
 import { pill, tag, type Labels } from '../draw/labels';
-import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
+import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
@@ -67,17 +67,15 @@ export class GhostOverlay {
   }
 
   private block(v: View, a: Agent, p: Pose): void {
-    const [l, w] = sizeOnScreen(a, v.z);
-    const across = Math.abs(Math.cos(p.heading)) * l + Math.abs(Math.sin(p.heading)) * w + 4;
-    const up = Math.abs(Math.sin(p.heading)) * l + Math.abs(Math.cos(p.heading)) * w + 4;
-    this.labels.block(v.x(p.x) - across / 2, v.y(p.y) - up / 2, across, up);
+    const { x, y, w, h } = boxOnScreen(v, a, p);
+    this.labels.block(x - 2, y - 2, w + 4, h + 4);
   }
 
   /** One small cause for each of those most affected, and their names at their own boxes. */
   paintLabels(g: Pen, v: View): void {
     const first = this.shown.filter((s) => s.here).slice(0, LABELS);
     for (const { ghost: c, alpha } of first) {
-      const at = [v.x(c.place.x), v.y(c.place.y)] as const;
+      const at = v.to(c.place.x, c.place.y);
       g.globalAlpha = alpha;
       tag(g, this.labels, at, c.words, { leader: colours().ink, radii: [38, 52, 70, 92, 120] });
       g.globalAlpha = 1;
@@ -89,9 +87,9 @@ export class GhostOverlay {
     const a = this.agentOf(c);
     const p = a && (this.poseNow(a) ?? c.place);
     if (!a || !p) return;
-    const [l, w] = sizeOnScreen(a, v.z);
-    const half = (Math.abs(Math.sin(p.heading)) * l + Math.abs(Math.cos(p.heading)) * w) / 2;
-    pill(g, this.labels, v.x(p.x), v.y(p.y), c.name, {
+    const [l] = sizeOnScreen(a, v.z);
+    const half = boxOnScreen(v, a, p).h / 2;
+    pill(g, this.labels, ...v.to(p.x, p.y), c.name, {
       weight: 500,
       must: false,
       tries: [

@@ -148,8 +148,7 @@ export class GoalOverlay {
   /** After the handles, which would cover it. */
   labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
     const c = colours();
-    const x = v.x(nearest.x),
-      y = v.y(nearest.y);
+    const [x, y] = v.to(nearest.x, nearest.y);
     const start = startPose(a);
     const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
     tag(g, this.labels, [x, y], far ? TEXTS.nearestReachable(metres(far.gets, 0)) : TEXTS.nearestReachable2, {
@@ -166,7 +165,7 @@ export class GoalOverlay {
       tag(
         g,
         this.labels,
-        [(x + v.x(a.goal.pos[0])) / 2, (y + v.y(a.goal.pos[1])) / 2],
+        v.to((nearest.x + a.goal.pos[0]) / 2, (nearest.y + a.goal.pos[1]) / 2),
         TEXTS.beyondReach(metres(far.beyond, 0)),
         { weight: 500, must: false },
       );

@@ -9,7 +9,7 @@ import { paintRing, paintSpeed } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
-import { polyline, trail } from '../draw/strokes';
+import { polyline, traceLine, trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
@@ -70,7 +70,7 @@ export class SeveralOverlay {
     const atStart = e.time.value < 0.05;
     const shown = all.flatMap((a) => {
       const p = this.poseNow(a);
-      return p && onScreen(v, p) ? [[a, p] as const] : [];
+      return p && v.shows(p.x, p.y, 60) ? [[a, p] as const] : [];
     });
     if (!e.drag.value && e.layers.value.futures && all.length <= MOST_WAYS)
       for (const [a] of shown)
@@ -139,7 +139,7 @@ export class SeveralOverlay {
     const { editor: e } = this;
     const c = colours();
     g.beginPath();
-    outline.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+    traceLine(g, v, outline);
     if (outline.length > 2) g.closePath();
     g.fillStyle = c.focus;
     g.globalAlpha = 0.09;
@@ -154,7 +154,7 @@ export class SeveralOverlay {
     for (const id of ids) {
       const a = scene.agents.get(id);
       const p = a && this.poseNow(a);
-      if (a && p && onScreen(v, p)) paintRing(g, v, a, p, c.focus, 1.6, 3);
+      if (a && p && v.shows(p.x, p.y, 60)) paintRing(g, v, a, p, c.focus, 1.6, 3);
     }
   }
 
@@ -216,9 +216,3 @@ function square(g: Pen, x: number, y: number, w: number, h: number): void {
   g.lineTo(x, y + h);
   g.closePath();
 }
-
-const onScreen = (v: View, p: { x: number; y: number }): boolean => {
-  const x = v.x(p.x),
-    y = v.y(p.y);
-  return x > -60 && y > -60 && x < v.w + 60 && y < v.h + 60;
-};

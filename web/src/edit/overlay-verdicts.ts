@@ -64,7 +64,7 @@ export class VerdictOverlay {
 
   /** One word at each place; a red path never goes without. */
   paintWords(g: Pen, v: View, f: Futures, visible: readonly number[], most = NAMED): void {
-    const inView = (p: FaultPlace): boolean => !this.labels.outside(v.x(p.fault.at[0]), v.y(p.fault.at[1]));
+    const inView = (p: FaultPlace): boolean => !this.labels.outside(...v.to(p.fault.at[0], p.fault.at[1]));
     const places = faultPlaces(f, visible, this.editor.chosen.value).filter(inView);
     if (places.length) this.labels.avoiding(pathBoxes(v, f, visible), () => this.placeWords(g, v, places, most));
   }
@@ -89,7 +89,9 @@ export class VerdictOverlay {
     if (!way) return;
     polyline(g, v, way.path, colours().goal, Math.max(6, a.width * 1.5 * v.z), 0.2, [], 'round');
     // Labels that are placed before the flag is painted leave it room.
-    if (way.to) this.labels.block(v.x(way.to.x) - 4, v.y(way.to.y) - FLAG_HEIGHT, 28, FLAG_HEIGHT);
+    if (!way.to) return;
+    const [x, y] = v.to(way.to.x, way.to.y);
+    this.labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
   }
 
   /** Where it leads to, hollow: a click takes it. */
@@ -151,7 +153,7 @@ function pathBoxes(v: View, f: Futures, visible: readonly number[]): Rect[] {
   const out: Rect[] = [];
   for (const i of visible) {
     const { x, y } = f.modes[i].motion;
-    for (let k = 0; k < x.length; k += 3) out.push({ x: v.x(x[k]) - 4, y: v.y(y[k]) - 4, w: 8, h: 8 });
+    for (let k = 0; k < x.length; k += 3) out.push({ x: v.x(x[k], y[k]) - 4, y: v.y(x[k], y[k]) - 4, w: 8, h: 8 });
   }
   return out;
 }

@@ -35,6 +35,8 @@ const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 const RAIL_H = 484;
 const RAIL_W = 62;
 const DRAG_HELP_W = 650;
+/** Above the zoom control, or above the thumb on a small page. */
+const COMPASS_PX = 84;
 const RAIL_LEAST = 40;
 const RAIL_MOST = 140;
 /** About as wide as a toast is, pixels. */
@@ -144,7 +146,7 @@ export class Overlay {
 
   /** Rectangles of the panels over the picture, which labels keep clear of. */
   private panels(v: View): (readonly [number, number, number, number])[] {
-    const { left, bottom } = v.inset;
+    const { left, right, bottom } = v.inset;
     // Above a sheet they stand higher.
     const y = v.h - (bottom > 60 ? bottom + 44 : 52);
     const drawer = left > RAIL_MOST ? left - 12 : 0;
@@ -156,6 +158,8 @@ export class Overlay {
       ...(this.editor.drag.value ? ([[v.w - DRAG_HELP_W, y, DRAG_HELP_W, v.h - y]] as const) : []),
       [v.w - 160, y, 160, v.h - y],
       [v.w - 260, 0, 260, 52],
+      // The compass, while it is there.
+      ...(v.turn ? ([[v.w - right - COMPASS_PX, y - COMPASS_PX, COMPASS_PX, COMPASS_PX]] as const) : []),
       [0, 0, rail, RAIL_H],
       [drawer ? RAIL_W : 0, 0, drawer, drawer ? v.h : 0],
     ];
@@ -214,7 +218,8 @@ export class Overlay {
       g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
       paintRing(g, v, a, now, c.select);
       const [l] = sizeOnScreen(a, v.z);
-      this.labels.block(v.x(now.x) - l / 2 - 4, v.y(now.y) - 14, l + 8, 28);
+      const [x, y] = v.to(now.x, now.y);
+      this.labels.block(x - l / 2 - 4, y - 14, l + 8, 28);
     }
     if (atStart && start && canMove(a)) {
       const h = paintHandles(g, this.labels, v, a, start, {
@@ -236,7 +241,7 @@ export class Overlay {
       });
     }
     if (!atStart && now && !e.playing.value)
-      tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
+      tag(g, this.labels, v.to(now.x, now.y), speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
     paintVias(g, this.labels, v, e, a);
@@ -283,7 +288,7 @@ export class Overlay {
     if (f.sketch) {
       const m = f.modes[0].motion,
         i = m.x.length >> 1;
-      pill(g, this.labels, v.x(m.x[i]), v.y(m.y[i]), 'sketch', { fg: colours()['ink-2'] });
+      pill(g, this.labels, ...v.to(m.x[i], m.y[i]), 'sketch', { fg: colours()['ink-2'] });
       return;
     }
   }
@@ -390,7 +395,7 @@ export class Overlay {
     );
     paintGhost(g, v, a, ghost, c.log, 'rgba(255,255,255,.5)', [4, 3], 2);
     const d = Math.hypot(now.x - ghost.x, now.y - ghost.y);
-    tag(g, this.labels, [v.x(ghost.x), v.y(ghost.y)], TEXTS.log, {
+    tag(g, this.labels, v.to(ghost.x, ghost.y), TEXTS.log, {
       fg: c.log,
       border: c.log,
       tries: [
@@ -399,15 +404,9 @@ export class Overlay {
       ],
     });
     if (d > 1)
-      tag(
-        g,
-        this.labels,
-        [v.x((now.x + ghost.x) / 2), v.y((now.y + ghost.y) / 2)],
-        TEXTS.apartAt(metres(d, 1), seconds(t)),
-        {
-          leader: c.log,
-          radii: [52, 72, 96],
-        },
-      );
+      tag(g, this.labels, v.to((now.x + ghost.x) / 2, (now.y + ghost.y) / 2), TEXTS.apartAt(metres(d, 1), seconds(t)), {
+        leader: c.log,
+        radii: [52, 72, 96],
+      });
   }
 }

@@ -157,13 +157,12 @@ export class Picture {
     const dragging = e.drag.value !== null;
     if (e.layers.value.conflicts) paintZones(g, v, this.conflicts(scene));
     if (e.layers.value.signals) paintSignals(g, v, scene, e.time.value);
-    const box = v.box(40);
     const selected = new Set(e.selected.value);
     const shown: [Agent, Pose][] = [];
     for (const a of scene.agents.values()) {
       if (selected.has(a.id)) continue;
       const p = this.poseNow(a);
-      if (p && p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1) shown.push([a, p]);
+      if (p && v.shows(p.x, p.y, 40)) shown.push([a, p]);
     }
     // Parked below, large before small, so that nobody on foot hides under a bus.
     shown.sort(
@@ -204,7 +203,7 @@ export class Picture {
       this.pennants.push(pennant);
     }
     if (v.z < 6) return;
-    for (const [a, p] of shown) if (a.locked) paintLock(g, v.x(p.x), v.y(p.y));
+    for (const [a, p] of shown) if (a.locked) paintLock(g, ...v.to(p.x, p.y));
   }
 
   /** One that was parked in the log, and drives now. */
@@ -231,11 +230,14 @@ export class Picture {
     const names: Rect[] = [];
     if (v.z < 5) return names;
     const labels = new Labels(v.w, v.h);
-    for (const [, p] of shown) labels.block(v.x(p.x) - 9, v.y(p.y) - 7, 18, 14);
+    for (const [, p] of shown) {
+      const [x, y] = v.to(p.x, p.y);
+      labels.block(x - 9, y - 7, 18, 14);
+    }
     for (const [a, p] of shown) {
       if (a.parked) continue;
       const half = sizeOnScreen(a, v.z)[1] / 2 + 12;
-      const r = pill(g, labels, v.x(p.x), v.y(p.y), a.name, {
+      const r = pill(g, labels, ...v.to(p.x, p.y), a.name, {
         weight: 500,
         must: false,
         tries: [

@@ -1,5 +1,14 @@
 // Where somebody new would stand: snapped to the lane under the pointer, with its heading and its speed.
-import { insidePolygon, makeLine, pointAt, project, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import {
+  insidePolygon,
+  makeLine,
+  pointAt,
+  project,
+  wrapAngle,
+  type Pose,
+  type Quad,
+  type Vec,
+} from '../model/geometry';
 import { drivingSide } from '../model/driving-side';
 import { topSpeed } from '../model/domain';
 import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
@@ -201,19 +210,19 @@ export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, z
   return out;
 }
 
-/** Spread over a rectangle between two corners: always the same for the same rectangle. */
-export function overArea(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zoom: number): Newcomer[] {
-  const x0 = Math.min(a[0], b[0]),
-    y0 = Math.min(a[1], b[1]),
-    w = Math.abs(b[0] - a[0]),
-    h = Math.abs(b[1] - a[1]);
+/** Spread over a rectangle: always the same for the same rectangle. */
+export function overArea(scene: Scene, choice: PlacingChoice, area: Quad, zoom: number): Newcomer[] {
+  const [[x, y], [ax, ay], , [bx, by]] = area;
+  /** A place of it, from 0 to 1 along each of its sides. */
+  const at = (u: number, w: number): Vec => [x + (ax - x) * u + (bx - x) * w, y + (ay - y) * u + (by - y) * w];
+  const middle = at(0.5, 0.5);
   const taken: Footprint[] = standing(scene);
   const out: Newcomer[] = [];
   // Points that keep clear of each other better than chance does; those that have no room are passed over.
   for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {
-    const on = ghostAt(scene, choice, [x0 + w * radicalInverse(k, 2), y0 + h * radicalInverse(k, 3)], { zoom });
-    if (on.pose.x < x0 || on.pose.x > x0 + w || on.pose.y < y0 || on.pose.y > y0 + h) continue;
-    const who = turned(on, bothWays(scene.map, choice.kind, on.pose, x0 + w / 2, y0 + h / 2));
+    const on = ghostAt(scene, choice, at(radicalInverse(k, 2), radicalInverse(k, 3)), { zoom });
+    if (!insidePolygon(on.pose.x, on.pose.y, area)) continue;
+    const who = turned(on, bothWays(scene.map, choice.kind, on.pose, ...middle));
     if (inTheWay(who, taken)) continue;
     taken.push(who);
     out.push(who);

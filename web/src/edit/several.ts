@@ -160,11 +160,21 @@ export function swapTwo([a, b, ...more]: readonly Agent[]): Command | null {
   });
 }
 
-/** Nearer to a point or further from it. */
-export function spreadAll(all: readonly Agent[], kx: number, ky: number, about: Vec): Command | null {
+/** Nearer to a point or further from it, along two axes: east and north where nothing says. */
+export function spreadAll(
+  all: readonly Agent[],
+  kx: number,
+  ky: number,
+  about: Vec,
+  [ex, ey]: Vec = [1, 0],
+): Command | null {
   return changeAll(all, TEXTS.spread(whoWords(all)), (a) => {
     const p = startPose(a);
-    return p && started(a, { pos: at(about[0] + (p.x - about[0]) * kx, about[1] + (p.y - about[1]) * ky) });
+    if (!p) return null;
+    const [dx, dy] = [p.x - about[0], p.y - about[1]];
+    const x = (dx * ex + dy * ey) * kx,
+      y = (dy * ex - dx * ey) * ky;
+    return started(a, { pos: at(about[0] + x * ex - y * ey, about[1] + x * ey + y * ex) });
   });
 }
 

@@ -50,7 +50,7 @@ export async function readLink(hash: string): Promise<Shared> {
 
 function readShownAt(v: unknown): ShownAt | null {
   const { time, camera } = (v ?? {}) as Partial<ShownAt>;
-  const numbers = [time, camera?.cx, camera?.cy, camera?.z];
+  const numbers = [time, camera?.cx, camera?.cy, camera?.z, camera?.turn ?? 0];
   return numbers.every((n) => Number.isFinite(n)) && camera!.z > 0 ? { time: time!, camera: camera! } : null;
 }
 

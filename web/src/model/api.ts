@@ -98,7 +98,10 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Stores the scenes of a file. */
+        /**
+         * Stores the scenes of a file, or of the files of a form: each of several is told by itself, and the call is refused
+         *     when none of them can be read.
+         */
         post: operations["importScenes"];
         delete?: never;
         options?: never;
@@ -1941,7 +1944,7 @@ export interface components {
         };
         /**
          * ImportReply
-         * @description What an import gave.
+         * @description What a file gave.
          */
         ImportReply: {
             /** @description A name of the formats table. */
@@ -1960,6 +1963,35 @@ export interface components {
             code: string;
             /** @description For people. */
             detail: string;
+        };
+        /**
+         * ImportedBody
+         * @description What a file gave, or each of several.
+         */
+        ImportedBody: components["schemas"]["ImportReply"] | components["schemas"]["ImportedFiles"];
+        /**
+         * ImportedFile
+         * @description One of several files: what it gave, or why it gave nothing.
+         */
+        ImportedFile: {
+            /** @description A name of the formats table. */
+            format?: string;
+            /** @description Name of the file, as the form gave it. */
+            name?: string;
+            /** @description Why nothing of it was taken. */
+            problem?: components["schemas"]["Problem"];
+            /** @description Scenes in the order of the file. */
+            scenes?: components["schemas"]["ImportedScene"][];
+            /** @description Records that are no scenes. */
+            skipped?: components["schemas"]["SkippedRecord"][];
+        };
+        /**
+         * ImportedFiles
+         * @description What several files gave.
+         */
+        ImportedFiles: {
+            /** @description In the order of the form. */
+            files: components["schemas"]["ImportedFile"][];
         };
         /**
          * ImportedScene
@@ -5372,8 +5404,7 @@ export interface operations {
                 "multipart/form-data": {
                     /** Format: binary */
                     columns?: string;
-                    /** Format: binary */
-                    file: string;
+                    file: string[];
                     /** Format: binary */
                     net?: string;
                 };
@@ -5386,7 +5417,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ImportReply"];
+                    "application/json": components["schemas"]["ImportedBody"];
                 };
             };
             /** @description stored */
@@ -5395,7 +5426,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ImportReply"];
+                    "application/json": components["schemas"]["ImportedBody"];
                 };
             };
             /** @description bad-header, bad-host, malformed-json, malformed-file */

@@ -22,6 +22,9 @@ export interface Box {
   y1: number;
 }
 
+/** The four corners of a rectangle that may be turned, counter-clockwise. */
+export type Quad = readonly [Vec, Vec, Vec, Vec];
+
 const TAU = Math.PI * 2;
 export const rad = (degrees: number): number => (degrees * Math.PI) / 180;
 export const deg = (radians: number): number => (radians * 180) / Math.PI;

@@ -4,11 +4,13 @@ import type { Command } from './commands';
 import type { Scene } from './scene';
 import { applyDiff, diffOf, isEmptyDiff, type SceneDiff } from './scene-diff';
 
-/** Where the picture looks: the middle in metres, and pixels a metre. */
+/** Where the picture looks: the middle in metres, pixels a metre, and its turn counter-clockwise, radians. */
 export interface Camera {
   readonly cx: number;
   readonly cy: number;
   readonly z: number;
+  /** North is up where nothing says. */
+  readonly turn?: number;
 }
 
 export interface HistoryStep {

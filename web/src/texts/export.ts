@@ -35,6 +35,7 @@ export const TEXTS = table('export', {
   theSameAsLines: 'The same as lines: sharp at any size, for papers.',
   drawing: 'Drawing',
   pxAMetreXEast: (z: string) => `${z} px a metre; x east, y north`,
+  turnedCounterClockwise: (degrees: string) => `, turned ${degrees}° counter-clockwise`,
   whatYouSeeAgain: 'What you see, again and again; for slides and mails that play no film.',
   movingImage: 'Moving image',
   s10ASecond: (duration: string) => `${duration} s, 10 a second`,

@@ -64,6 +64,10 @@ export const HELPS = table('helps', {
   theSelectedRoad: 'The selected road users and their goals',
   aThirdCloser: 'A third closer',
   aThirdFurther: 'A third further',
+  theSelectedDrives:
+    'Rotates the picture: whoever is selected drives up; with nobody selected the road at the pointer lies level or upright',
+  turnsThePicture: 'Rotates the picture back, as a click on the compass does; drag the compass to turn it freely',
+  by15DegreesAbout: 'Rotates it by 15° about its middle',
   thePicture: 'The picture follows the selected road user in playback',
   whereTheOthers: 'Where the others would wait, shown or hidden while a handle is dragged',
   whereEverybody: 'Where everybody may go',

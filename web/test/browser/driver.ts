@@ -3,6 +3,7 @@ import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type Page } from 'playwright-core';
 import { build } from 'vite';
+import { View } from '../../src/draw/view';
 import { startStandIn, type StandIn, type StandInOptions } from '../standin/server.mjs';
 
 const FLAGS = [
@@ -68,9 +69,12 @@ export class Driver {
 
   /** Screen position of a world point. */
   async at(x: number, y: number): Promise<[number, number]> {
-    const [cx, cy, z] = (await this.page.getAttribute('main.stage', 'data-view'))!.split(' ').map(Number);
+    const [cx, cy, z, turn] = (await this.page.getAttribute('main.stage', 'data-view'))!.split(' ').map(Number);
     const b = (await this.page.locator('main.stage').boundingBox())!;
-    return [b.x + b.width / 2 + (x - cx) * z, b.y + b.height / 2 - (y - cy) * z];
+    const view = Object.assign(new View(), { w: b.width, h: b.height });
+    view.look({ cx, cy, z, turn });
+    const [px, py] = view.to(x, y);
+    return [b.x + px, b.y + py];
   }
 
   async zoom(): Promise<number> {

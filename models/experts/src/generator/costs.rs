@@ -196,7 +196,9 @@ fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceT
         let moves = s.speed_mps() > STANDING_MPS;
         moves && map.drivable.is_wrong_way(s.position, direction(s.heading_rad)) == Some(true)
     };
-    tuning.off_lanes * share(&away) + tuning.past_edges * share(&beyond) + tuning.wrong_way * share(&against)
+    let (past_edges, wrong_way) = (share(&beyond), share(&against));
+    let at_all = if past_edges + wrong_way > 0.0 { tuning.leaving_the_road } else { 0.0 };
+    tuning.off_lanes * share(&away) + tuning.past_edges * past_edges + tuning.wrong_way * wrong_way + at_all
 }
 
 /// Mean distance of a motion from the one that the actor keeps, metres.

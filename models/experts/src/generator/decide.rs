@@ -12,11 +12,12 @@ use super::trajectory::{Motion, PER_INSTANT};
 use super::window::Window;
 use crate::features::agent::BEYOND_M;
 use crate::request::{React, Shown};
+use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{Judge, Reaction};
 use scene::motion::MotionState;
 use scene::score::overlap;
-use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
+use scene::{AgentId, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
 /// Motions of one road user that are led round what is in their way.
 const MOST_TRIED: usize = 2;
@@ -126,8 +127,9 @@ impl Window<'_> {
         self.indices().into_iter().map(of).collect()
     }
 
-    /// Where somebody who was asked for still meets others, whatever they answer, or leaves the road for a goal on
-    /// it, ways round become further candidates. True where the choice takes another than before.
+    /// Where somebody who was asked for still meets others, whatever they answer, leaves the road for a goal on it,
+    /// or breaks its rules with no goal at all, ways round become further candidates. True where the choice takes
+    /// another than before.
     fn evade(
         &self,
         judge: &Judge<'_>,
@@ -152,13 +154,18 @@ impl Window<'_> {
             let is_met = |o: &Moving| own.starts_apart(o) && own.meets(o);
             let met = answering.iter().find(|(_, moving)| is_met(moving));
             let meets = met.is_some() || others.iter().any(|o| is_met(o));
-            if !meets && !leaves_the_road(actor, &shown.motion) {
+            // Nothing was asked that would be missed by waiting behind whoever is in the lawful way.
+            let free = actor.plan.target.position.is_none();
+            let leaves = leaves_the_road(actor, &shown.motion);
+            let breaks = free && (leaves || drives_against(actor, &shown.motion));
+            if !meets && !leaves && !breaks {
                 return (Vec::new(), None);
             }
             // Who only replays its log would answer if it might: to halt before it says nothing of the goal.
-            let halts = meets
-                && (may_answer || met.is_some_and(|(_, moving)| moving.stands()))
-                && !is_asked_to_meet(actor, &shown.motion, &others);
+            let halts = breaks
+                || meets
+                    && (may_answer || met.is_some_and(|(_, moving)| moving.stands()))
+                    && !is_asked_to_meet(actor, &shown.motion, &others);
             let costs = &choice.agents[i];
             let mut order: Vec<usize> = (0..candidates[i].len()).collect();
             order.sort_by(|a, b| costs[*a].cost.total_cmp(&costs[*b].cost));
@@ -304,6 +311,15 @@ fn leaves_the_road(actor: &Actor, motion: &Motion) -> bool {
     };
     let goal = actor.plan.target.position.and_then(|_| motion.states.get(actor.plan.target.step));
     !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
+}
+
+/// A vehicle moves against the traffic of its lane.
+fn drives_against(actor: &Actor, motion: &Motion) -> bool {
+    let Some(ground) = &actor.plan.ground else { return false };
+    motion.states.iter().step_by(PER_INSTANT).any(|state| {
+        let moves = state.speed_mps() > STANDING_MPS;
+        moves && ground.is_wrong_way(state.position, direction(state.heading_rad)) == Some(true)
+    })
 }
 
 /// The goal lies where somebody is when it is due: to meet them there is what was asked.

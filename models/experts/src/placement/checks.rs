@@ -79,13 +79,12 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     }
 }
 
-/// Nobody who comes by an arm hangs over the edge of the map, and no long vehicle stands across lanes.
+/// Nobody hangs over the edge of the map, and no long vehicle stands across lanes.
 fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     let Some(lane) = placed.lane.map(|lane| &graph.lanes()[lane]) else { return true };
     let half_m = 0.5 * placed.size.length_m;
     let (before_m, after_m) = (placed.pose.s_m, lane.path.length_m() - placed.pose.s_m);
-    // Of those who come by an arm; the learned rates know of others at the ends of recorded maps.
-    let long_enough = placed.free_mps.is_some() && lane.path.length_m() > 2.0 * (half_m + END_M);
+    let long_enough = lane.path.length_m() > 2.0 * (half_m + END_M);
     let leaves = long_enough && lane.successors.is_empty() && after_m < half_m + END_M;
     let hangs = long_enough && lane.predecessors.is_empty() && before_m < half_m;
     if leaves || hangs {

@@ -260,7 +260,8 @@ impl<'a> Sampler<'a> {
         pose.position = pose.position.map(|v| rounded(v, 1e3));
         pose.heading_rad = wrap_angle(rounded(pose.heading_rad, 1e4));
         let lane = (cell.kind == CellKind::Lane).then_some(cell.line);
-        let (kind, free_mps, parked) = (cell.kind, None, false);
+        let (kind, free_mps) = (cell.kind, None);
+        let parked = agent_type == AgentType::Vehicle && matches!(kind, CellKind::Kerb | CellKind::Driveway);
         let placed = PlacedAgent { agent_type, subtype, size, pose, kind, lane, free_mps, parked };
         self.fits(&placed).then_some(placed)
     }

@@ -73,6 +73,25 @@ fn where_there_is_no_room_one_halts_before_it_and_says_so() {
 }
 
 #[test]
+fn who_has_no_goal_waits_in_its_lane_and_not_in_the_one_of_those_who_come() {
+    let points: Vec<Vec2> = (0..=200).map(|i| Vec2::new(100.0 - f64::from(i), 1.75)).collect();
+    let mut map = LaneMap { road_edges: vec![edge("l", 3.6), edge("r", -3.6)], ..street() };
+    map.lanes.push(Lane { width_m: Some(3.5), ..Lane::street("b", points) });
+    // Cars of a queue, so far behind each other.
+    for (gap_m, speed_mps) in [(12.0, 4.0), (14.0, 6.0), (18.0, 8.0), (25.0, 10.0), (30.0, 12.0)] {
+        let car =
+            |id: &str, x_m: f64, speed_mps: f64| agent(id, AgentType::Vehicle, (x_m, -1.75), 0.0, speed_mps);
+        let cars =
+            vec![car("1", -60.0, speed_mps), car("2", -60.0 + gap_m, 0.0), car("3", -52.0 + gap_m, 0.0)];
+        let scene = Scene::bare("queue", map.clone(), cars).checked().unwrap();
+        let answer = run(&GENERATOR, only_the_first(scene.clone()));
+        let over_m = shown(&answer).states.iter().map(|s| s.y_m).fold(f64::MIN, f64::max);
+        assert!(!meets(&scene, shown(&answer)), "{gap_m}");
+        assert!(over_m < 0.0, "{gap_m}: {over_m}");
+    }
+}
+
+#[test]
 fn a_collision_that_is_asked_for_is_given() {
     let scene = blocked(street(), -6.0);
     let answer = run(&GENERATOR, only_the_first(scene.clone()));

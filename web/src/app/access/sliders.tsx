@@ -26,8 +26,8 @@ export function Sliders({ id }: { id: string }) {
   );
 }
 
-/** Which way an arrow key goes, as x and y and as more or less. */
-const ARROWS: Record<string, readonly [dx: number, dy: number, more: 1 | -1]> = {
+/** Which way an arrow key goes, to the right and up in the picture and as more or less. */
+const ARROWS: Record<string, readonly [right: number, up: number, more: 1 | -1]> = {
   ArrowLeft: [-1, 0, -1],
   ArrowRight: [1, 0, 1],
   ArrowUp: [0, 1, 1],
@@ -83,7 +83,7 @@ function useAtRest(read: () => string): ReadonlySignal<string> {
 const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
 function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
-  const { editor } = useApp();
+  const { editor, stage } = useApp();
   const pose = () => moves.shownPose(editor, agent.value, part);
   const freedom = (f: Field) => (agent.value[part][f] === null ? TEXTS.free : TEXTS.fixed);
   const place = () => {
@@ -101,9 +101,9 @@ function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
         part={part}
         now={() => pose()?.x ?? 0}
         text={place}
-        move={([dx, dy], far) => {
+        move={([right, up], far) => {
           const step = far ? 1 : 0.1;
-          return moves.nudge(editor, agent.peek(), part, dx * step, dy * step);
+          return moves.nudge(editor, agent.peek(), part, ...stage.view.along(right * step, up * step));
         }}
       />
       <Slider
@@ -149,7 +149,7 @@ function ViaSliders({ agent }: { agent: LiveAgent }) {
 }
 
 function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
-  const { editor } = useApp();
+  const { editor, stage } = useApp();
   const via = () => agent.value.goal.via[i];
   const name = useComputed(() => viaName(agent.value, i)).value;
   const place = () => {
@@ -165,10 +165,11 @@ function ViaSlider({ agent, i }: { agent: LiveAgent; i: number }) {
         via={i}
         now={() => via()?.pos[0] ?? 0}
         text={place}
-        move={([dx, dy], far) => {
+        move={([right, up], far) => {
           const [x, y] = agent.peek().goal.via[i].pos;
           const step = far ? 1 : 0.1;
-          return moveVia(agent.peek(), i, [x + dx * step, y + dy * step], true);
+          const [dx, dy] = stage.view.along(right * step, up * step);
+          return moveVia(agent.peek(), i, [x + dx, y + dy], true);
         }}
       />
       <Slider

@@ -24,6 +24,7 @@ const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
     { label: TEXTS.addAFrameTake, keys: ['Shift', 'Alt'], how: TEXTS.drag },
     { label: TEXTS.pan, keys: ['Space'], how: TEXTS.drag },
     { label: TEXTS.zoom, keys: [], how: TEXTS.wheel },
+    { label: TEXTS.panZoomTurn, keys: [], how: TEXTS.twoFingers },
   ],
   edit: [
     { label: TEXTS.copyAway, keys: ['Alt'], how: TEXTS.dragFromARoad },
@@ -62,6 +63,7 @@ const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   { ids: /^round-card-/, label: TEXTS.chooseACard, keys: ['1', '6'] },
   { ids: /^round-(back|on)$/, label: TEXTS.cardBeforeAfter, keys: ['Left', 'Right'] },
   { ids: /^zoom-(in|out)$/, label: TEXTS.zoomInOut, keys: ['PageUp', 'PageDown'] },
+  { ids: /^turn-picture-/, label: TEXTS.turnThePicture, keys: ['Shift+PageUp', 'PageDown'] },
 ];
 
 export function Shortcuts() {

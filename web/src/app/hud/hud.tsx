@@ -12,6 +12,7 @@ import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Later } from '../later';
 import { Banner } from './banner';
 import { Coach, Toast } from './messages';
+import { Compass } from './compass';
 import { HoverCard } from './hover-card';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
@@ -52,6 +53,7 @@ export function Hud() {
         <ScaleBar />
       </div>
       {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
+      <Compass />
       {placing ? <Later part="place" /> : null}
       {filling ? <Later part="fill" /> : null}
       <Later part="empty scene" />

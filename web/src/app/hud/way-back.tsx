@@ -25,11 +25,12 @@ export function WayBack() {
     void viewTick.value;
     const scene = editor.resting.value;
     if (!scene || editor.dragging.value) return false;
-    const seen = stage.view.box();
-    const inside = (p: { x: number; y: number } | null): boolean =>
-      p !== null && p.x > seen.x0 && p.x < seen.x1 && p.y > seen.y0 && p.y < seen.y1;
+    const { view: v } = stage;
+    const there = v.box();
+    const screen = { x0: 0, y0: 0, x1: v.w, y1: v.h };
+    const inside = (p: { x: number; y: number } | null): boolean => p !== null && v.shows(p.x, p.y);
     return (
-      !boxesOf(scene.map).some((b) => boxesMeet(b, seen)) &&
+      !boxesOf(scene.map).some((b) => boxesMeet(b, there) && boxesMeet(v.around(b), screen)) &&
       ![...scene.agents.values()].some((a) => inside(startPose(a)))
     );
   }).value;

@@ -496,7 +496,7 @@ function Checks() {
                 type="button"
                 onClick={() => {
                   const [x, y] = c.at_m!;
-                  stage.glide.by((v) => Object.assign(v, { cx: x, cy: y }));
+                  stage.glide.by((v) => v.centre(x, y));
                 }}
               >
                 <b>{failed.indexOf(c) + 1}</b> {retold(c.text)}

@@ -1,4 +1,5 @@
 // What can go out: the server's formats, and what is made here of what is on screen.
+import { deg } from '../../model/geometry';
 import { num, seconds } from '../../model/units';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
@@ -98,8 +99,9 @@ export function ofScreen(c: Context): Kind[] {
       make: async () => {
         const pen = new SvgPen();
         stage.paintWith(pen, ['map', 'agents', 'overlay']);
-        const { w, h, z } = stage.view;
-        const about = TEXTS.pxAMetreXEast(num(z, 2));
+        const { w, h, z, turn } = stage.view;
+        const turned = turn ? TEXTS.turnedCounterClockwise(num(deg(turn), 1)) : '';
+        const about = TEXTS.pxAMetreXEast(num(z, 2)) + turned;
         const drawing = pen.file(w, h, `${scene.name}, ${seconds(time)}`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
       },

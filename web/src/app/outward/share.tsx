@@ -21,11 +21,10 @@ export default function Share() {
   const parts = useSignal<Parts>(ALL);
   const link = useSignal<Link | null>(null);
   const copied = useSignal(false);
-  const { cx, cy, z } = stage.view;
   const time = editor.time.value;
   useEffect(() => {
     let newest = true;
-    void sharing.link(parts.value, { time, camera: { cx, cy, z } }).then((made) => {
+    void sharing.link(parts.value, { time, camera: stage.view.camera }).then((made) => {
       if (newest) link.value = made;
     });
     return () => {

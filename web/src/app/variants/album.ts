@@ -7,6 +7,7 @@ import { isRecorded } from '../../model/scene';
 import { Miniatures } from '../../draw/miniature';
 import { MapPicture } from '../../draw/paint-map';
 import { View } from '../../draw/view';
+import { turnAtRest } from '../hud/view-tick';
 import { useApp } from '../parts/app-context';
 import type { Album, Pictured } from './live-picture';
 
@@ -17,7 +18,10 @@ const LOW_H = 60;
 const LOW_PAGE = 800;
 const MARGIN_M = 10;
 
-/** One view for all of them: on what the road user does that they are about, else where most things move. */
+/**
+ * One view for all of them, turned as the picture is: on what the road user does that they are about, else where most
+ * things move.
+ */
 export function useAlbum(cards: readonly Pictured[]): Album {
   const { editor, ui } = useApp();
   const kept = useRef<{ key: string; album: Album; of: unknown } | null>(null);
@@ -25,10 +29,11 @@ export function useAlbum(cards: readonly Pictured[]): Album {
   const scene = editor.scene.peek()!;
   const box = boxFor(cards) ?? busyBox(scene);
   const h = innerHeight < LOW_PAGE ? LOW_H : CARD_H;
-  const key = JSON.stringify([box, h]);
+  const turn = turnAtRest.value;
+  const key = JSON.stringify([box, h, turn]);
   if (kept.current?.key !== key || kept.current.of !== scene.map) {
     const view = new View();
-    Object.assign(view, { w: CARD_W, h, dpr: Math.min(2, Math.max(1, devicePixelRatio || 1)) });
+    Object.assign(view, { w: CARD_W, h, turn, dpr: Math.min(2, Math.max(1, devicePixelRatio || 1)) });
     view.fit(box, 5, 0.3);
     const map = kept.current?.of === scene.map ? kept.current.album.map : mapPicture(scene);
     kept.current = { key, of: scene.map, album: { view, map, painter: new Miniatures() } };

@@ -72,8 +72,7 @@ function Pane({ now }: { now: Compared }) {
     stage.current = own;
     paintersOf(own, c, shown);
     const follow = () => {
-      const { cx, cy, z } = c.stage.view;
-      Object.assign(own.view, { cx, cy, z });
+      own.view.look(c.stage.view.camera);
       own.viewChanged();
     };
     follow();

@@ -93,7 +93,7 @@ function paintCard(g: Pen, v: View, { scene, set, state, events }: Pictured, tim
   const c = colours();
   for (const e of counted(events)) {
     g.beginPath();
-    g.arc(v.x(e.at[0]), v.y(e.at[1]), EVENT_PX, 0, Math.PI * 2);
+    g.arc(...v.to(e.at[0], e.at[1]), EVENT_PX, 0, Math.PI * 2);
     g.fillStyle = e.kind === 'collision' || e.kind === 'rule' ? c.collision : c.near;
     g.fill();
     g.strokeStyle = c.halo;

@@ -66,7 +66,7 @@ function knobAt(chart: Chart, p: Point, touch: boolean): Knob | null {
   const v: View = chart.surface.view;
   const { layouts } = chart.editor;
   const reach = touch ? REACH_TOUCH_PX : REACH_PX;
-  const far = (k: Placed): number => Math.hypot(v.x(k.at[0]) - p.x, v.y(k.at[1]) - p.y);
+  const far = (k: Placed): number => v.away(k.at, p);
   const near = [...knobs(layouts), ...stops(layouts)].filter((k) => far(k) <= reach).sort((a, b) => far(a) - far(b));
   if (near[0]) return near[0];
   const way = wayAt(layouts, v, p, touch);

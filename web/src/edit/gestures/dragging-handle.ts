@@ -82,7 +82,9 @@ export class DraggingHandle implements State {
     const { grip } = this.what;
     const a = editor.agent.peek();
     const pose = a && (grip.part === 'goal' ? editor.goalPose(a) : startPose(a));
-    return pose && grip.handle === 'body' ? { x: surface.view.x(pose.x), y: surface.view.y(pose.y) } : at;
+    if (!pose || grip.handle !== 'body') return at;
+    const [x, y] = surface.view.to(pose.x, pose.y);
+    return { x, y };
   }
 
   frame(seconds: number): boolean {

@@ -1,6 +1,7 @@
 // Several are moved, turned or spread together: the document follows as a preview, the release is one step.
 import { batch } from '@preact/signals-core';
 import { clamp, deg, rad, type Vec } from '../../model/geometry';
+import type { View } from '../../draw/view';
 import type { Command } from '../../model/commands';
 import { startPose, type Agent } from '../../model/scene';
 import { sayLocked } from '../copying';
@@ -20,6 +21,8 @@ export class DraggingSeveral implements State {
   #command: Command | null = null;
   readonly #grab: Vec;
   readonly #middle: Vec;
+  /** The picture at the press: left, right, up and down are its own. */
+  readonly #view: View;
   /** The corner across from the one in hand, about which they are spread. */
   readonly #anchor: Vec;
 
@@ -29,23 +32,25 @@ export class DraggingSeveral implements State {
     private readonly all: readonly Agent[],
     private readonly what: FrameHandle,
   ) {
-    this.#grab = chart.surface.view.from(press.x, press.y);
+    const v = (this.#view = chart.surface.view.copy());
+    this.#grab = v.from(press.x, press.y);
     this.#middle = middleOf(all);
-    const ps = all.flatMap((a) => startPose(a) ?? []);
+    const ps = all.flatMap((a) => {
+      const p = startPose(a);
+      return p ? [v.across(p.x, p.y)] : [];
+    });
+    const grab = v.across(...this.#grab);
     const far = (grab: number, v: number[]): number => {
       const [lo, hi] = [Math.min(...v), Math.max(...v)];
       return Math.abs(grab - lo) < Math.abs(grab - hi) ? hi : lo;
     };
-    this.#anchor = [
+    const [right, up] = ([0, 1] as const).map((i) =>
       far(
-        this.#grab[0],
-        ps.map((p) => p.x),
+        grab[i],
+        ps.map((p) => p[i]),
       ),
-      far(
-        this.#grab[1],
-        ps.map((p) => p.y),
-      ),
-    ];
+    );
+    this.#anchor = v.along(right, up);
   }
 
   enter(): void {
@@ -71,12 +76,15 @@ export class DraggingSeveral implements State {
 
   #to(at: Vec): Command | null {
     const { shift, alt, ctrl } = this.chart.modifiers;
-    const { all } = this;
+    const all = this.all;
+    const v = this.#view;
     if (this.what === 'move') {
-      let [dx, dy] = [at[0] - this.#grab[0], at[1] - this.#grab[1]];
-      if (shift && Math.abs(dx) > Math.abs(dy)) dy = 0;
-      else if (shift) dx = 0;
-      return moveAll(all, dx, dy, ctrl);
+      let by: Vec = [at[0] - this.#grab[0], at[1] - this.#grab[1]];
+      if (shift) {
+        const [right, up] = v.across(...by);
+        by = Math.abs(right) > Math.abs(up) ? v.along(right, 0) : v.along(0, up);
+      }
+      return moveAll(all, ...by, ctrl);
     }
     if (this.what === 'turn') {
       const [mx, my] = this.#middle;
@@ -86,10 +94,11 @@ export class DraggingSeveral implements State {
       const angle = rad(Math.round(deg(now - then) / step) * step);
       return turnAll(all, angle, alt ? null : this.#middle, ctrl);
     }
-    const [ax, ay] = this.#anchor;
-    const k = (to: number, from: number, about: number): number =>
-      Math.abs(from - about) < 1 ? 1 : clamp((to - about) / (from - about), ...SPREAD);
-    return spreadAll(all, k(at[0], this.#grab[0], ax), k(at[1], this.#grab[1], ay), this.#anchor);
+    const [to, grab, anchor] = [at, this.#grab, this.#anchor].map((p) => v.across(...p));
+    const k = (now: number, from: number, about: number): number =>
+      Math.abs(from - about) < 1 ? 1 : clamp((now - about) / (from - about), ...SPREAD);
+    const [kx, ky] = [k(to[0], grab[0], anchor[0]), k(to[1], grab[1], anchor[1])];
+    return spreadAll(all, kx, ky, this.#anchor, v.along(1, 0));
   }
 
   up(): void {

@@ -34,8 +34,7 @@ export class Idle implements State {
     const { chart } = this;
     const tool = this.#toolFor(p);
     const hit = tool.picks ? chart.parts.hitAt(p, p.touch) : NOTHING;
-    const { cx, cy } = chart.surface.view;
-    chart.go(new Pressed(chart, tool, { x: p.x, y: p.y, touch: p.touch, hit, cx, cy }));
+    chart.go(new Pressed(chart, tool, { x: p.x, y: p.y, touch: p.touch, hit, camera: chart.surface.view.camera }));
   }
 
   /** The middle button and Space move the picture, whatever tool is chosen; so does the right one, or it asks. */

@@ -21,8 +21,9 @@ export class Panning implements State {
   move(): void {
     const { chart, press } = this;
     const v = chart.surface.view;
-    v.cx = press.cx - (chart.at.x - press.x) / v.z;
-    v.cy = press.cy + (chart.at.y - press.y) / v.z;
+    v.cx = press.camera.cx;
+    v.cy = press.camera.cy;
+    v.panBy(chart.at.x - press.x, chart.at.y - press.y);
     chart.surface.viewChanged();
   }
 

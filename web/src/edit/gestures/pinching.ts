@@ -1,28 +1,62 @@
-// Two fingers pan and zoom at once; the one that stays goes on moving the picture.
-import type { Point } from '../../model/geometry';
+// Two fingers pan, zoom and turn at once; the one that stays goes on moving the picture.
+import { rad, wrapAngle, type Point } from '../../model/geometry';
 import { NOTHING } from '../hit';
 import type { Chart, State } from './chart';
 import { Panning } from './panning';
 
+/** Less than this is a pinch that is not quite straight. */
+const STRAIGHT_RAD = rad(8);
+/** So near to north the picture sticks to it. */
+const STICKS_RAD = rad(5);
+
 export class Pinching implements State {
   readonly name = 'pinching';
-  constructor(private readonly chart: Chart) {}
+  /** How far the fingers have turned about each other, counter-clockwise, until the picture turns with them. */
+  #fingers = 0;
+  #turning = false;
+  /** The picture's turn, did it not stick to north. */
+  #turn: number;
+
+  constructor(private readonly chart: Chart) {
+    this.#turn = chart.surface.view.turn;
+  }
 
   moveFinger(from: Point, to: Point, other: Point): void {
     const v = this.chart.surface.view;
     const before = Math.hypot(from.x - other.x, from.y - other.y);
     const after = Math.hypot(to.x - other.x, to.y - other.y);
+    const [mx, my] = [(to.x + other.x) / 2, (to.y + other.y) / 2];
     v.panBy((to.x - from.x) / 2, (to.y - from.y) / 2);
-    v.zoomAt((to.x + other.x) / 2, (to.y + other.y) / 2, after / Math.max(1, before));
+    v.zoomAt(mx, my, after / Math.max(1, before));
+    this.#turnBy(turnOf(from, to, other), mx, my);
     this.chart.surface.viewChanged();
+  }
+
+  #turnBy(angle: number, mx: number, my: number): void {
+    if (this.#turning) this.#turn += angle;
+    else {
+      this.#fingers += angle;
+      if (Math.abs(this.#fingers) < STRAIGHT_RAD) return;
+      this.#turning = true;
+      // It begins to turn where it is; from north where it comes loose.
+      if (!this.#turn) this.#turn = Math.sign(this.#fingers) * STICKS_RAD;
+    }
+    const turn = wrapAngle(this.#turn);
+    this.chart.surface.view.turnAt(mx, my, Math.abs(turn) < STICKS_RAD ? 0 : turn);
   }
 
   up(): void {
     const { chart } = this;
     const stays = chart.finger;
     if (!stays) return chart.rest();
-    const { cx, cy } = chart.surface.view;
     chart.at = stays;
-    chart.go(new Panning(chart, { ...stays, touch: true, hit: NOTHING, cx, cy }));
+    chart.go(new Panning(chart, { ...stays, touch: true, hit: NOTHING, camera: chart.surface.view.camera }));
   }
+}
+
+/** By how much a finger has turned about the other, counter-clockwise. */
+export function turnOf(from: Point, to: Point, other: Point): number {
+  const angle = (a: Point): number => Math.atan2(a.y - other.y, a.x - other.x);
+  // Pixels count downwards.
+  return -wrapAngle(angle(to) - angle(from));
 }

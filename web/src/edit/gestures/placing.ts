@@ -137,22 +137,16 @@ class Spreading implements State {
     const scene = editor.scene.peek()!;
     const choice = editor.placement.choice(kind);
     const to = surface.view.from(chart.at.x, chart.at.y);
-    const spread = choice.spread === 'line' ? alongLine : overArea;
-    const all = spread(scene, choice, this.#from, to, surface.view.z);
+    const { view: v } = surface;
+    const inLine = choice.spread === 'line';
+    const area: readonly Vec[] = inLine ? [this.#from, to] : v.frame(this.#from, to);
+    const all = inLine
+      ? alongLine(scene, choice, this.#from, to, v.z)
+      : overArea(scene, choice, v.frame(this.#from, to), v.z);
     const ghosts = ghostsFor(scene, all, '');
     const n = ghosts.all.filter((g) => g.fits).length;
     const words = n < choice.count ? TEXTS.ofFit(n, countWords(kind, choice.count)) : countWords(kind, n);
     editor.placement.show({ ...ghosts, words });
-    const [[x0, y0], [x1, y1]] = [this.#from, to];
-    const area: readonly Vec[] =
-      choice.spread === 'line'
-        ? [this.#from, to]
-        : [
-            [x0, y0],
-            [x1, y0],
-            [x1, y1],
-            [x0, y1],
-          ];
     editor.sweepOver({ outline: area, ids: [] });
     surface.invalidate('overlay');
   }

@@ -1,5 +1,6 @@
 // Pressed and not yet moved: the release is a click, a movement becomes what the tool makes of it.
 import type { Point } from '../../model/geometry';
+import type { Camera } from '../../model/history';
 import type { Hit } from '../hit';
 import { ask } from './asking';
 import type { Chart, State } from './chart';
@@ -9,9 +10,8 @@ import type { Tool } from './tools';
 export interface Press extends Point {
   readonly touch: boolean;
   readonly hit: Hit;
-  /** Middle of the view at the press, in metres. */
-  readonly cx: number;
-  readonly cy: number;
+  /** Where the picture looked at the press. */
+  readonly camera: Camera;
 }
 
 /** A movement shorter than this is a click's. A finger is less steady than a mouse. */

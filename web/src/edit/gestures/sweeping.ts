@@ -1,5 +1,6 @@
 // Taking many at once: a frame drawn over the ground, or a line drawn round them. Whose middle lies inside is taken.
 import { insidePolygon, type Vec } from '../../model/geometry';
+import type { View } from '../../draw/view';
 import { kindsWords } from '../../model/kinds';
 import { poseShown } from '../frame';
 import type { Chart, State } from './chart';
@@ -7,14 +8,9 @@ import type { Press } from './pressed';
 import { TEXTS } from '../../texts/gestures';
 
 /** Makes the outline longer, or anew, for the newest place. */
-export type Outline = (from: Vec, to: Vec, before: readonly Vec[]) => readonly Vec[];
+export type Outline = (from: Vec, to: Vec, before: readonly Vec[], v: View) => readonly Vec[];
 
-export const rectangle: Outline = ([x0, y0], [x1, y1]) => [
-  [x0, y0],
-  [x1, y0],
-  [x1, y1],
-  [x0, y1],
-];
+export const rectangle: Outline = (from, to, _, v) => v.frame(from, to);
 
 export class Sweeping implements State {
   readonly followsView = true;
@@ -45,7 +41,7 @@ export class Sweeping implements State {
   move(): void {
     const { chart } = this;
     const v = chart.surface.view;
-    this.#outline = this.outline(this.#from, v.from(chart.at.x, chart.at.y), this.#outline);
+    this.#outline = this.outline(this.#from, v.from(chart.at.x, chart.at.y), this.#outline, v);
     chart.editor.sweepOver({ outline: this.#outline, ids: this.#taken() });
   }
 

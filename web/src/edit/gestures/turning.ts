@@ -5,7 +5,7 @@ import { setGoal, setStart, type Command } from '../../model/commands';
 import { canMove, startPose, type Agent } from '../../model/scene';
 import type { Part } from '../editor';
 import type { Chart, State } from './chart';
-import { Pinching } from './pinching';
+import { Pinching, turnOf } from './pinching';
 import { TEXTS } from '../../texts/gestures';
 
 /** The middle of the two fingers lies so near to what they turn, pixels. */
@@ -60,9 +60,7 @@ class Turning implements State {
   }
 
   moveFinger(from: Point, to: Point, other: Point): void {
-    const angle = (a: Point): number => Math.atan2(a.y - other.y, a.x - other.x);
-    // Pixels count downwards.
-    this.#turned -= wrapAngle(angle(to) - angle(from));
+    this.#turned += turnOf(from, to, other);
     if (this.#begun || Math.abs(this.#turned) >= TURNS_RAD) return this.#turn();
     const drawn = Math.hypot(to.x - other.x, to.y - other.y) / this.#apart;
     const moved = Math.hypot((to.x + other.x) / 2 - this.#middle.x, (to.y + other.y) / 2 - this.#middle.y);

@@ -78,7 +78,7 @@ export class Connecting implements State {
     const { surface, at, editor } = this.chart;
     const { layouts } = editor;
     const v = surface.view;
-    const far = (e: { at: Vec }): number => Math.hypot(v.x(e.at[0]) - at.x, v.y(e.at[1]) - at.y);
+    const far = (e: { at: Vec }): number => v.away(e.at, at);
     const nearest = exits(layouts).sort((a, b) => far(a) - far(b))[0];
     const caught = nearest && far(nearest) <= (this.touch ? CATCH_TOUCH_PX : CATCH_PX) ? nearest : null;
     layouts.drawWay({ from: this.#from, to: caught?.lane ?? null, at: caught?.at ?? v.from(at.x, at.y) });

@@ -37,6 +37,7 @@ export const german: Said<typeof TEXTS> = {
   theSameAsLines: 'Dasselbe als Linien: in jeder Größe scharf, für Veröffentlichungen.',
   drawing: 'Zeichnung',
   pxAMetreXEast: (z) => `${z} px je Meter; x nach Osten, y nach Norden`,
+  turnedCounterClockwise: (degrees) => `, um ${degrees}° gegen den Uhrzeigersinn gedreht`,
   whatYouSeeAgain: 'Was zu sehen ist, immer wieder; für Folien und Mails, die keinen Film abspielen.',
   movingImage: 'Bewegtes Bild',
   s10ASecond: (duration) => `${duration} s, 10 je Sekunde`,

@@ -65,6 +65,10 @@ export const german: Said<typeof HELPS> = {
   theSelectedRoad: 'Die ausgewählten Verkehrsteilnehmer und ihre Ziele',
   aThirdCloser: 'Ein Drittel näher',
   aThirdFurther: 'Ein Drittel weiter weg',
+  theSelectedDrives:
+    'Dreht das Bild: wer ausgewählt ist, fährt nach oben; ist niemand ausgewählt, liegt die Straße am Zeiger waagrecht oder senkrecht',
+  turnsThePicture: 'Dreht das Bild zurück, wie der Kompass, solange er da ist',
+  by15DegreesAbout: 'Dreht es um 15° um seine Mitte',
   thePicture: 'Das Bild folgt beim Abspielen dem ausgewählten Verkehrsteilnehmer',
   whereTheOthers: 'Wo die anderen warten würden, gezeigt oder verborgen beim Ziehen eines Griffs',
   whereEverybody: 'Wohin alle kommen können',

@@ -84,7 +84,7 @@ export const german: Said<typeof TEXTS> = {
   generatorAway2: 'Generator weg',
   showingFutures: 'Zukünfte zum nächsten erreichbaren Punkt',
   six: 'Sechs',
-  futures: (n: number | string) => `${n} Zukünfte`,
+  futures: (it) => (it === 1 ? 'Eine Zukunft' : `${it} Zukünfte`),
   othersAdapted: (adapted) => plural(adapted, { one: `${adapted} reagiert`, other: `${adapted} reagieren` }),
   ready: 'Bereit',
   mapReadyLanes: (count) => `Karte bereit · ${count} Spuren`,
