@@ -129,7 +129,7 @@ describe('feet', () => {
     const words = 'Needs 61 m at 50 km/h and brakes 4.2 m/s². Lane 1.5 m off.';
     expect(retold(words)).toBe(words);
     toldIn('mph');
-    expect(retold(words)).toBe('Needs 200 ft at 31 mph and brakes 4.2 m/s². Lane 4.9 ft off.');
+    expect(retold(words)).toBe('Needs 200 ft at 31 mph and brakes 13.8 ft/s². Lane 4.9 ft off.');
     toldIn('m/s');
     expect(retold(words)).toBe('Needs 61 m at 13.9 m/s and brakes 4.2 m/s². Lane 1.5 m off.');
   });

@@ -6,6 +6,7 @@ import type { Plugin } from 'vite';
 /** A key at the start of its line, in a table as the formatter leaves it. */
 const KEY = /^ {2}(\w+):/gm;
 const TABLE = /\/src\/texts\/([\w-]+)\.ts$/;
+const GERMAN = /\/src\/texts\/german\/([\w-]+)\.ts$/;
 const IMPORT = /import (?:type )?\{ TEXTS(?: as (\w+))? \} from '[./]*\/(?:texts\/)?([\w-]+)';/g;
 
 const LETTERS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ';
@@ -24,37 +25,17 @@ export function shortKeys(): Plugin {
     }
     return keys;
   };
-  /** A language has the tables of many areas: each says whose it is by its type. */
-  const inLanguage = (code: string): string => {
-    const areas = new Map([...code.matchAll(IMPORT)].map(([, as, area]) => [as, area]));
-    let keys: ReadonlyMap<string, string> | null = null;
-    let indent = '';
-    return code
-      .split('\n')
-      .map((line) => {
-        const begins = /^( *)const \w+: Part<typeof (\w+)> = \{$/.exec(line);
-        if (begins) {
-          indent = `${begins[1]}  `;
-          const area = areas.get(begins[2]);
-          keys = area ? keysOf(area) : null;
-          return line;
-        }
-        const key = keys && line.startsWith(indent) ? /^\w+(?=:)/.exec(line.slice(indent.length))?.[0] : undefined;
-        return key ? `${indent}${keys!.get(key)}${line.slice(indent.length + key.length)}` : line;
-      })
-      .join('\n');
+  const shortened = (code: string, area: string, fail: (why: string) => never): string => {
+    const keys = keysOf(area);
+    return code.replace(KEY, (all, key: string) => `  ${keys.get(key) ?? fail(`${all} is in no table`)}:`);
   };
   return {
     name: 'short-keys',
     apply: 'build',
     enforce: 'pre',
     transform(code, id) {
-      if (/Part<typeof/.test(code) && TABLE.test(id)) return inLanguage(code);
-      const table = TABLE.exec(id);
-      if (table && /\bTEXTS\b/.test(code)) {
-        const keys = keysOf(table[1]);
-        return code.replace(KEY, (all, key: string) => `  ${keys.get(key) ?? this.error(`${all} is in no table`)}:`);
-      }
+      const table = TABLE.exec(id) ?? GERMAN.exec(id);
+      if (table && /\bTEXTS\b/.test(code)) return shortened(code, table[1], (why) => this.error(why));
       let out = code;
       for (const [, as, area] of code.matchAll(IMPORT)) {
         const keys = keysOf(area);

@@ -22,7 +22,7 @@ export const launch = (name = 'chromium') =>
     : chromiumEngine.launch({ executablePath: chromium, args: FLAGS });
 
 const engineOf = (context) => context.browser().browserType().name();
-const number = (text) => Number(text.replace('≈', '').replace('−', '-').trim());
+const number = (text) => Number(text.replace('≈', '').replace('−', '-').replace(',', '.').trim());
 
 export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */

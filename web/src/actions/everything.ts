@@ -117,7 +117,7 @@ export const everything = inGroup('everything', [
   },
   {
     id: 'unit',
-    label: TEXTS.kmHMphOrMS,
+    label: TEXTS.units,
     keys: ['U'],
     icon: 'ruler',
     help: 'theUnitInWhich',

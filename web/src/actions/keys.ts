@@ -1,6 +1,8 @@
 // Keys in one spelling: `Ctrl+Shift+Z`. Shifted signs are read as Shift plus the plain sign, so that a table of
 // shortcuts can be shown as it is typed.
 
+import { KEYS } from '../texts/keys';
+
 const SHIFTED: Record<string, string> = { '{': '[', '}': ']', ':': ';', '"': "'", '<': ',', '>': '.', _: '-' };
 const NAMES: Record<string, string> = {
   ' ': 'Space',
@@ -43,7 +45,15 @@ export function keyOf(e: KeyLike): string {
     .join('+');
 }
 
-const SHOWN: Record<string, string> = { Up: '↑', Down: '↓', Left: '←', Right: '→', Enter: '↵', '-': '−' };
+const SHOWN: Readonly<Record<string, string>> = {
+  Up: '↑',
+  Down: '↓',
+  Left: '←',
+  Right: '→',
+  Enter: '↵',
+  '-': '−',
+  ...KEYS,
+};
 
 /** The caps to draw for a key. */
 export function caps(key: string): string[] {

@@ -12,7 +12,7 @@ import { TEXTS } from '../texts/context-menu';
 /** Ids of actions; null draws a line, a list with a name is a menu of its own. */
 type Entry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };
 
-const KINDS: Entry = { name: 'Type', icon: 'pencil', items: PLACED_KINDS.map((k) => `kind-${k}`) };
+const KINDS: Entry = { name: TEXTS.type, icon: 'pencil', items: PLACED_KINDS.map((k) => `kind-${k}`) };
 const DOES = ['does-react', 'does-log', 'does-still'];
 const COPIES = ['copy', 'cut', 'duplicate', 'delete'];
 

@@ -1,4 +1,5 @@
 // Where the handles of arms lie on screen while an area is filled: drawn outward, more vehicles come in.
+import { armTitle } from '../model/arm-names';
 import type { Vec } from '../model/geometry';
 import type { View } from '../draw/view';
 import type { Arm } from './filling';
@@ -23,8 +24,7 @@ export interface ArmHandle {
 }
 
 /** `North-west 2`. */
-export const armName = ({ id }: Pick<Arm, 'id'>): string =>
-  id.charAt(0).toUpperCase() + id.slice(1).replace(/-(\d+)$/, ' $1');
+export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(/-(\d+)$/, ' $1'));
 
 /** Handles of the arms that are in the picture. */
 export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {

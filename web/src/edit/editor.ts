@@ -10,7 +10,7 @@ import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
-import { toldIn, type SpeedUnit } from '../model/units';
+import { type SpeedUnit, toldIn, walkingUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Filling } from './filling';
@@ -272,7 +272,7 @@ export class Editor {
   );
 
   unitOf(a: Agent): SpeedUnit {
-    return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value;
+    return a.type === 'pedestrian' ? walkingUnit(this.speedUnit.value) : this.speedUnit.value;
   }
 
   // -------------------------------------------------------------- the document
@@ -322,11 +322,11 @@ export class Editor {
   }
 
   undo(): void {
-    this.#travel((h) => h.undo(), TEXTS.undone);
+    this.#travel((h) => h.undo(), 'back');
   }
 
   redo(): void {
-    this.#travel((h) => h.redo(), TEXTS.doneAgain);
+    this.#travel((h) => h.redo(), 'forth');
   }
 
   /** To any step of the history; null for how the scene was before the first. */
@@ -367,12 +367,13 @@ export class Editor {
     return lock !== null;
   }
 
-  #travel(move: (h: History) => HistoryStep | null, word: string): void {
+  #travel(move: (h: History) => HistoryStep | null, way: 'back' | 'forth'): void {
     const before = this.#history?.scene;
     const step = this.#history && !this.#refused() ? move(this.#history) : null;
     if (!step || !this.#history || !before) return;
     this.#committed(this.#history.scene, before, step.name, true);
-    this.onTravel?.(step, word === 'Undone' ? 'back' : 'forth');
+    this.onTravel?.(step, way);
+    const word = way === 'back' ? TEXTS.undone : TEXTS.doneAgain;
     this.notices.show({ text: `${word}: ${step.name}.` });
     this.notices.say(`${word}: ${step.name}.`);
   }

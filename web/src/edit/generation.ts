@@ -159,7 +159,7 @@ export class Generation implements Previews {
     this.generator.cancel();
     if (!this.editor.motion.peek().stale || this.#absence.now) return;
     // A drag that began while a change was being worked out has pushed that aside; it is asked for again.
-    this.#workOut({ name: 'Change', agent: this.editor.selection.peek(), undo: true });
+    this.#workOut({ name: TEXTS.change, agent: this.editor.selection.peek(), undo: true });
   }
 
   #committed(scene: Scene, step: Step): void {

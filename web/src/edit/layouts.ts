@@ -1,4 +1,5 @@
 // A map that is being made: the template with its parameters, what came of it, and the arm in hand.
+import { armTitle } from '../model/arm-names';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { DrivingSide } from '../model/driving-side';
 import type { Vec } from '../model/geometry';
@@ -321,7 +322,7 @@ export class Layouts {
 
   /** An exit by its arm, and by its lane where there are several. */
   exitName([arm, lane]: LaneOfArm): string {
-    const name = this.made.value?.arms[arm]?.name ?? '';
+    const name = armTitle(this.made.value?.arms[arm]?.name ?? '');
     return (this.arms.value[arm]?.lanes_out ?? 0) > 1 ? TEXTS.exitLane(name, lane + 1) : name;
   }
 

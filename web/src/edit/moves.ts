@@ -7,7 +7,7 @@ import { limitsOf, topSpeed } from '../model/domain';
 import { poseAt } from '../model/motion';
 import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
-import { metres, toUnit } from '../model/units';
+import { inTenths, metres, seconds, speedLabel, toUnit } from '../model/units';
 import type { Editor, Field, Part } from './editor';
 import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
@@ -40,6 +40,13 @@ function logEnd(a: Agent): Pose | null {
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
 const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.heading2, speed: TEXTS.speed2 } as const;
+
+/** That a field of somebody, or of several, is fixed now, or free. */
+export function fixedWords(part: Part, field: Field, who: string, fixed: boolean): string {
+  const word = FIELD_WORDS[field];
+  if (part === 'goal') return fixed ? TEXTS.goalOfFixed(word, who) : TEXTS.goalOfFree(word, who);
+  return fixed ? TEXTS.startOfFixed(word, who) : TEXTS.startOfFree(word, who);
+}
 
 const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
 
@@ -80,14 +87,7 @@ export function toggleField(e: Editor, a: Agent, part: Part, field: Field): Comm
   const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);
   return {
     ...c,
-    name:
-      part === 'goal'
-        ? free
-          ? TEXTS.goalOfFree(FIELD_WORDS[field], a.name)
-          : TEXTS.goalOfFixed(FIELD_WORDS[field], a.name)
-        : free
-          ? TEXTS.startOfFree(FIELD_WORDS[field], a.name)
-          : TEXTS.startOfFixed(FIELD_WORDS[field], a.name),
+    name: fixedWords(part, field, a.name, !free),
   };
 }
 
@@ -157,8 +157,8 @@ export function faster(e: Editor, a: Agent, part: Part, steps: number): Command 
   return withField(a, part, { speed: v }, true);
 }
 
-export function later(e: Editor, a: Agent, seconds: number): Command {
-  const t = Math.round(goalTime(e.scene.peek(), a.goal.time + seconds) * 10) / 10;
+export function later(e: Editor, a: Agent, by: number): Command {
+  const t = Math.round(goalTime(e.scene.peek(), a.goal.time + by) * 10) / 10;
   return withField(a, 'goal', { time: t }, true);
 }
 
@@ -218,7 +218,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   if (local?.time && local.time > a.goal.time)
     out.push({
       label: TEXTS.giveItMoreTime,
-      note: `${local.time.toFixed(1)} s`,
+      note: seconds(local.time),
       icon: 'clock',
       primary: false,
       command: withField(a, 'goal', { time: local.time }),
@@ -226,13 +226,13 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
     const faster = local.kind === 'far';
     const v = Math.min(limitsOf(a).speed_mps, local.speed);
-    const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(toUnit(v, unit))} ${unit}`;
+    const note = inTenths(unit) ? speedLabel(v, unit) : `${Math.ceil(toUnit(v, unit))} ${unit}`;
     out.push({
       label: faster ? TEXTS.startFaster : TEXTS.startSlower,
       note,
       icon: 'play',
       primary: false,
-      command: withField(a, 'start', { speed: faster && unit !== 'm/s' ? Math.ceil(v * 3.6) / 3.6 : v }),
+      command: withField(a, 'start', { speed: faster && !inTenths(unit) ? Math.ceil(v * 3.6) / 3.6 : v }),
     });
   }
   return out;

@@ -1,5 +1,6 @@
 // What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
 // lanes lead, and what of it does not pass.
+import { armTitle } from '../model/arm-names';
 import type { Vec } from '../model/geometry';
 import { metres, num, retold } from '../model/units';
 import { pill, type Labels } from '../draw/labels';
@@ -170,7 +171,7 @@ export class ArmsOverlay {
         const turned = layouts.turned.value;
         const length = layouts.arms.value[k.arm]?.length_m;
         const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${metres(length, 0)}` : '';
-        const words = `${made.arms[k.arm].name} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
+        const words = `${armTitle(made.arms[k.arm].name)} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
         const mine = k.arm === layouts.arm.value;
         pill(g, this.labels, x, y, words, {
           ...(mine ? { bg: c.ok, fg: c.surface } : {}),

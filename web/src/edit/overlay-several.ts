@@ -4,7 +4,7 @@ import { kindsWords } from '../model/kinds';
 import type { Newcomer } from '../model/newcomer';
 import { typeOfKind } from '../model/kinds';
 import type { Agent } from '../model/scene';
-import { speedLabel } from '../model/units';
+import { speedLabel, walkingUnit } from '../model/units';
 import { paintRing, paintSpeed } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
@@ -182,7 +182,7 @@ export class SeveralOverlay {
     if (one && first.who.pose.speed > 0.2) {
       const box = boxOfNewcomer(first.who);
       const tip = paintSpeed(g, v, box, first.who.pose, c.select, false);
-      const unit = box.type === 'pedestrian' ? 'm/s' : e.speedUnit.value;
+      const unit = box.type === 'pedestrian' ? walkingUnit(e.speedUnit.value) : e.speedUnit.value;
       tag(g, this.labels, tip, speedLabel(first.who.pose.speed, unit), {
         tries: [
           [14, -10],

@@ -26,7 +26,9 @@ import { Steady } from './steady';
 import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
 import { Rest } from './rest';
+import { figure } from '../model/units';
 import { TEXTS } from '../texts/generation';
+import { LANGUAGE } from '../texts/language';
 
 /** What an answer may set off; the generation does it. */
 export interface Hooks {
@@ -316,8 +318,13 @@ export class Reception {
 
   #refused(p: Problem): void {
     const first = p.errors?.[0];
-    const range = first?.min !== undefined ? TEXTS.aValueIsOutside(first.min, first.max) : null;
-    const words = first?.detail ?? range ?? p.detail ?? p.title;
+    const range =
+      first?.min !== undefined && first.max !== undefined
+        ? TEXTS.aValueIsOutside(figure(first.min), figure(first.max))
+        : null;
+    // The server says more, but in English.
+    const said = LANGUAGE === 'en' ? (first?.detail ?? range) : (range ?? first?.detail);
+    const words = said ?? p.detail ?? p.title;
     this.editor.answers.foresee(null);
     this.editor.answers.report({ kind: 'refused', words });
     this.editor.notices.say(words);

@@ -2,7 +2,7 @@
 import type { Change } from '../model/changes';
 import { counted, type TrafficEvent } from '../model/events';
 import { nameIn, type Scene } from '../model/scene';
-import { seconds } from '../model/units';
+import { num, seconds } from '../model/units';
 import { headline } from '../model/verdict-words';
 import type { Editor, Step } from './editor';
 import { TEXTS } from '../texts/generation';
@@ -48,5 +48,5 @@ export function spokenVerdict(editor: Editor, step: Step): string {
 
 export function spokenCollision(events: readonly TrafficEvent[]): string | null {
   const hit = counted(events).find((e) => e.kind === 'collision');
-  return hit?.b ? TEXTS.collisionAnd(hit.a.name, hit.b.name, hit.time.toFixed(1)) : null;
+  return hit?.b ? TEXTS.collisionAnd(hit.a.name, hit.b.name, num(hit.time, 1)) : null;
 }

@@ -24,6 +24,7 @@ import {
   type StartSpec,
 } from '../model/scene';
 import { shiftedVias } from '../model/via';
+import { fixedWords } from './moves';
 import { freeShift, standing } from './room';
 import { shifted } from '../model/newcomer';
 import { TEXTS } from '../texts/moves';
@@ -213,8 +214,7 @@ export function fixAll(
   shown: (a: Agent) => number | null,
 ): Command | null {
   const free = all.every((a) => a[part][field] !== null);
-  const word = `${part === 'goal' ? TEXTS.goal : TEXTS.start} ${field}`;
-  return changeAll(all, free ? TEXTS.ofFree(word, whoWords(all)) : TEXTS.ofFixed(word, whoWords(all)), (a) => {
+  return changeAll(all, fixedWords(part, field, whoWords(all), !free), (a) => {
     const v = free ? null : (a[part][field] ?? shown(a));
     if (v === a[part][field]) return null;
     return part === 'start' ? started(a, { [field]: v }) : aimed(a, { [field]: v });

@@ -139,14 +139,14 @@ export function guessed(columns: readonly string[]): Answers {
 const spaced = (name: string): string => name.replace(/([a-z])([A-Z])/g, '$1_$2').toLowerCase();
 
 const ENDINGS: Record<string, readonly string[]> = {
-  ms: ['milliseconds'],
-  us: ['microseconds'],
-  ns: ['nanoseconds'],
-  rad: ['radians'],
-  deg: ['degrees'],
+  ms: [TEXTS.milliseconds],
+  us: [TEXTS.microseconds],
+  ns: [TEXTS.nanoseconds],
+  rad: [TEXTS.radians],
+  deg: [TEXTS.degrees],
   kmh: ['km/h'],
-  cm: ['centimetres'],
-  ft: ['feet', 'ft/s'],
+  cm: [TEXTS.centimetres],
+  ft: [TEXTS.feet, TEXTS.ftS],
 };
 
 function unitIn(column: string, units: readonly Unit[]): number {
@@ -154,7 +154,7 @@ function unitIn(column: string, units: readonly Unit[]): number {
   if (/^frame/.test(name))
     return Math.max(
       0,
-      units.findIndex((u) => u.label === 'pictures, 25 a second'),
+      units.findIndex((u) => u.label === TEXTS.pictures25ASecond),
     );
   const words = ENDINGS[/[ _]([a-z]+)$/.exec(name)?.[1] ?? ''] ?? [];
   return Math.max(

@@ -101,6 +101,7 @@ export function leaveGiven(e: Editor, a: Agent): Leave | null {
   if (!a.goal.mayCross.length) return null;
   const words = mayCrossWords(goes(a.type), e.scene.value!.map, a.goal.mayCross);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([]) };
-  const command = goalStep(a, goal, `${a.name} ${words.replace('may', 'may not')}`);
+  const not = mayCrossWords(goes(a.type), e.scene.value!.map, a.goal.mayCross, false);
+  const command = goalStep(a, goal, `${a.name} ${not}`);
   return { words: words.charAt(0).toUpperCase() + words.slice(1), command };
 }

@@ -91,7 +91,13 @@ function reach(map: LaneMap, lane: Lane, way: 'next' | 'prev'): Lane[] {
   return [];
 }
 
+const ARMS = TEXTS.arms;
+const COMPASS = [TEXTS.e, TEXTS.ne, TEXTS.n, TEXTS.nw, TEXTS.w, TEXTS.sw, TEXTS.s, TEXTS.se] as const;
+
 function compass(angle: number): string {
-  const names = ['E', 'NE', 'N', 'NW', 'W', 'SW', 'S', 'SE'];
-  return names[((Math.round((angle * 4) / Math.PI) % 8) + 8) % 8];
+  return COMPASS[((Math.round((angle * 4) / Math.PI) % 8) + 8) % 8];
 }
+
+/** The server's words for an arm, `North-west 2`, in those of the page. */
+export const armTitle = (english: string): string =>
+  english.replace(/^[a-z]+(?:-[a-z]+)?/i, (way) => ARMS[way.toLowerCase() as keyof typeof ARMS] ?? way);

@@ -1,7 +1,7 @@
 // A case in words: what is looked for, what a found one is, and what came nearest.
 import { KINDS, type Moment, type Sought, type What } from './cases';
 import { startPose, type Agent, type Scene } from './scene';
-import { metres, num, seconds, speedLabel, type SpeedUnit } from './units';
+import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/cases';
 
 export const KIND_WORDS: Readonly<Record<What, string>> = {
@@ -38,7 +38,7 @@ export function momentWords({ what }: Sought, m: Moment): string {
   if (what === 'collision') return m.found ? TEXTS.collision2(at) : `${metres(m.value, 1)} ${at}`;
   if (what === 'first') return m.value >= 0 ? TEXTS.sAhead(num(m.value, 1), at) : TEXTS.sBehind(num(-m.value, 1), at);
   const { unit } = KINDS[what];
-  return `${unit === 'm' ? metres(m.value, 1) : `${num(m.value, 1)} ${unit}`} ${at}`;
+  return `${unit === 'm' ? metres(m.value, 1) : unit === 's' ? seconds(m.value) : acceleration(m.value)} ${at}`;
 }
 
 /** How it happens: where the other one is, and what the one who is tried begins with. */
@@ -48,7 +48,7 @@ export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit): st
   return [
     start ? TEXTS.startsAt(speedLabel(start.speed, unit)) : '',
     a.goal.pos ? TEXTS.atItsGoalAt(seconds(a.goal.time)) : '',
-    other && m.side ? `${other} ${m.side}` : '',
+    other && m.side ? `${other} ${TEXTS.sides[m.side]}` : '',
   ].filter(Boolean);
 }
 

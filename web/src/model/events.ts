@@ -5,7 +5,7 @@ import { motionOf } from './changes';
 import type { Futures, MotionSet, Score, Stretch } from './futures';
 import { poseAt } from './motion';
 import { nameIn, touched, type Agent, type Scene } from './scene';
-import { metres, num, seconds, speedLabel, type SpeedUnit } from './units';
+import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit, walkingUnit } from './units';
 import { placeWord } from './verdict-words';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { TEXTS } from '../texts/events';
@@ -187,7 +187,7 @@ function extentWords(r: Raw, unit: SpeedUnit): string | null {
       return TEXTS.at(speedLabel(r.extent, unit));
     case 'harsh_braking':
     case 'harsh_steering':
-      return `${num(r.extent, 1)} m/s²`;
+      return acceleration(r.extent);
     case 'wrong_way':
     case 'goal_missed':
       return metres(r.extent);
@@ -248,7 +248,8 @@ function shortOf(scene: Scene, r: Raw): string {
 type Part = readonly [Agent | null, Pose | null];
 
 function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: readonly Part[]): [string, string][] {
-  const speed = (x: Agent, v: number) => (x.type === 'pedestrian' ? speedLabel(v, 'm/s') : speedLabel(v, unit));
+  const speed = (x: Agent, v: number) =>
+    x.type === 'pedestrian' ? speedLabel(v, walkingUnit(unit)) : speedLabel(v, unit);
   const facts = who.flatMap(([x, p]): [string, string][] =>
     x && p ? [[x.name, `${speed(x, p.speed)}, ${doing(scene, set, x, r.time)}`]] : [],
   );
@@ -258,7 +259,8 @@ function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: 
   if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.closestGap, metres(r.extent, 1)]);
   if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
-  if (fact && r.extent !== null) facts.push([fact, extentWords(r, unit)!.replace(/^at /, '')]);
+  if (fact && r.extent !== null)
+    facts.push([fact, r.what === 'red_light' ? speedLabel(r.extent, unit) : extentWords(r, unit)!]);
   if (r.until > r.time + 0.15) facts.push([TEXTS.fromTo, TEXTS.to(num(r.time, 1), seconds(r.until))]);
   if (r.inLog) facts.push([TEXTS.whereFrom, TEXTS.inTheLogNotCounted]);
   return facts;

@@ -1,7 +1,16 @@
 // Wishes, what they rest on, and why a card was kept or rejected, in plain words.
 import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from './feedback';
 import type { LearnedWishJson } from './json';
-import { lengthText, lengthUnit, num, seconds, speedText, type SpeedUnit } from './units';
+import {
+  acceleration,
+  accelerationUnit,
+  lengthText,
+  lengthUnit,
+  num,
+  seconds,
+  speedText,
+  type SpeedUnit,
+} from './units';
 import { TEXTS } from '../texts/feedback';
 import { inSentence } from '../texts/language';
 
@@ -83,8 +92,12 @@ function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | nu
         : { does: TEXTS.leave, of: ' s', value: (r) => between(r, one) };
     case 'harshness':
       return wants === 'less'
-        ? { does: TEXTS.brakeSpeedUp, of: ' m/s²', value: (r) => one(r[1]) }
-        : { does: TEXTS.brakeSpeedUpOr, of: ' m/s²', value: (r) => between(r, one) };
+        ? { does: TEXTS.brakeSpeedUp, of: ` ${accelerationUnit()}`, value: (r) => lengthText(r[1], 1) }
+        : {
+            does: TEXTS.brakeSpeedUpOr,
+            of: ` ${accelerationUnit()}`,
+            value: (r) => between(r, (v) => lengthText(v, 1)),
+          };
     case 'standing':
       return { does: TEXTS.stand, of: ' s', value: (r) => between(r, one) };
     case 'from_log':
@@ -147,13 +160,13 @@ type Plain = Exclude<Trait['trait'], 'first' | 'does'>;
 type Row = readonly [Plain, 'more' | 'less', fault: string, liked: string];
 
 const REASONS: readonly Row[] = [
-  ['pace', 'more', TEXTS.tooSlow, 'brisk'],
-  ['pace', 'less', TEXTS.tooFast, 'calm'],
+  ['pace', 'more', TEXTS.tooSlow, TEXTS.brisk],
+  ['pace', 'less', TEXTS.tooFast, TEXTS.calm],
   ['gap', 'more', TEXTS.tooClose, TEXTS.keepsClear],
   ['gap', 'less', TEXTS.tooCareful, TEXTS.goesWhileItCan],
-  ['harshness', 'less', TEXTS.tooHarsh, 'smooth'],
+  ['harshness', 'less', TEXTS.tooHarsh, TEXTS.smooth],
   ['standing', 'less', TEXTS.waitsTooLong, TEXTS.hardlyWaits],
-  ['standing', 'more', TEXTS.shouldWait, 'waits'],
+  ['standing', 'more', TEXTS.shouldWait, TEXTS.waits],
   ['from_log', 'less', TEXTS.tooFarFromThe, TEXTS.nearTheRecording],
 ];
 
@@ -213,6 +226,6 @@ export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string =
 /** What a card is like, in two facts. */
 export function factWords(f: Features): string {
   // The widest gap that is counted says only that nobody is near.
-  const gap = f.gap_s >= 5 ? 'clear' : TEXTS.gap(seconds(f.gap_s));
-  return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.stands(seconds(f.standing_s)) : `${num(f.harshness_mps2, 1)} m/s²`}`;
+  const gap = f.gap_s >= 5 ? TEXTS.clear : TEXTS.gap(seconds(f.gap_s));
+  return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.stands(seconds(f.standing_s)) : acceleration(f.harshness_mps2)}`;
 }

@@ -4,7 +4,7 @@ import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type Se
 import type { Point, Pose, Vec } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
-import { metres, retold } from './units';
+import { metres, num, retold } from './units';
 import { TEXTS } from '../texts/reach';
 
 export { LETTERS } from './names';
@@ -222,7 +222,7 @@ export function reachWords(
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';
   return {
-    title: title || TEXTS.outOfReachIn(goal.time.toFixed(1)),
+    title: title || TEXTS.outOfReachIn(num(goal.time, 1)),
     words: rest || TEXTS.theNearestReachable,
   };
 }

@@ -3,6 +3,7 @@
 import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
 import { distances, endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from './motion';
+import { TEXTS as KINDS } from '../texts/kinds';
 import { TEXTS } from '../texts/names';
 
 /** What a name is made from. */
@@ -237,8 +238,12 @@ function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
 }
 
 /** A name of its own with the long word cut. */
-const shortName = (name: string): string =>
-  name.replace('Pedestrian', 'Ped.').replace('Motorcycle', 'Moto').replace('Cyclist', 'Cycl.');
+const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
+const SHORT = [
+  [KINDS.pedestrian, TEXTS.ped],
+  [KINDS.motorcycle, TEXTS.moto],
+  [KINDS.cyclist, TEXTS.cycl],
+] as const;
 
 /** Slower than this is standing, m/s. */
 const STANDING_M_S = 0.25;

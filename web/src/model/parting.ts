@@ -6,7 +6,7 @@ import { toLocal, type Vec } from './geometry';
 import { poseAt, STEP_S, type Motion } from './motion';
 import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from './scene';
-import { metres, num } from './units';
+import { metres, num, seconds } from './units';
 import { TEXTS } from '../texts/parting';
 
 export interface Side {
@@ -97,9 +97,9 @@ function partedOf(left: Side, right: Side, agent: Agent): Parted | null {
 const row = (what: string, left: string, right: string): Row => ({ what, left, right, differs: left !== right });
 
 function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
-  const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : `${num(set.score.pet, 1)} s`);
+  const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
   const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
-  const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : `${num(set.score.minTtc, 1)} s`);
+  const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
   return [
     row(TEXTS.events, events(left), events(right)),
     ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
@@ -115,9 +115,11 @@ function deeds(scene: Scene, { agent, left, right }: Parted): Row {
   return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
 }
 
+const TURNS = { left: TEXTS.turnsLeft, right: TEXTS.turnsRight } as const;
+
 function deedWords(d: Deed): string {
   if (d.waits >= 1) return d.stands ? TEXTS.standsS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
-  return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TEXTS.turns(d.turn);
+  return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TURNS[d.turn];
 }
 
 function goals(left: Side, right: Side): Row[] {

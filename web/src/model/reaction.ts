@@ -3,7 +3,7 @@ import { wrapAngle, type Pose } from './geometry';
 import type { ReactionKind } from './json';
 import { poseAt, STEP_S, type Motion } from './motion';
 import type { Agent } from './scene';
-import { num, speedText, type SpeedUnit } from './units';
+import { num, speedText, walkingUnit, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/reactions';
 
 export interface Reaction {
@@ -34,21 +34,21 @@ const TOLD_S = 0.5;
 
 /** `waits 2 s for Car 7`, `slows to 8 km/h behind Car 12`: the verb first, the other's name last. */
 export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'): string {
-  const whom = `${r.ahead ? TEXTS.behind : TEXTS.for} ${r.cause.name}`;
+  const { name } = r.cause;
   switch (r.kind) {
     case 'waits': {
       const long = r.delay !== null && r.delay >= TOLD_S ? ` ${roundSeconds(r.delay)} s` : '';
-      return TEXTS.waits(long, whom);
+      return TEXTS.waits(long, name, r.ahead);
     }
     case 'slows': {
-      const unit = a.type === 'pedestrian' ? 'm/s' : shown;
+      const unit = a.type === 'pedestrian' ? walkingUnit(shown) : shown;
       const speed = speedText(Math.abs(r.place.speed), unit);
-      return Number(speed) ? TEXTS.slowsTo(speed, unit, whom) : TEXTS.stopsBriefly(whom);
+      return /[1-9]/.test(speed) ? TEXTS.slowsTo(`${speed} ${unit}`, name, r.ahead) : TEXTS.stopsBriefly(name, r.ahead);
     }
     case 'speeds_up':
-      return TEXTS.makesWayFor(r.cause.name);
+      return TEXTS.makesWayFor(name);
     case 'keeps_clear':
-      return TEXTS.takesAnother(r.cause.name);
+      return TEXTS.takesAnother(name);
   }
 }
 

@@ -2,7 +2,7 @@
 import { rangesOf, topSpeed } from './domain';
 import { setGoal, setStart } from './commands';
 import { startPose, type Agent, type Scene } from './scene';
-import { fromUnit, num, seconds, speedLabel, toUnit, type SpeedUnit } from './units';
+import { fromUnit, inTenths, num, seconds, speedLabel, type SpeedUnit, toUnit } from './units';
 import { TEXTS } from '../texts/variants';
 
 /** What is gone through: the speed at the start, the speed at the goal, the time of the goal. */
@@ -23,7 +23,7 @@ const USUAL_STEPS = 3;
 export const LEAST_STEP = 0.1;
 
 /** How wide steps usually are, in the shown unit. */
-export const usualStep = (over: Over, unit: SpeedUnit): number => (over === 'time' || unit === 'm/s' ? 1 : 5);
+export const usualStep = (over: Over, unit: SpeedUnit): number => (over === 'time' || inTenths(unit) ? 1 : 5);
 
 /** The number of a road user as the scene has it; null where it has none. */
 export function valueOf(a: Agent, over: Over): number | null {

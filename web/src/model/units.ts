@@ -1,25 +1,39 @@
 // Numbers as people read and type them. Inside the program everything is SI.
 import { signal } from '@preact/signals-core';
+import { change, LANGUAGE } from '../texts/language';
 import { TEXTS } from '../texts/places';
 import { deg } from './geometry';
 
-export type SpeedUnit = 'km/h' | 'm/s' | 'mph';
+export type SpeedUnit = 'km/h' | 'm/s' | 'mph' | 'ft/s';
 
-/** Those that one may see speeds of vehicles in; people on foot are always told in m/s. */
+/** Those that one may see speeds of vehicles in. */
 const SPEED_UNITS: readonly SpeedUnit[] = ['km/h', 'mph', 'm/s'];
+/** What people on foot are told in beside it: as traffic planners have it, metres or feet a second. */
+export const walkingUnit = (unit: SpeedUnit): SpeedUnit => (unit === 'mph' ? 'ft/s' : 'm/s');
 export const nextSpeedUnit = (unit: SpeedUnit): SpeedUnit =>
   SPEED_UNITS[(SPEED_UNITS.indexOf(unit) + 1) % SPEED_UNITS.length];
 
-const PER_MPS: Record<SpeedUnit, number> = { 'km/h': 3.6, 'm/s': 1, mph: 2.2369362920544 };
+const FOOT_M = 0.3048;
+const PER_MPS: Record<SpeedUnit, number> = { 'km/h': 3.6, 'm/s': 1, mph: 2.2369362920544, 'ft/s': 1 / FOOT_M };
+/** Of a unit as large as these a tenth is worth saying. */
+export const inTenths = (unit: string): boolean => unit === 'm/s' || unit === 'ft/s';
 
 export const toUnit = (mps: number, unit: SpeedUnit): number => mps * PER_MPS[unit];
 export const fromUnit = (value: number, unit: SpeedUnit): number => value / PER_MPS[unit];
 
-/** Fixed decimals with a true minus sign and no negative zero. */
+/** Fixed decimals as the language writes them, with a true minus sign and no negative zero. */
 export function num(value: number, decimals = 1): string {
   const text = Math.abs(value).toFixed(decimals);
-  return value < 0 && Number(text) !== 0 ? `\u2212${text}` : text;
+  return value < 0 && Number(text) !== 0 ? `\u2212${written(text)}` : written(text);
 }
+
+/** From five digits on German sets thousands apart, by a narrow space that does not break. */
+const THOUSANDS = /\B(?=(?:\d{3})+(?:\.|$))(?<!\.\d*)/g;
+const written = (text: string): string =>
+  LANGUAGE === 'de' ? (/^\d{5}/.test(text) ? text.replace(THOUSANDS, '\u202f') : text).replace('.', ',') : text;
+
+/** A number with the decimals that it has: `0.25`, `4`. */
+export const figure = (value: number): string => written(String(value));
 
 /** Who reads miles an hour reads feet. Places in the scene stay metres, as its files have them. */
 const shown = signal<SpeedUnit>('km/h');
@@ -30,7 +44,6 @@ export function toldIn(unit: SpeedUnit): SpeedUnit {
 }
 
 export type LengthUnit = 'm' | 'ft';
-const FOOT_M = 0.3048;
 export const lengthUnit = (): LengthUnit => (shown.value === 'mph' ? 'ft' : 'm');
 /** The unit as a word, for who hears the page. */
 export const lengthUnitWord = (): string => (lengthUnit() === 'ft' ? TEXTS.feet : TEXTS.metres);
@@ -71,22 +84,39 @@ export const lengthRange = ([min, max]: readonly [number, number]): readonly [nu
 export const densityText = (per100M: number): string =>
   lengthUnit() === 'ft' ? TEXTS.per1000FtOfLane(num(per100M * 10 * FOOT_M, 1)) : TEXTS.per100MOfLane(num(per100M, 1));
 
-/** What the server says in metres and km/h, in the units that are read. */
-export const retold = (words: string): string =>
+/** What the server says in English, metres and km/h, in the language and in the units that are read. */
+export const retold = (words: string): string => inLanguage(inUnits(change?.heard(words) ?? words));
+
+/** Numbers that the server wrote. */
+const inLanguage = (words: string): string => (LANGUAGE === 'de' ? words.replace(/(\d)\.(?=\d)/g, '$1,') : words);
+
+const inUnits = (words: string): string =>
   shown.value === 'km/h'
     ? words
     : words
+        .replace(/([\d.]+) m\/s(²?)/g, (_, v: string, per) =>
+          per ? acceleration(Number(v)) : speedLabel(Number(v), walkingUnit(shown.value)),
+        )
         .replace(/([\d.]+) km\/h/g, (_, v: string) => speedLabel(Number(v) / 3.6, shown.value))
         .replace(/(\d+(?:\.\d+)?) m(?![\w/²])/g, (_, v: string) =>
           metres(Number(v), lengthUnit() === 'm' ? (v.split('.')[1] ?? '').length : undefined),
         );
 
 export const seconds = (v: number): string => `${num(v, 1)} s`;
-export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
+export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), inTenths(unit) ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
 
-/** A `length` is told in the unit of lengths; a `place` is a coordinate of the scene and always in metres. */
-export type Quantity = 'count' | 'length' | 'place' | 'angle' | 'time' | SpeedUnit;
+/** Accelerations are told in the unit of lengths. */
+export const accelerationUnit = (): string => `${lengthUnit()}/s²`;
+/** An acceleration of so many m/s², with its unit. */
+export const acceleration = (mps2: number, decimals = 1): string =>
+  `${num(toLength(mps2), decimals)} ${accelerationUnit()}`;
+
+/**
+ * A `length` is told in the unit of lengths, an `acceleration` too; a `place` is a coordinate of the scene and always
+ * in metres.
+ */
+export type Quantity = 'count' | 'length' | 'acceleration' | 'place' | 'angle' | 'time' | SpeedUnit;
 
 const UNITS: Record<string, (v: number, as: Quantity) => number | null> = {
   m: lengthTo,
@@ -100,6 +130,9 @@ const UNITS: Record<string, (v: number, as: Quantity) => number | null> = {
   kph: (v, as) => speedTo(v / 3.6, as),
   'm/s': (v, as) => speedTo(v, as),
   mph: (v, as) => speedTo(v / PER_MPS.mph, as),
+  'ft/s': (v, as) => speedTo(v * FOOT_M, as),
+  'm/s²': (v, as) => (as === 'acceleration' ? toLength(v) : null),
+  'ft/s²': (v, as) => (as === 'acceleration' ? toLength(v * FOOT_M) : null),
 };
 
 function lengthTo(m: number, as: Quantity): number | null {
@@ -118,9 +151,11 @@ export function parseTyped(text: string, as: Quantity): number | null {
   const clean = text
     .trim()
     .replace(/\u2212/g, '-')
+    .replace(/(?<=\d)[\u202f\u00a0](?=\d{3})/g, '')
+    .replace(/s2$/, 's²')
     .replace(/,/g, '.')
     .replace(/^≈\s*/, '');
-  const m = /^([-+*/().\d\s]+?)\s*([a-z°/]*)$/i.exec(clean);
+  const m = /^([-+*/().\d\s]+?)\s*([a-z°²/]*)$/i.exec(clean);
   if (!m) return null;
   const value = evaluate(m[1]);
   if (value === null) return null;

@@ -7,7 +7,7 @@ import { wrapAngle } from './geometry';
 import { poseAt, type Motion } from './motion';
 import type { Agent, Scene } from './scene';
 import { valueOf, valueWords, type Over } from './sweep';
-import type { SpeedUnit } from './units';
+import { num, type SpeedUnit } from './units';
 import type { VariantState } from './variants';
 import { TEXTS } from '../texts/variants';
 
@@ -150,7 +150,7 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   // People on foot turn all the time.
   if (d.turn !== usual.turn && d.way > LEAST_M && a.type !== 'pedestrian') say(TURNS[d.turn], TURN_SAYS);
   if (longer >= LEAST_S && d.stands && !usual.stands) say(TEXTS.stops, longer * SECOND_SAYS);
-  else if (longer >= LEAST_S) say(TEXTS.waitsSLonger(longer.toFixed(0)), longer * SECOND_SAYS);
+  else if (longer >= LEAST_S) say(TEXTS.waitsSLonger(num(longer, 0)), longer * SECOND_SAYS);
   else if (-longer >= LEAST_S) say(d.waits < EVERY_S ? TEXTS.doesNotWait : TEXTS.waitsLess, -longer * SECOND_SAYS);
   const further = d.way - usual.way;
   if (Math.abs(longer) < LEAST_S && Math.abs(further) >= LEAST_M)

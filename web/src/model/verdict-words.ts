@@ -13,7 +13,7 @@ import { LETTERS, type Futures } from './futures';
 import type { LaneMap } from './lanemap';
 import { endPose } from './motion';
 import type { AgentType } from './scene';
-import { metres, num, seconds } from './units';
+import { acceleration, metres, seconds } from './units';
 import { TEXTS } from '../texts/verdicts';
 
 export type NameOf = (id: string) => string | null;
@@ -21,8 +21,6 @@ export type NameOf = (id: string) => string | null;
 const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.somebody;
 /** A gap below this is a near miss by itself, metres. */
 const GAP_M = 1;
-
-const hard = (f: Fault): string => (f.extent === null ? TEXTS.hard : ` ${num(f.extent, 0)} m/s²`);
 
 /** The word on the picture where it happens. */
 export function placeWord(f: Fault, nameOf: NameOf): string {
@@ -38,9 +36,9 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'off_road':
       return TEXTS.offTheRoad;
     case 'harsh_braking':
-      return `brakes${hard(f)}`;
+      return f.extent === null ? TEXTS.brakesHard : TEXTS.brakes(acceleration(f.extent, 0));
     case 'harsh_steering':
-      return `steers${hard(f)}`;
+      return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent, 0));
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
       return f.extent === null || f.extent > GAP_M
@@ -188,7 +186,7 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
     case 'via_missed':
       return group(worst.kind, TEXTS.missAVia, TEXTS.missesAVia);
     case 'goal_missed': {
-      if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
+      if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', TEXTS.stop, TEXTS.stops);
       return group('short', TEXTS.doNotGetThere, TEXTS.doesNotGetThere);
     }
   }
@@ -207,10 +205,12 @@ const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = 
 /** `drive`, `ride`, `walk`: how one kind gets about. */
 export const goes = (type: AgentType): string => GOES[type][0];
 
-/** `may drive over this median`. An island has several edges and is one median all the same. */
-export function mayCrossWords(go: string, map: LaneMap, edges: readonly string[]): string {
+/** `may drive over this median`, or may not. An island has several edges and is one median all the same. */
+export function mayCrossWords(go: string, map: LaneMap, edges: readonly string[], may = true): string {
   const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
-  return edges.every((id) => medians.has(id)) ? TEXTS.mayOverThisMedian(go) : TEXTS.mayOverThisKerb(go);
+  const median = edges.every((id) => medians.has(id));
+  if (!may) return median ? TEXTS.mayNotOverThisMedian(go) : TEXTS.mayNotOverThisKerb(go);
+  return median ? TEXTS.mayOverThisMedian(go) : TEXTS.mayOverThisKerb(go);
 }
 
 // -------------------------------------------------------------- why another is shown

@@ -53,7 +53,7 @@ export const TEXTS = table('actions', {
   nextPartOfThe: 'Next part of the page',
   previousPart: 'Previous part of the page',
   showTheFirst: 'Show the first steps',
-  kmHMphOrMS: 'km/h, mph or m/s',
+  units: 'Units of speed and length',
   /** Its name in itself, so that who knows no other finds it. */
   language: (name: string) => `Language: ${name}`,
   chooseFuture: (letter: string) => `Choose future ${letter}`,

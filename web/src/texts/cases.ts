@@ -85,5 +85,12 @@ export const TEXTS = table('cases', {
   and: 'and',
   under: 'under',
   paused: 'paused',
+  seed: 'seed',
+  sides: {
+    'in-front': 'in front',
+    behind: 'behind',
+    'on-the-left': 'on the left',
+    'on-the-right': 'on the right',
+  },
   others: 'others',
 });

@@ -43,6 +43,7 @@ export const TEXTS = table('export', {
   film: 'Film',
   s30ASecond: (duration: string) => `${duration} s, 30 a second`,
   theOriginIsThat: 'The origin is that of the scene.',
+  notPacked: 'The picture could not be packed.',
   theRecording: 'the recording',
-  theOriginLies: (x_m: number, y_m: number, crs: string) => `The origin lies at ${x_m}, ${y_m} m of ${crs}.`,
+  theOriginLies: (x_m: string, y_m: string, crs: string) => `The origin lies at ${x_m}, ${y_m} m of ${crs}.`,
 });

@@ -19,6 +19,7 @@ export const TEXTS = table('fill-panel', {
   off: 'Off',
   seed: 'Seed',
   seedOfTheFill: 'Seed of the fill',
+  add: (count: string) => `Add ${count}`,
   shuffle: 'Shuffle',
   preview: (count: number) => `Preview, ${count}`,
   at: (kind_name: string, x: string, y: string) => `${kind_name} at ${x}, ${y}`,

@@ -40,6 +40,7 @@ export const TEXTS = table('formats', {
   scenarionet: 'ScenarioNet',
   forMetadrive: 'For MetaDrive and what else reads ScenarioNet.',
   argoverse2Scenario: 'Argoverse 2 scenario',
+  motionAsIn: 'Motion as in Argoverse 2, without its map.',
   gpudrive: 'GPUDrive',
   forTrainingMany: 'For training many worlds at once on a graphics card.',
   nocturne: 'Nocturne',

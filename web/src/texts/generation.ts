@@ -2,6 +2,7 @@ import { plural, table } from './table';
 
 export const TEXTS = table('generation', {
   generatorAway: 'Generator away. Nothing is lost.',
+  change: 'Change',
   undone: 'Undone',
   doneAgain: 'Done again',
   backToTheBeginning: 'Back to the beginning',
@@ -16,7 +17,7 @@ export const TEXTS = table('generation', {
   waitingChanges: 'Waiting changes',
   thisTakesLonger: 'This takes longer than usual.',
   sixFuturesMost: (best: string, likely: number) => `Six futures. Most likely: ${best}, ${likely} percent.`,
-  aValueIsOutside: (min: number, max: undefined | number) => `A value is outside ${min} to ${max}.`,
+  aValueIsOutside: (min: string, max: string) => `A value is outside ${min} to ${max}.`,
   toS: (window: number, min: number) => `${window} to ${min} s`,
   itHitsAt: (other: string, time: string) => ` It hits ${other} at ${time}.`,
   othersChanged: (n: number, step: string) =>

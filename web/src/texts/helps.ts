@@ -36,7 +36,7 @@ export const HELPS = table('helps', {
   topBarScenes: 'Top bar, scenes, road users, inspector, timeline',
   theWayBack: 'The way back',
   theThreeStep: 'The three-step hint',
-  theUnitInWhich: 'The unit in which speeds of vehicles are shown and typed; with mph lengths are in feet',
+  theUnitInWhich: 'km/h, mph or m/s for vehicles; with mph lengths are in feet, and people on foot in ft/s',
   timeAtTheGoal: 'Time at the goal',
   playbackFollows: 'Playback follows it and the others answer',
   whereTheChosen: 'Where the chosen future ends; then move it',

@@ -1,17 +1,10 @@
-// The language of the page: the one that was chosen in the menu, else the browser's where enough of it is translated.
+// The language of the page: the one that was chosen in the menu, else the browser's.
 // It is known before any word is said: the tables wait for it, and the page is loaded anew when another one is chosen.
 import type { Words } from './table';
 
-/** What people choose from. English is the one that is complete; its words stand in the tables themselves. */
+/** What people choose from. The words of English stand in the tables themselves. */
 export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const;
 export type LanguageName = keyof typeof LANGUAGES;
-
-/**
- * Share of the texts that are translated, in percent. A language that the browser asks for is taken by itself from
- * COMPLETE on; below that it is there for those who choose it. A test holds these numbers to the tables.
- */
-export const TRANSLATED: Readonly<Record<LanguageName, number>> = { en: 100, de: 29 };
-export const COMPLETE = 95;
 
 const KEY = 'dragtraffic:language';
 
@@ -35,7 +28,7 @@ export function languageFor(chosen: string | null, preferred: readonly string[])
   if (chosen !== null && isOffered(chosen)) return chosen;
   for (const tag of preferred) {
     const [name] = tag.toLowerCase().split('-');
-    if (isOffered(name)) return TRANSLATED[name] >= COMPLETE ? name : 'en';
+    if (isOffered(name)) return name;
   }
   return 'en';
 }
@@ -43,6 +36,9 @@ export function languageFor(chosen: string | null, preferred: readonly string[])
 const chosen = kept();
 
 export const LANGUAGE = languageFor(chosen, typeof navigator === 'undefined' ? [] : (navigator.languages ?? []));
+
+/** How dates are written; in English as the browser has it, which knows whether the day or the month comes first. */
+export const LOCALE = LANGUAGE === 'en' ? undefined : LANGUAGE;
 
 /** The forms that a text has by a number; a language that needs more of them has them in its own table. */
 export type Forms = Readonly<Partial<Record<Intl.LDMLPluralRule, string>> & { other: string }>;
@@ -56,26 +52,20 @@ export const plural = (n: number, forms: Forms): string => forms[rules.select(n)
 export const inSentence = (title: string): string =>
   LANGUAGE === 'de' ? title : title.charAt(0).toLowerCase() + title.slice(1);
 
-type Change = (area: string, english: Words) => Words;
-
-/** What becomes of the words of an area; null where they stay as they are. */
-async function changeOf(): Promise<Change | null> {
-  if (chosen === MARKED) return (await import('./marked')).marked;
-  if (LANGUAGE === 'en') return null;
-  const { german } = await import('./german');
-  const words: Readonly<Record<string, Words>> = german(plural);
-  return (area, english) => over(english, words[area]);
+/** What becomes of words: of those of an area, and of what the server says; null where they stay as they are. */
+interface Change {
+  area(area: string, english: Words): Words;
+  heard(words: string): string;
 }
 
-/** The words of `own` in place of those of `english`. */
-function over(english: Words, own: Words | undefined): Words {
-  if (!own) return english;
-  return Object.fromEntries(
-    Object.entries(english).map(([key, word]) => {
-      const mine = own[key];
-      return [key, typeof word === 'object' ? over(word, mine as Words | undefined) : (mine ?? word)];
-    }),
-  );
+async function changeOf(): Promise<Change | null> {
+  if (chosen === MARKED) {
+    const { marked } = await import('./marked');
+    return { area: marked, heard: (words) => words };
+  }
+  if (LANGUAGE === 'en') return null;
+  const { german, heard } = await import('./german');
+  return { area: (area) => german[area], heard };
 }
 
 export const change = await changeOf();

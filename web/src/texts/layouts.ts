@@ -52,6 +52,7 @@ export const TEXTS = table('layouts', {
   turnLanes: 'Turn lanes',
   lane: (lane: number) => `Lane ${lane}`,
   lane2: (lane: number, turn: string) => `Lane ${lane}, ${turn}`,
+  turns: { left: 'left', straight: 'straight', right: 'right' },
   signals: 'Signals',
   priority: 'Priority',
   equal: 'Equal',

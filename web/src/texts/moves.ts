@@ -34,8 +34,6 @@ export const TEXTS = table('moves', {
   mirrored: (whoWords: string) => `${whoWords} mirrored`,
   spread: (whoWords: string) => `${whoWords} spread`,
   ofChanged: (what: string, whoWords: string) => `${what} of ${whoWords} changed`,
-  ofFree: (word: string, whoWords: string) => `${word} of ${whoWords} free`,
-  ofFixed: (word: string, whoWords: string) => `${word} of ${whoWords} fixed`,
   speedOfChanged: (whoWords: string) => `Speed of ${whoWords} changed`,
   goalsOfCleared: (count: number, whoWords: string) =>
     plural(count, { one: `Goal of ${whoWords} cleared`, other: `Goals of ${whoWords} cleared` }),

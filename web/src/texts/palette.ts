@@ -16,5 +16,11 @@ export const TEXTS = table('palette', {
   choose: 'choose',
   doIt: 'do it',
   typeANumberTo: 'Type a number to find a road user, a time like 4.2 to jump to it',
+  /** Beginnings of words that ask for a case. */
+  askedForNear: 'near miss close',
+  askedForCollision: 'collision crash collide hit',
+  askedForFirst: 'first before',
+  askedForBraking: 'brak',
+  askedForGoal: 'goal reach',
   parked: 'parked',
 });

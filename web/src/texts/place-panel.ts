@@ -13,5 +13,7 @@ export const TEXTS = table('place-panel', {
   ownSize: 'Own size',
   howMany: 'How many',
   howManyRoadUsers: 'How many road users',
+  sizes: { length: 'length', width: 'width' },
+  letters: { length: 'L', width: 'W' },
   ownIn: (name: string, unit: string) => `Own ${name} in ${unit}`,
 });

@@ -21,5 +21,5 @@ export const TEXTS = table('point-fields', {
   timeOfThisPoint: 'Time of this point',
   removeThisPoint: 'Remove this point',
   clearTheCurve: 'Clear the curve',
-  brakesMSAtMost: (braking: string) => `brakes ${braking} m/s² at most`,
+  brakesAtMost: (braking: string) => `brakes ${braking} at most`,
 });

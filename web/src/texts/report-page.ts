@@ -35,6 +35,7 @@ export const TEXTS = table('report-page', {
   what: 'What',
   where: (unit: string) => `Where, ${unit}`,
   at: (place: string, time: string) => `${place} at ${time}`,
+  place: (x: string, y: string) => `${x}, ${y}`,
   comesLater: 'comes later',
   parked: 'parked',
 });

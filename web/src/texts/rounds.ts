@@ -8,6 +8,7 @@ export const TEXTS = table('rounds', {
   keepOrReject: 'Keep or reject one first, or add a wish.',
   noCardsCame: 'No cards came.',
   roundA: (round: number, count: number, many: string, name: string) => `Round ${round}: ${count} ${many}. A: ${name}.`,
+  allWishes: 'All wishes',
   ways: 'ways',
   futures: 'futures',
 });

@@ -60,7 +60,6 @@ export const TEXTS = table('several-panel', {
   to: (low: string, high: string, unit: string) => `${low} to ${high} ${unit}`,
   reacts: 'reacts',
   react2: 'react',
-  parked: 'parked',
   mixed2: 'mixed',
   free2: 'free',
 });

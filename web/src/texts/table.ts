@@ -15,12 +15,7 @@ export type Said<T> = {
   readonly [K in keyof T]: T[K] extends string ? string : T[K] extends (...v: never[]) => string ? T[K] : Said<T[K]>;
 };
 
-/** What another language may say of an area: the same, or a part of it. */
-export type Part<T> = {
-  readonly [K in keyof T]?: T[K] extends string | ((...v: never[]) => string) ? T[K] : Part<T[K]>;
-};
-
 /** The words of an area, as this language says them. */
 export function table<const T extends Words>(area: string, english: T): Said<T> {
-  return (change ? change(area, english) : english) as Said<T>;
+  return (change ? change.area(area, english) : english) as Said<T>;
 }

@@ -29,7 +29,8 @@ export const TEXTS = table('timeline', {
   whatTheOthers: 'What the others do',
   time: 'Time',
   playbackSpeed: 'Playback speed (Shift < >)',
-  playbackSpeedTimes: (rate: number) => `Playback speed ${rate} times`,
+  playbackSpeedTimes: (rate: string) => `Playback speed ${rate} times`,
+  and: ' and ',
   before: 'before',
   log: 'log',
 });

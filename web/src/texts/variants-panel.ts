@@ -1,4 +1,4 @@
-import { table } from './table';
+import { plural, table } from './table';
 
 export const TEXTS = table('variants-panel', {
   collision: 'Collision',
@@ -47,7 +47,7 @@ export const TEXTS = table('variants-panel', {
   lastValue: 'Last value',
   inStepsOf: 'in steps of',
   step: 'Step',
-  makeVariants: (n: number) => `Make ${n} variants`,
+  makeVariants: (n: number) => plural(n, { one: `Make ${n} variant`, other: `Make ${n} variants` }),
   speed: 'Speed',
   whoseSpeed: 'Whose speed',
   speedOfInBoth: (name: string) => `Speed of ${name} in both`,

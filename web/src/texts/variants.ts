@@ -18,8 +18,8 @@ export const TEXTS = table('variants', {
   named: (was: string, name: string) => `${was} named ${name}`,
   removed: (card: string) => `${card} removed`,
   keptAsAVariant: 'Kept as a variant',
-  sKeptAsVariants: (n: number, what: string) =>
-    plural(n, { one: `A ${what} kept as a variant`, other: `${n} ${what}s kept as variants` }),
+  cardsKept: (n: number) => plural(n, { one: 'A card kept as a variant', other: `${n} cards kept as variants` }),
+  casesKept: (n: number) => plural(n, { one: 'A case kept as a variant', other: `${n} cases kept as variants` }),
   thereIsNoRoom: 'There is no room for more variants. Remove some first.',
   variantsAndThey: (left: number, right: number, words: string) =>
     `Variants ${left} and ${right}. They part: ${words}.`,

@@ -4,7 +4,7 @@ import { KINDS, type Sought, type What } from '../../model/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
 import { MOST_TRIES, type Case, type Cases } from '../../edit/cases/cases';
-import { leftWords, lengthText, lengthUnit, num } from '../../model/units';
+import { accelerationUnit, leftWords, lengthText, lengthUnit, num } from '../../model/units';
 import { useAlbum } from '../variants/album';
 import { LivePicture, type Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
@@ -109,11 +109,11 @@ function Sentence({ cases, sought }: Of) {
             key={sought.what}
             label={TEXTS.limit}
             field="limit"
-            unit={() => (unit === 'm' ? lengthUnit() : unit)}
-            quantity={() => (unit === 'm' ? 'length' : unit === 's' ? 'time' : 'count')}
+            unit={() => (unit === 'm' ? lengthUnit() : unit === 's' ? unit : accelerationUnit())}
+            quantity={() => (unit === 'm' ? 'length' : unit === 's' ? 'time' : 'acceleration')}
             step={step}
             value={() => cases.sought.value?.limit ?? null}
-            text={() => (unit === 'm' ? lengthText : num)(cases.sought.value?.limit ?? 0, 1)}
+            text={() => (unit === 's' ? num : lengthText)(cases.sought.value?.limit ?? 0, 1)}
             range={() => range}
             set={(limit) => cases.seek({ ...sought, limit })}
           />
@@ -125,7 +125,7 @@ function Sentence({ cases, sought }: Of) {
           [
             ['speed', TEXTS.startSpeed],
             ['time', TEXTS.goalTime],
-            ['seed', 'seed'],
+            ['seed', TEXTS.seed],
           ] as const
         ).map(([k, words]) => (
           <button

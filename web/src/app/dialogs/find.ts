@@ -161,22 +161,23 @@ function cases(c: Context, typed: string): Entry[] {
   );
 }
 
-const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
-  ['near', /near|miss|close/],
-  ['collision', /collision|crash|collide|hit/],
-  ['first', /first|before/],
-  ['braking', /brak/],
-  ['goal', /goal|reach/],
-];
-
 const escaped = (s: string): string => s.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
+
+const anyOf = (words: string): RegExp => new RegExp(words.split(' ').map(escaped).join('|'));
+const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
+  ['near', anyOf(TEXTS.askedForNear)],
+  ['collision', anyOf(TEXTS.askedForCollision)],
+  ['first', anyOf(TEXTS.askedForFirst)],
+  ['braking', anyOf(TEXTS.askedForBraking)],
+  ['goal', anyOf(TEXTS.askedForGoal)],
+];
 
 /** `4.2` jumps to that time. */
 function times({ editor }: Context, query: string): Entry[] {
-  if (!/^\d(\.\d)?$/.test(query)) return [];
+  if (!/^\d([.,]\d)?$/.test(query)) return [];
   const run = () => {
     editor.playhead.pause();
-    editor.setTime(Number(query));
+    editor.setTime(Number(query.replace(',', '.')));
   };
   return [
     { ...possibleEntry, label: TEXTS.goToS(query), note: TEXTS.playhead, group: GROUP_TITLES.time, icon: 'clock', run },

@@ -101,7 +101,7 @@ export default function FillPanel() {
       </Line>
       <div class="foot">
         <ActionButton id="fill-add" class="pri" icon="">
-          Add {size}
+          {TEXTS.add(String(size))}
         </ActionButton>
         <ActionButton id="fill-shuffle" class="line" size={16}>
           {TEXTS.shuffle}

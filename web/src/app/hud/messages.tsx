@@ -28,7 +28,7 @@ export function Coach() {
       {STEPS.map((text, i) => (
         <div key={i} class={`st ${ui.coach.value === i + 1 ? 'now' : ''}`}>
           <span class="n">{i + 1}</span>
-          {form.touch.value ? text.replace('Click', 'Tap') : text}
+          {i === 0 && form.touch.value ? TEXTS.tapACar : text}
         </div>
       ))}
       <button type="button" class="btn i" aria-label={TEXTS.closeTheHint} onClick={() => ui.endCoach()}>

@@ -101,8 +101,8 @@ function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'widt
   const { placement } = useApp().editor;
   return (
     <NumberField
-      label={TEXTS.ownIn(name, lengthUnitWord())}
-      letter={name === 'length' ? 'L' : 'W'}
+      label={TEXTS.ownIn(TEXTS.sizes[name], lengthUnitWord())}
+      letter={TEXTS.letters[name]}
       unit={() => (lengthUnit() === 'ft' ? 'ft' : '')}
       quantity={() => 'length'}
       step={0.1}

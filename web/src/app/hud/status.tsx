@@ -1,4 +1,5 @@
 // The status line: what the generator is doing, or what happens in the scene.
+import { num } from '../../model/units';
 import { summary, worstOf, type TrafficEvent } from '../../model/events';
 import { KIND_WORDS } from '../../model/kinds';
 import { touched } from '../../model/scene';
@@ -93,7 +94,7 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
       return { dot: 'busy', text: TEXTS.loadingTheScene };
     case 'slow': {
       const keep = editor.dragging.value ? TEXTS.youCanKeepDragging : '';
-      return { dot: 'busy', text: TEXTS.thisTakesLonger((s.ms / 1000).toFixed(1), keep) };
+      return { dot: 'busy', text: TEXTS.thisTakesLonger(num(s.ms / 1000, 1), keep) };
     }
     case 'refused':
       return { dot: 'collision', text: s.words };

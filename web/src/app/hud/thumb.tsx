@@ -31,7 +31,7 @@ export function Thumb() {
         type="button"
         class="thumb"
         data-menu={MENU}
-        aria-label="Add"
+        aria-label={TEXTS.add}
         aria-haspopup="menu"
         aria-expanded={open}
         onClick={() => (open ? ui.closeMenu() : ui.openMenu(MENU))}
@@ -45,7 +45,7 @@ export function Thumb() {
 
 function AddMenu() {
   return (
-    <MenuList label="Add" class="adding">
+    <MenuList label={TEXTS.add} class="adding">
       {FIRST.map((name) => (
         <ActionButton key={name} id={`tool-${name}`} size={20} />
       ))}

@@ -3,7 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
-import { seconds } from '../../model/units';
+import { retold, seconds } from '../../model/units';
 import { goalFromLog } from '../../edit/moves';
 import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
@@ -64,7 +64,7 @@ const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(
 function Head({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const kind = useComputed(() => agent.value.kind).value;
-  const colour = useComputed(() => (agent.value.parked ? TEXTS.parked2 : agent.value.type)).value;
+  const colour = useComputed(() => (agent.value.parked ? 'parked' : agent.value.type)).value;
   const where = useComputed(() => {
     const a = agent.value;
     const p = startPose(a);
@@ -220,7 +220,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
   if (!list?.length) return null;
   return (
     <div class="sect">
-      {list.map((w) => (
+      {list.map(retold).map((w) => (
         <div key={w} class="hint plain">
           <Icon name="warn" size={17} />
           <div class="tx">{w}</div>

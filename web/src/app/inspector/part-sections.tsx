@@ -41,8 +41,8 @@ export function StartSection({ agent }: { agent: LiveAgent }) {
       <PoseRows agent={agent} part="start" />
       <TypeRow agent={agent} />
       <Row label={TEXTS.size}>
-        <SizeField agent={agent} name="length" letter="L" />
-        <SizeField agent={agent} name="width" letter="W" />
+        <SizeField agent={agent} name="length" />
+        <SizeField agent={agent} name="width" />
       </Row>
     </section>
   );
@@ -64,7 +64,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   };
   const time = { value: () => agent.value.goal.time, step: 0.1, set: run, range: () => timeRange(editor.scene.value) };
   return (
-    <section class="sect goalsec" aria-label={TEXTS.goal}>
+    <section class="sect goalsec" aria-label={TEXTS.goal} style={`--whose: "${TEXTS.ofTheGoal}"`}>
       <h3>
         <span class="mk">
           <Icon name="flag" size={15} />
@@ -328,7 +328,7 @@ function TypeRow({ agent }: { agent: LiveAgent }) {
   );
 }
 
-function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' | 'width'; letter: string }) {
+function SizeField({ agent, name }: { agent: LiveAgent; name: 'length' | 'width' }) {
   const { editor } = useApp();
   const set = (v: number) => {
     const a = agent.peek();
@@ -336,8 +336,8 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
   };
   return (
     <NumberField
-      label={TEXTS.sizeIn(name, lengthUnitWord())}
-      letter={letter}
+      label={TEXTS.sizeIn(TEXTS.sizes[name], lengthUnitWord())}
+      letter={TEXTS.letters[name]}
       unit={lengthUnit}
       quantity={() => 'length'}
       step={0.1}

@@ -14,6 +14,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { SharedField, sharedFields, type Shared } from './shared-field';
+import { inSentence } from '../../texts/language';
 import { TEXTS } from '../../texts/several-panel';
 
 const GROUPS: readonly (readonly [AgentType, string])[] = [
@@ -130,13 +131,14 @@ function FixedOf({ those, part, field }: { those: Live; part: 'start' | 'goal'; 
     const command = several.fixAll(several.movable(those.peek()), part, field, shown);
     if (command) editor.run(command);
   };
+  const word = inSentence(field === 'heading' ? TEXTS.heading : TEXTS.speed);
   return (
     <button
       type="button"
       class="fx"
       role="switch"
       aria-checked={fixed === all ? 'true' : fixed ? 'mixed' : 'false'}
-      aria-label={part === 'goal' ? TEXTS.goalFixedFor(field, fixed, all) : TEXTS.startFixedFor(field, fixed, all)}
+      aria-label={part === 'goal' ? TEXTS.goalFixedFor(word, fixed, all) : TEXTS.startFixedFor(word, fixed, all)}
       title={fixed === all ? TEXTS.fixedForAllClick : TEXTS.clickToFixIt}
       onClick={toggle}
     >
@@ -333,7 +335,7 @@ function Who({ those }: { those: Live }) {
               }
             }}
           >
-            <span class={`dot t-${a.parked ? TEXTS.parked : a.type}`} />
+            <span class={`dot t-${a.parked ? 'parked' : a.type}`} />
             <span class="grow">{a.name}</span>
             {a.locked ? <Icon name="lock" size={12} /> : null}
             <span class="mut">{p ? speedLabel(p.speed, editor.unitOf(a)) : ''}</span>

@@ -12,12 +12,13 @@ import {
   lengthUnit,
   lengthUnitWord,
   num,
+  type Quantity,
   readTyped,
   sizeText,
   speedText,
   toLength,
   toUnit,
-  type Quantity,
+  walkingUnit,
 } from '../../model/units';
 import type { Command } from '../../model/commands';
 import type { Editor } from '../../edit/editor';
@@ -43,9 +44,9 @@ export interface Shared {
   command(all: readonly Agent[], to: (now: number) => number, fold?: string): Command | null;
 }
 
-/** All on foot read metres a second, else all read what one reads of vehicles. */
+/** All on foot read what one reads of those, else all read what one reads of vehicles. */
 const speedUnit = (e: Editor, all: readonly Agent[]) =>
-  all.every((a) => a.type === 'pedestrian') ? 'm/s' : e.speedUnit.value;
+  all.every((a) => a.type === 'pedestrian') ? walkingUnit(e.speedUnit.value) : e.speedUnit.value;
 
 const inAll = (all: readonly Agent[], of: (a: Agent) => readonly [number, number]): readonly [number, number] => [
   Math.max(...all.map((a) => of(a)[0])),

@@ -1,4 +1,5 @@
 // The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
+import { armTitle } from '../../model/arm-names';
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/layouts';
@@ -70,7 +71,14 @@ export default function LayoutPanel() {
         </div>
         <div class="grow">
           <h2>{title}</h2>
-          <p>{[inSentence(TEMPLATE_TITLES[wish.template]), parameters?.control].filter(Boolean).join(', ')}</p>
+          <p>
+            {[
+              inSentence(TEMPLATE_TITLES[wish.template]),
+              parameters?.control && inSentence(CONTROL_WORDS[parameters.control]),
+            ]
+              .filter(Boolean)
+              .join(', ')}
+          </p>
         </div>
       </div>
       <div class="layouts">
@@ -170,7 +178,8 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
   const arm = arms[index];
   const set = (change: Partial<Arm>) => layouts.setArm(index, change);
   const now = (): Arm => layouts.arms.value[Math.min(layouts.arm.value, layouts.arms.value.length - 1)];
-  const name = layouts.made.value?.arms[index]?.name ?? TEXTS.arm;
+  const called = layouts.made.value?.arms[index]?.name;
+  const name = called ? armTitle(called) : TEXTS.arm;
   const turned = layouts.turned.value;
   const number = (key: 'length_m' | 'speed_limit_kmh' | 'cycle_lane_m' | 'crosswalk_m' | 'median_m') => (
     <NumberRow
@@ -268,6 +277,7 @@ function Count({ label, value, set }: { label: string; value: number; set: (v: n
 }
 
 const TURNS = ['left', 'straight', 'right'] as const;
+const TURN_WORDS = TEXTS.turns;
 const SIGNS = { left: '↰', straight: '↑', right: '↱' } as const;
 
 /** Where each lane leads; a click on a sign adds or takes it. */
@@ -296,7 +306,7 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
                 key={turn}
                 type="button"
                 aria-pressed={there(lane, turn)}
-                aria-label={TEXTS.lane2(lane + 1, turn)}
+                aria-label={TEXTS.lane2(lane + 1, TURN_WORDS[turn])}
                 class={there(lane, turn) ? 'on' : ''}
                 onClick={() => toggle(lane, turn)}
               >
@@ -397,11 +407,8 @@ function Connections({ arm }: { arm: number }) {
   );
 }
 
-const CONTROLS = [
-  ['signals', TEXTS.signals],
-  ['priority', TEXTS.priority],
-  ['equal', TEXTS.equal],
-] as const;
+const CONTROL_WORDS = { signals: TEXTS.signals, priority: TEXTS.priority, equal: TEXTS.equal } as const;
+const CONTROLS = Object.entries(CONTROL_WORDS) as readonly (readonly [keyof typeof CONTROL_WORDS, string])[];
 const SIDES = [
   ['right-hand', TEXTS.rightHand],
   ['left-hand', TEXTS.leftHand],

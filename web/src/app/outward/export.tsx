@@ -1,4 +1,5 @@
 // Files out of the scene: each with what it loses, before it is chosen.
+import { num } from '../../model/units';
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
 import { saveAll, whyNot, type ExportedFile } from '../../edit/download';
@@ -171,7 +172,7 @@ function fileWords({ name, blob, others = [] }: ExportedFile): string {
 }
 
 const sizeWords = (bytes: number): string =>
-  bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1000))} KB` : `${(bytes / 1e6).toFixed(1)} MB`;
+  bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1000))} KB` : `${num(bytes / 1e6, 1)} MB`;
 
 interface KindRowProps {
   kind: Kind;

@@ -1,5 +1,6 @@
 // What can go out: the server's formats, and what is made here of what is on screen.
 import { deg } from '../../model/geometry';
+import { num, seconds } from '../../model/units';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
@@ -48,7 +49,7 @@ export function ofScreen(c: Context): Kind[] {
   const { editor, stage } = c;
   const time = editor.time.peek();
   const scene = editor.scene.peek()!;
-  const view = TEXTS.thisViewAtS(time.toFixed(1));
+  const view = TEXTS.thisViewAtS(num(time, 1));
   const moving = filmKind();
   return [
     {
@@ -99,9 +100,9 @@ export function ofScreen(c: Context): Kind[] {
         const pen = new SvgPen();
         stage.paintWith(pen, ['map', 'agents', 'overlay']);
         const { w, h, z, turn } = stage.view;
-        const turned = turn ? TEXTS.turnedCounterClockwise(deg(turn).toFixed(1)) : '';
-        const about = TEXTS.pxAMetreXEast(z.toFixed(2)) + turned;
-        const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
+        const turned = turn ? TEXTS.turnedCounterClockwise(num(deg(turn), 1)) : '';
+        const about = TEXTS.pxAMetreXEast(num(z, 2)) + turned;
+        const drawing = pen.file(w, h, `${scene.name}, ${seconds(time)}`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
       },
     },
@@ -112,7 +113,7 @@ export function ofScreen(c: Context): Kind[] {
       label: TEXTS.movingImage,
       ending: '.gif',
       icon: 'film',
-      tag: TEXTS.s10ASecond(scene.duration.toFixed(1)),
+      tag: TEXTS.s10ASecond(num(scene.duration, 1)),
       make: async (_, progress, stop) => {
         const blob = await movingPicture(editor, stage, progress, stop);
         return blob && named(c, blob, 'gif');
@@ -127,7 +128,7 @@ export function ofScreen(c: Context): Kind[] {
             label: TEXTS.film,
             ending: `.${filmEnding(moving)}`,
             icon: 'film',
-            tag: TEXTS.s30ASecond(scene.duration.toFixed(1)),
+            tag: TEXTS.s30ASecond(num(scene.duration, 1)),
             make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
               const blob = await film(editor, stage, moving, progress, stop);
               return blob && named(c, blob, filmEnding(moving));
@@ -141,7 +142,7 @@ export function ofScreen(c: Context): Kind[] {
 function originOf({ file }: Context): string {
   const o = file.raw?.meta?.origin as { x_m?: number; y_m?: number; crs?: string | null } | undefined;
   if (!o?.x_m && !o?.y_m) return TEXTS.theOriginIsThat;
-  return TEXTS.theOriginLies(o.x_m ?? 0, o.y_m ?? 0, o.crs ?? TEXTS.theRecording);
+  return TEXTS.theOriginLies(String(o.x_m ?? 0), String(o.y_m ?? 0), o.crs ?? TEXTS.theRecording);
 }
 
 /** Several variants in one format: a file each. A file of records has room for all of them. */

@@ -1,4 +1,5 @@
 // A link with the whole scene inside: what goes into it, how much that is, and the copy of it.
+import { num } from '../../model/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import type { Link, Parts } from '../../edit/sharing';
@@ -89,7 +90,7 @@ export default function Share() {
         <Switch label={TEXTS.chosenFuture} on={parts.value.futures} set={set('futures')} />
         <Switch label={TEXTS.nameAndNotes} on={parts.value.words} set={set('words')} />
         <Switch
-          label={TEXTS.startTheFilm(time.toFixed(1))}
+          label={TEXTS.startTheFilm(num(time, 1))}
           note={TEXTS.withWhatIsIn}
           on={parts.value.start}
           set={set('start')}

@@ -50,9 +50,9 @@ export const WHY_MS = 4000;
 /** Sums of steps are kept free of binary dust. */
 const clean = (v: number): number => Number(v.toFixed(6));
 
-/** Who uses a field for a length gives and gets metres; who reads it sees the unit that lengths are told in. */
+/** Who uses a field for a length or an acceleration gives and gets metres; who reads it sees the unit of lengths. */
 function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
-  if (p.quantity() !== 'length' || lengthUnit() === 'm') return p;
+  if (!/^(?:length|acceleration)$/.test(p.quantity()) || lengthUnit() === 'm') return p;
   return {
     ...p,
     step: lengthStep(p.step),

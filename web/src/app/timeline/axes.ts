@@ -1,5 +1,5 @@
 // Where seconds and speeds lie in the plot.
-import { toUnit, type SpeedUnit } from '../../model/units';
+import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/units';
 import { motionOf } from '../../model/changes';
 import type { Motion } from '../../model/motion';
 import { untracked } from '@preact/signals';
@@ -35,7 +35,7 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
   const several = severalShown(c);
   const agent = several.length ? null : editor.agent.peek();
   const onFoot = several.length > 0 && several.every((l) => l.agent.type === 'pedestrian');
-  const unit = agent ? editor.unitOf(agent) : onFoot ? 'm/s' : editor.speedUnit.peek();
+  const unit = agent ? editor.unitOf(agent) : onFoot ? walkingUnit(editor.speedUnit.peek()) : editor.speedUnit.peek();
   const duration = editor.scene.peek()?.duration ?? 9;
   const x1 = w - RIGHT;
   const y0 = LANE + 6;
@@ -87,7 +87,7 @@ function topSpeedShown(c: Context, unit: SpeedUnit): number {
   ];
   let max = 0;
   for (const m of motions) for (const v of m.speed) max = Math.max(max, toUnit(Math.abs(v), unit));
-  const steps = unit === 'm/s' ? [2, 4, 8, 16] : [20, 40, 60, 80, 120, 160, 220];
+  const steps = inTenths(unit) ? [2, 4, 8, 16, 32] : [20, 40, 60, 80, 120, 160, 220];
   return steps.find((s) => s >= max * 1.02) ?? steps[steps.length - 1];
 }
 

@@ -21,7 +21,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
     : meeting
-      ? TEXTS.inCase(several.map((l) => l.agent.name).join(' and '), meeting.called)
+      ? TEXTS.inCase(several.map((l) => l.agent.name).join(TEXTS.and), meeting.called)
       : several.length
         ? TEXTS.selectedOneLine(several.length)
         : '';

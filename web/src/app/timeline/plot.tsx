@@ -4,7 +4,7 @@ import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { canMove } from '../../model/scene';
-import { fromUnit } from '../../model/units';
+import { fromUnit, num } from '../../model/units';
 import { addViaAt } from '../../edit/vias';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
@@ -66,7 +66,7 @@ export function Plot() {
         aria-valuemin={0}
         aria-valuemax={end as never}
         aria-valuenow={now as never}
-        aria-valuetext={useComputed(() => TEXTS.seconds(now.value))}
+        aria-valuetext={useComputed(() => TEXTS.seconds(num(editor.time.value, 1)))}
         {...seek}
       >
         <svg role="img" aria-label={TEXTS.speedOverTime}>

@@ -1,5 +1,5 @@
 // The point of the speed curve that is in use, in numbers: how fast, for how long, when.
-import { fromUnit, num, toUnit } from '../../model/units';
+import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/units';
 import { hardestBraking } from '../../model/profile';
 import { topSpeed } from '../../model/domain';
 import { useApp } from '../parts/app-context';
@@ -38,10 +38,10 @@ export function PointFields() {
           field="point-speed"
           unit={() => unit}
           quantity={() => unit}
-          step={unit === 'm/s' ? 0.1 : 1}
+          step={inTenths(unit) ? 0.1 : 1}
           range={() => [0, toUnit(topSpeed(agent), unit)]}
           value={() => toUnit(now().v, unit)}
-          text={() => num(toUnit(now().v, unit), unit === 'm/s' ? 1 : 0)}
+          text={() => speedText(now().v, unit)}
           set={(v) => curve.set(i, { v: fromUnit(v, unit) })}
         />
         <span>{TEXTS.for}</span>
@@ -81,7 +81,7 @@ export function PointFields() {
           {TEXTS.clearTheCurve}
         </button>
         <span class={`brakes ${braking > TOO_HARD_MPS2 ? 'toohard' : braking > HARD_MPS2 ? 'hard' : ''}`}>
-          {TEXTS.brakesMSAtMost(num(braking, 1))}
+          {TEXTS.brakesAtMost(acceleration(braking))}
         </span>
       </div>
     </div>

@@ -1,7 +1,7 @@
 // The points of the speed curve: dragged up and down for speed, sideways for time; pulled to the ground they stick, and
 // pulled on they hold there. Each is a slider for keys.
 import { useRef } from 'preact/hooks';
-import { num, speedLabel, toUnit, fromUnit } from '../../model/units';
+import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/units';
 import type { SpeedPoint } from '../../model/profile';
 import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
@@ -82,7 +82,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
   const hear = { onPointerMove: move, onPointerUp: up, onPointerCancel: lost };
   const key = (i: number) => (e: KeyboardEvent) => {
     const p = points[i];
-    const step = fromUnit(axes.unit === 'm/s' ? 0.1 : 1, axes.unit) * (e.shiftKey ? 10 : 1);
+    const step = fromUnit(inTenths(axes.unit) ? 0.1 : 1, axes.unit) * (e.shiftKey ? 10 : 1);
     const dt = e.shiftKey ? 1 : 0.1;
     const to: Partial<SpeedPoint> | null =
       e.key === 'ArrowUp'

@@ -1,7 +1,7 @@
 // Transport controls, what is worked out, what the others do, and the speed plot.
 import { useComputed } from '@preact/signals';
 import { LENGTHS, REPLANS } from '../../model/scene';
-import { num } from '../../model/units';
+import { figure, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -83,10 +83,10 @@ function RateButton() {
       type="button"
       class="btn rate"
       title={TEXTS.playbackSpeed}
-      aria-label={TEXTS.playbackSpeedTimes(rate)}
+      aria-label={TEXTS.playbackSpeedTimes(figure(rate))}
       onClick={(e) => playhead.changeRate(e.shiftKey ? -1 : 1, true)}
     >
-      {rate}×
+      {figure(rate)}×
     </button>
   );
 }

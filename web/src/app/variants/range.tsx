@@ -1,6 +1,6 @@
 // New variants by a number: which one is gone through, from where to where, in what steps.
 import { limitsOfSweep, LEAST_STEP, type Over } from '../../model/sweep';
-import { fromUnit, num, toUnit, type Quantity } from '../../model/units';
+import { fromUnit, inTenths, num, type Quantity, toUnit } from '../../model/units';
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';
@@ -46,7 +46,7 @@ export function Range() {
   const obstacle = variants.obstacle.value;
   const unit = sweep.over === 'time' || !subject ? 's' : editor.unitOf(subject);
   const quantity: Quantity = unit === 's' ? 'time' : unit;
-  const decimals = unit === 's' || unit === 'm/s' ? 1 : 0;
+  const decimals = unit === 's' || inTenths(unit) ? 1 : 0;
   const shown = (v: number) => (unit === 's' ? v : toUnit(v, unit));
   const meant = (v: number) => (unit === 's' ? v : fromUnit(v, unit));
   const limits = (): readonly [number, number] => {
@@ -98,7 +98,7 @@ export function Range() {
           disabled={variants.making.value !== null}
           onClick={() => perform(c, 'make-variants')}
         >
-          {n === 1 ? 'Make 1 variant' : TEXTS.makeVariants(n)}
+          {TEXTS.makeVariants(n)}
         </button>
       )}
     </div>

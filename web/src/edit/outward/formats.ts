@@ -141,7 +141,7 @@ const OUT: readonly OutFormat[] = [
     wish: 'train',
     label: TEXTS.argoverse2Scenario,
     icon: 'file',
-    says: 'Motion as in Argoverse 2, without its map.',
+    says: TEXTS.motionAsIn,
   },
   {
     id: 'gpudrive',

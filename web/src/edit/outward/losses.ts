@@ -1,4 +1,5 @@
 // What a file cannot hold of a scene, in plain words and with the numbers of that scene.
+import { num } from '../../model/units';
 import type { Scene } from '../../model/scene';
 import { TEXTS } from '../../texts/losses';
 import { countWords } from '../../model/kinds';
@@ -109,6 +110,6 @@ export function stays(losses: readonly Loss[], scene: Scene): string {
     [scene.agents.size > 0 && !lost.has(TEXTS.roadUsers), TEXTS.roadUserCount(scene.agents.size)],
   ];
   const kept = parts.filter(([is]) => is).map(([, words]) => words);
-  if (!lost.has(TEXTS.roadUsers)) kept.push(TEXTS.sAt10StepsASecond(scene.duration.toFixed(1)));
+  if (!lost.has(TEXTS.roadUsers)) kept.push(TEXTS.sAt10StepsASecond(num(scene.duration, 1)));
   return kept.join(', ');
 }

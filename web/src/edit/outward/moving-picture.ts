@@ -1,4 +1,5 @@
 // The scene as a GIF: what the picture shows, ten times a second, for slides and mails that play no film.
+import { TEXTS } from '../../texts/export';
 import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import type { Picture } from './gif.worker';
@@ -51,7 +52,7 @@ function taken(stage: Stage): Picture {
 function answer(worker: Worker, said: Picture | null, give: Transferable[]): Promise<unknown> {
   return new Promise((resolve, reject) => {
     worker.onmessage = (e) => resolve(e.data);
-    worker.onerror = () => reject(new Error('The picture could not be packed.'));
+    worker.onerror = () => reject(new Error(TEXTS.notPacked));
     worker.postMessage(said, give);
   });
 }

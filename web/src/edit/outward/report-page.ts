@@ -5,7 +5,7 @@ import type { MotionSet } from '../../model/futures';
 import type { Vec } from '../../model/geometry';
 import { endPose } from '../../model/motion';
 import { canChange, startPose, touched, type Agent, type Scene } from '../../model/scene';
-import { num, seconds, speedLabel, type SpeedUnit } from '../../model/units';
+import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/units';
 import { LANGUAGE } from '../../texts/language';
 import { TEXTS } from '../../texts/report-page';
 
@@ -22,7 +22,7 @@ export interface ReportOf {
 
 const text = (s: string): string => s.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
 const cell = (s: string): string => `<td>${text(s)}</td>`;
-const place = ([x, y]: Vec): string => `${num(x)}, ${num(y)}`;
+const place = ([x, y]: Vec): string => TEXTS.place(num(x), num(y));
 
 const STYLE = `
 body{font:14px/1.5 system-ui,sans-serif;color:#14181d;max-width:1000px;margin:32px auto;padding:0 16px}
@@ -89,7 +89,7 @@ function wordsOf({ scene, motion }: ReportOf): ReadonlyMap<string, string> {
 function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
   const start = startPose(a);
   const end = endPose(motionOf(r.scene, r.motion, a));
-  const unit = a.type === 'pedestrian' ? 'm/s' : r.unit;
+  const unit = a.type === 'pedestrian' ? walkingUnit(r.unit) : r.unit;
   const goal = a.goal.pos ? TEXTS.at(place(a.goal.pos), seconds(a.goal.time)) : '';
   const cells = [
     a.name,

@@ -184,7 +184,7 @@ export class Rounds {
 
   forgetAll(): void {
     const traits = this.wished.peek().map((w) => w.wish);
-    if (traits.length) this.#run((a, asked) => forget(a, asked, traits, 'All wishes'));
+    if (traits.length) this.#run((a, asked) => forget(a, asked, traits, TEXTS.allWishes));
   }
 
   /** Draws the next round. */

@@ -73,6 +73,8 @@ interface Made {
 }
 
 const USUAL_COUNT = 6;
+/** That so many of them were kept. */
+const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept } as const;
 const NONE: readonly Card[] = Object.freeze([]);
 
 /** Cards of a round, each as the document in which it is taken. */
@@ -478,7 +480,7 @@ export class Variants {
   keepTakes(
     takes: readonly Take[],
     subject: string | null = null,
-    what = 'card',
+    what: keyof typeof KEPT = 'card',
     starred: readonly boolean[] = [],
   ): void {
     if (!takes.length || this.#refusedLock()) return;
@@ -490,13 +492,18 @@ export class Variants {
     this.#join(takes, subject, what, starred);
   }
 
-  #join(takes: readonly Take[], subject: string | null, what = 'card', starred: readonly boolean[] = []): void {
+  #join(
+    takes: readonly Take[],
+    subject: string | null,
+    what: keyof typeof KEPT = 'card',
+    starred: readonly boolean[] = [],
+  ): void {
     const { editor } = this;
     const now = editor.scene.peek();
     if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
-    const command = keepStates(now, states, TEXTS.sKeptAsVariants(n, what), starred);
+    const command = keepStates(now, states, KEPT[what](n), starred);
     if (!command) return editor.notices.show({ text: TEXTS.thereIsNoRoom });
     this.#keepSets(takes);
     editor.run(command);

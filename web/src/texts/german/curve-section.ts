@@ -1,0 +1,14 @@
+import type { TEXTS } from '../curve-section';
+import { plural } from '../german-plural';
+import type { Said } from '../table';
+
+export const german: Said<typeof TEXTS> = {
+  speedOverTime: 'Tempo über der Zeit',
+  points: (count) => plural(count, { one: `${count} Punkt`, other: `${count} Punkte` }),
+  at: (time) => `bei ${time}`,
+  for: (time) => `, ${time} lang`,
+  kinds: { start: 'Start', end: 'Ende', hold: 'Halten', stop: 'Halt' },
+  whereItStops: 'Wo es hält',
+  stops: (place) => `Hält ${place ?? 'hier'}`,
+  after: (way, lasts) => `nach ${way}, ${lasts} lang`,
+};

@@ -1,0 +1,13 @@
+import type { TEXTS } from '../events-panel';
+import type { Said } from '../table';
+
+export const german: Said<typeof TEXTS> = {
+  inTheseS: (duration) => `in diesen ${duration} s`,
+  events: 'Ereignisse',
+  inTheLog: (inLog) => ` · ${inLog} in der Aufzeichnung`,
+  where: 'Wo',
+  countsAsANear: 'Gilt als Beinahe-Unfall unter 1,5 s oder 1,0 m.',
+  whatYouCanDo: 'Was sich tun lässt',
+  change: (name) => `${name} ändern`,
+  keepAsAVariant: 'Als Variante behalten',
+};

@@ -1,0 +1,33 @@
+import type { TEXTS } from '../page';
+import type { Said } from '../table';
+
+export const german: Said<typeof TEXTS> = {
+  thereAreNoRoad: 'In der Zwischenablage ist niemand.',
+  thisPartOfThe: 'Dieser Teil wurde nicht geladen. Nichts ist verloren.',
+  theEditorDid: 'Nicht alles wurde geladen. Die Szenen sind sicher.',
+  loadAgain: 'Neu laden',
+  tryAgain: 'Noch einmal',
+  loadThePageAnew: 'Seite neu laden',
+  roadUser: 'Verkehrsteilnehmer',
+  dropToImport: 'Zum Öffnen loslassen',
+  nearlyClosed: 'fast geschlossen',
+  halfOpen: 'halb offen',
+  fullyOpen: 'ganz offen',
+  panel: (word: string) => `Tafel, ${word}`,
+  panel2: 'Tafel',
+  example: 'Beispiel',
+  saved: 'Gesichert',
+  saving: 'Sichert …',
+  savedOnThisComputer: 'Hier gesichert',
+  changedElsewhere: 'Anderswo geändert',
+  noRoomToSave: 'Kein Platz zum Sichern',
+  notSaved: 'Nicht gesichert',
+  fileAndSettings: 'Datei und Einstellungen',
+  actions: 'Aktionen',
+  more: 'Mehr',
+  dragtraffic: (name) => `${name}, DragTraffic`,
+  dragging: 'Wird gezogen',
+  recordedScene: 'Aufgezeichnete Szene',
+  nameOfTheScene: 'Name der Szene',
+  trafficScene: 'Verkehrsszene',
+};

@@ -1,0 +1,16 @@
+import type { TEXTS } from '../parts';
+import type { Said } from '../table';
+
+export const german: Said<typeof TEXTS> = {
+  seed: 'Startwert',
+  diversity: 'Vielfalt',
+  waiting: 'Wartet …',
+  generate: 'Berechnen',
+  howFarTheSix: 'Wie verschieden die sechs sein dürfen',
+  react: 'Reagieren',
+  replayLog: 'Wiedergabe',
+  holdStill: 'Stehen',
+  everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an.',
+  theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde.',
+  theyStayWhere: 'Sie bleiben, wo sie beginnen, und niemand kommt hinzu.',
+};
