@@ -18,8 +18,10 @@ const steps = fc.array(
   { maxLength: 40 },
 );
 
+type Steps = typeof steps extends fc.Arbitrary<infer T> ? T : never;
+
 /** The recording of such steps, and the places on the canvas that they paint, worked out by themselves. */
-function painted(all: ReturnType<typeof sample>, dpr: number): { ops: Float64Array; places: [number, number][] } {
+function painted(all: Steps, dpr: number): { ops: Float64Array; places: [number, number][] } {
   const pen = new Recording(new Vocabulary());
   const places: [number, number][] = [];
   const kept: number[][] = [];
@@ -60,7 +62,6 @@ function painted(all: ReturnType<typeof sample>, dpr: number): { ops: Float64Arr
     }
   return { ops: pen.take(), places };
 }
-const sample = () => fc.sample(steps, 1)[0];
 
 const holds = (part: Part, [x, y]: [number, number]): boolean =>
   x >= part.x0 - 1e-6 && x <= part.x1 + 1e-6 && y >= part.y0 - 1e-6 && y <= part.y1 + 1e-6;
