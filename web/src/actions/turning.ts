@@ -62,7 +62,8 @@ function roadInView({ editor, gestures, stage: { view: v } }: Context): OnLine |
  */
 function alignWithRoad(c: Context): void {
   const { editor, stage } = c;
-  const mine = wayOfSelected(c);
+  // While a map is made nobody is on it.
+  const mine = editor.layouts.isOpen.peek() ? null : wayOfSelected(c);
   const way = mine ?? roadInView(c);
   if (!way) {
     editor.notices.show({ text: TEXTS.noRoadIsNear });
@@ -74,7 +75,7 @@ function alignWithRoad(c: Context): void {
     const turn = (mine ? QUARTER_RAD : Math.round(now / QUARTER_RAD) * QUARTER_RAD) - way.heading;
     // What it is turned for stays where it is, unless its way leads out of the picture.
     v.turnAt(...v.to(way.x, way.y), turn);
-    if (mine && !places.every(([x, y]) => v.bares(x, y, EDGE_PX))) v.fitPlaces(places, AROUND_M, v.z);
+    if (mine && !places.every(([x, y]) => v.isClear(x, y, EDGE_PX))) v.fitPlaces(places, AROUND_M, v.z);
   });
 }
 

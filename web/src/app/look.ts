@@ -142,7 +142,7 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const alone = ids.length === 1 ? scene?.agents.get(ids[0]) : undefined;
   const end = alone && endShown(editor, alone);
   const v = stage.view;
-  const seen = (p: { x: number; y: number }): boolean => v.bares(p.x, p.y, EDGE_PX);
+  const seen = (p: { x: number; y: number }): boolean => v.isClear(p.x, p.y, EDGE_PX);
   if (!ps.length || (ps.every(seen) && (!end || seen({ x: end[0], y: end[1] })))) return;
   const all = ps.map((p): Vec => [p.x, p.y]);
   const to = v.copy();

@@ -128,7 +128,7 @@ export class View {
   }
 
   /** Is a world point in the part that no panel covers, so many pixels away from its edge? */
-  bares(wx: number, wy: number, edge = 0): boolean {
+  isClear(wx: number, wy: number, edge = 0): boolean {
     const { left, right, top, bottom } = this.inset;
     const x = this.x(wx, wy),
       y = this.y(wx, wy);
