@@ -196,7 +196,7 @@ const CHIP_TRIES: readonly Offset[] = [
 ];
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
-function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
+export function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
   const { left, right, top, bottom } = v.inset;
   for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--) {
     const x = v.x(m.x[i]),

@@ -5,7 +5,7 @@ import { DEFAULTS } from './domain';
 import type { Feedback } from './feedback';
 import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
-import { STEP_S, type Motion } from './motion';
+import { STEP_S, type Columns, type Motion } from './motion';
 import type { Profile } from './profile';
 import type { Variant, VariantState } from './variants';
 import { NO_VIAS, type Via } from './via';
@@ -64,8 +64,22 @@ export interface Agent {
   readonly profile: Profile | null;
   /** Names the round of cards that its futures are from, where one of those was picked. */
   readonly dealt: string | null;
+  /** Futures that stay while others are drawn anew, in the order in which they were pinned. */
+  readonly pins: readonly Pin[];
   /** What was said of its futures in rounds; null where nothing was. */
   readonly feedback: Feedback | null;
+}
+
+/** A future that stays: its motion, and what it was made for. */
+export interface Pin {
+  /** Names the motion. */
+  readonly key: string;
+  /** What it was called. */
+  readonly name: string;
+  readonly track: Columns;
+  readonly type: AgentType;
+  readonly start: StartSpec;
+  readonly goal: GoalSpec;
 }
 
 export interface Signal {

@@ -20,6 +20,7 @@ import type { TEXTS as Page } from './page';
 import type { TEXTS as Palette } from './palette';
 import type { TEXTS as Parts } from './parts';
 import type { TEXTS as Picture } from './picture';
+import type { TEXTS as Pins } from './pins';
 import type { TEXTS as Reach } from './reach';
 import type { TEXTS as Scenes } from './scenes';
 import type { TEXTS as Timeline } from './timeline';
@@ -733,6 +734,29 @@ const reach: Part<typeof Reach> = {
   it: 'es',
 };
 
+const pins: Part<typeof Pins> = {
+  pin: 'Diese Zukunft anheften',
+  selectFirst: 'Wählen Sie zuerst jemanden mit Zukünften aus.',
+  atMost: (most: number) => `${most} sind angeheftet, mehr geht nicht. Lösen Sie zuerst eine.`,
+  pinLetter: (letter: string) => `Zukunft ${letter} anheften`,
+  letGoLetter: (letter: string) => `Zukunft ${letter} lösen`,
+  letGo: (name: string) => `Angeheftete Zukunft lösen: ${name}`,
+  pinnedSign: 'angeheftet',
+  pinned: (letter: string, name: string) => `Zukunft ${letter} von ${name} angeheftet`,
+  unpinned: (future: string, name: string) => `Angeheftete Zukunft von ${name} gelöst: ${future}`,
+  taken: (future: string, name: string) => `Angeheftete Zukunft von ${name} gewählt: ${future}`,
+  anotherKind: 'für eine andere Art',
+  startsAway: (distance: string) => `beginnt ${distance} entfernt`,
+  startsTurned: 'beginnt anders gedreht',
+  startsAt: (speed: string) => `beginnt mit ${speed}`,
+  fromTheGoal: (distance: string) => `${distance} vom Ziel`,
+  endsTurned: 'endet anders gedreht',
+  endsAt: (speed: string) => `endet mit ${speed}`,
+  missesVia: 'verfehlt einen Zwischenpunkt',
+  noLongerFits: (name: string, why: string) =>
+    `${name}: ${why}, passt also nicht mehr. Wer sie wählt, bekommt Start und Ziel dazu zurück.`,
+};
+
 const places: Part<typeof Places> = {
   metres: 'Metern',
   feet: 'Fuß',
@@ -756,6 +780,7 @@ export const german = (plural: Plural) => ({
   verdicts,
   picture,
   reach,
+  pins,
   places,
   ...counted(plural),
 });
