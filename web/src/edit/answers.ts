@@ -151,6 +151,14 @@ export class Answers {
     });
   }
 
+  /** Other things count as events: everybody goes on as they do. Looks that nobody follows are judged when asked anew. */
+  countsOtherwise(scene: Scene): void {
+    const key = sceneKey(scene);
+    const m = this.#motion.peek();
+    const futures = new Map([...m.futures].filter(([id]) => m.driving.has(id)));
+    this.#motion.value = this.#cache.get(key) ?? { ...m, key, futures };
+  }
+
   /** Who has gone from the scene has no motion any more. */
   #forgetGone(scene: Scene): void {
     const m = this.#motion.peek();

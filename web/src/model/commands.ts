@@ -214,6 +214,7 @@ type ScenePatch = Partial<
     | 'variants'
     | 'variantStates'
     | 'feedback'
+    | 'thresholds'
   >
 >;
 

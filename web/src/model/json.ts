@@ -160,6 +160,8 @@ export interface EditorJson {
   feedback?: Record<string, Feedback>;
   /** The same of the whole scene. */
   scene_feedback?: Feedback;
+  /** What counts as an event, where that is not as usual. */
+  thresholds?: Record<string, number>;
 }
 /** A pinned future: its motion, and the start and the goal that it was made for. */
 export interface PinJson {

@@ -41,6 +41,7 @@ import {
 } from './scene';
 import type { Pose, Vec } from './geometry';
 import { keyOfPin, MOST_PINS } from './pins';
+import { readThresholds } from './thresholds';
 import { readVias } from './via';
 import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
 import { TEXTS } from '../texts/reading';
@@ -84,6 +85,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     drawn: ed.drawn ?? 0,
     ...readVariants(ed.variants, agents),
     feedback: readFeedback(ed.scene_feedback),
+    thresholds: readThresholds(ed.thresholds),
   });
 }
 

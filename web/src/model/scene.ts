@@ -118,7 +118,13 @@ export interface Scene {
   readonly variantStates: Readonly<Record<number, VariantState>>;
   /** What was said in rounds of the whole scene; null where nothing was. */
   readonly feedback: Feedback | null;
+  /** What counts as an event, where that is not as usual. */
+  readonly thresholds: Thresholds;
 }
+
+/** Numbers by the names that the server has for them. */
+export type Thresholds = Readonly<Record<string, number>>;
+export const NO_THRESHOLDS: Thresholds = Object.freeze({});
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
 export const GOAL_TIME = DEFAULTS.horizon_s;
@@ -226,6 +232,7 @@ function keyOf(scene: Scene): string {
     scene.drawn,
   ];
   parts.push(scene.roster);
+  if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
     if (profileOf(a)) parts.push([a.id, a.profile]);

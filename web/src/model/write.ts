@@ -194,9 +194,14 @@ export function writeScene(
       ...ofAgents(scene.agents.values()),
       ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
       ...(scene.feedback ? { scene_feedback: scene.feedback } : {}),
+      ...thresholdsOf(scene),
     },
   };
 }
+
+/** What counts, where that is not as usual: for files and for questions. */
+export const thresholdsOf = (s: Scene): { thresholds?: Record<string, number> } =>
+  Object.keys(s.thresholds).length ? { thresholds: { ...s.thresholds } } : {};
 
 /** Variants as the file has them. */
 export const variantsJson = (scene: Scene): VariantJson[] =>

@@ -21,6 +21,8 @@ import type { TEXTS as Palette } from './palette';
 import type { TEXTS as Parts } from './parts';
 import type { TEXTS as Picture } from './picture';
 import type { TEXTS as Pins } from './pins';
+import type { TEXTS as ResultCode } from './result-code';
+import type { TEXTS as Thresholds } from './thresholds';
 import type { TEXTS as Reach } from './reach';
 import type { TEXTS as Scenes } from './scenes';
 import type { TEXTS as Timeline } from './timeline';
@@ -757,6 +759,35 @@ const pins: Part<typeof Pins> = {
     `${name}: ${why}, passt also nicht mehr. Wer sie wählt, bekommt Start und Ziel dazu zurück.`,
 };
 
+const thresholds: Part<typeof Thresholds> = {
+  whatCounts: 'Was zählt',
+  whatCountsAsEvent: 'Was als Ereignis zählt',
+  asUsual: 'wie üblich',
+  changedHere: 'in dieser Szene geändert',
+  gap: 'Beinaheunfall unter',
+  time: 'Beinaheunfall unter',
+  braking: 'Hartes Bremsen über',
+  steering: 'Hartes Lenken über',
+  usually: (value: string) => `üblich ${value}`,
+  timeMeans: 'Die Zeit ist die bis zum Zusammenstoß, wenn beide so weitermachen.',
+  resetAll: 'Wieder wie üblich',
+  reset: 'Es zählt wieder, was üblich ist',
+  gapNow: (value: number) => `Beinaheunfälle zählen unter ${value} m`,
+  timeNow: (value: number) => `Beinaheunfälle zählen unter ${value} s`,
+  brakingNow: (value: number) => `Bremsen zählt über ${value} m/s²`,
+  steeringNow: (value: number) => `Lenken zählt über ${value} m/s²`,
+  countsBelow: (time: string, gap: string) => `Zählt als Beinaheunfall unter ${time} oder ${gap}.`,
+};
+
+const resultCode: Part<typeof ResultCode> = {
+  label: 'Code dieses Ergebnisses',
+  means:
+    'Code dieses Ergebnisses: Gleiche Szene, gleicher Seed und gleiche Version zeigen denselben. Ein Klick kopiert ihn',
+  copied: (code: string) => `Code ${code} kopiert.`,
+  code: 'Code',
+  codeIs: (code: string) => `Code ${code}.`,
+};
+
 const places: Part<typeof Places> = {
   metres: 'Metern',
   feet: 'Fuß',
@@ -781,6 +812,8 @@ export const german = (plural: Plural) => ({
   picture,
   reach,
   pins,
+  thresholds,
+  'result-code': resultCode,
   places,
   ...counted(plural),
 });

@@ -7,7 +7,7 @@ import { poseAt, STEP_S } from '../../model/motion';
 import { canChange, canMove, doing, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
 import { withTaken } from '../../model/pins';
 import { readVariantSample } from '../../model/read';
-import { trackJson } from '../../model/write';
+import { thresholdsOf, trackJson } from '../../model/write';
 import { Away, Refused } from '../../net/client';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
@@ -147,7 +147,12 @@ export class Maker {
       (a) => canChange(a) && (driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );
     const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
-    const reply = await this.generator.score(this.file.reference(scene), tracks, new AbortController().signal);
+    const reply = await this.generator.score(
+      this.file.reference(scene),
+      tracks,
+      thresholdsOf(scene),
+      new AbortController().signal,
+    );
     return { ...set, score: readScore(reply) };
   }
 }
