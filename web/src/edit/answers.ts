@@ -151,7 +151,7 @@ export class Answers {
     });
   }
 
-  /** Other things count as events: everybody goes on as they do. Looks that nobody follows are judged when asked anew. */
+  /** Other things count: everybody goes on as they do. Looks that nobody follows are judged when asked anew. */
   countsOtherwise(scene: Scene): void {
     const key = sceneKey(scene);
     const m = this.#motion.peek();

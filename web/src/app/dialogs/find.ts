@@ -167,6 +167,7 @@ const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
   ['first', /first|before/],
   ['braking', /brak/],
   ['goal', /goal|reach/],
+  ['red', /red|light|signal/],
 ];
 
 const escaped = (s: string): string => s.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
