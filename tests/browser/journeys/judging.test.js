@@ -36,7 +36,9 @@ journeys('judging', (stage) => {
     await e.type('threshold-harsh-brake-mps2', '0.3');
     assert.equal(e.wire.since(mark).length, 0, 'no motion is asked for');
     await e.until(() => /changed in this scene/.test(document.querySelector('.counts').textContent));
-    await e.until(() => /Hard braking/.test(document.querySelector('aside.insp').textContent.replace('Hard braking above', '')));
+    await e.until(() =>
+      /Hard braking/.test(document.querySelector('aside.insp').textContent.replace('Hard braking above', '')),
+    );
     await e.page.getByRole('button', { name: 'As usual again' }).click();
     await e.until(() => /as usual/.test(document.querySelector('.counts').textContent));
     await e.settled();
