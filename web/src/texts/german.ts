@@ -780,7 +780,7 @@ const thresholds: Part<typeof Thresholds> = {
 };
 
 const resultCode: Part<typeof ResultCode> = {
-  label: 'Code dieses Ergebnisses',
+  label: (code: string) => `${code}, Code dieses Ergebnisses`,
   means:
     'Code dieses Ergebnisses: Gleiche Szene, gleicher Seed und gleiche Version zeigen denselben. Ein Klick kopiert ihn',
   copied: (code: string) => `Code ${code} kopiert.`,

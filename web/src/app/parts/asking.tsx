@@ -41,7 +41,13 @@ function ResultCode() {
     editor.notices.show({ text: CODE.copied(code.peek()) });
   };
   return (
-    <button type="button" class="btn code" aria-label={CODE.label} title={CODE.means} onClick={copy}>
+    <button
+      type="button"
+      class="btn code"
+      aria-label={useComputed(() => CODE.label(code.value))}
+      title={CODE.means}
+      onClick={copy}
+    >
       {code}
     </button>
   );
