@@ -1,10 +1,11 @@
 // Cases: what counts as one, what is tried, and what a search leaves behind.
 import { describe, expect, it } from 'vitest';
+import { NOTHING_SAID } from '../src/model/about';
 import { attempt, withAttempt } from '../src/model/attempts';
 import { alike, KINDS, momentOf, type Moment, type Sought } from '../src/model/cases';
 import { emptyMotion, type MotionSet } from '../src/model/futures';
 import { motionFrom, type Motion } from '../src/model/motion';
-import { sceneKey, startPose, type Scene } from '../src/model/scene';
+import { sceneKey, startPose, withAgents, type Scene } from '../src/model/scene';
 import { Cases } from '../src/edit/cases/cases';
 import { Questions } from '../src/edit/question';
 import { SceneFile } from '../src/edit/scene-file';
@@ -132,32 +133,60 @@ describe('a case', () => {
   });
 });
 
+describe('a red light', () => {
+  const plain = crossing();
+  const scene = { ...plain, signals: [{ lane: '', stop: [FAR + 20, FAR] as const, states: [[0, 'stop'] as const] }] };
+  const ways = crossingWays(3);
+
+  it('is run where the verdict says so; else what counts is how near one comes to a red one', () => {
+    const none = momentOf(scene, twoWays(scene, ...ways), sought('red', 0, null))!;
+    expect([none.found, none.value, none.time]).toEqual([false, 0, 2]);
+    const set = twoWays(scene, ...ways);
+    const f = set.futures.get(ME)!;
+    const fault = { kind: 'red_light' as const, time: 2, until: 2, at: [FAR + 20, FAR] as const, extent: 10 };
+    const about = { ...NOTHING_SAID, faults: [{ ...fault, with: null, edge: null }] };
+    const judged = { ...f, modes: [{ ...f.modes[0], about }] };
+    const run = momentOf(scene, { ...set, futures: new Map(set.futures).set(ME, judged) }, sought('red', 0, null))!;
+    expect([run.found, run.value, run.time, run.miss]).toEqual([true, 10, 2, -10]);
+    expect(momentOf(plain, twoWays(plain, ...ways), sought('red', 0, null))?.found ?? false).toBe(false);
+  });
+});
+
 describe('attempts', () => {
   const scene = crossing();
-  const may = { speed: true, time: true, seed: true };
+  const may = { speed: true, time: true, seed: true, place: true };
 
   it('begin with the scene as it is, and change only what may change, within limits', () => {
     const a = { ...car(scene), goal: { ...car(scene).goal, pos: [30, 0] as const } };
-    expect(attempt(a, scene, may, 0, 20)).toEqual({ seed: scene.seed, speed: null, time: null });
+    expect(attempt(a, scene, may, 0, 20)).toEqual({ seed: scene.seed, speed: null, time: null, ahead: null });
     for (let n = 1; n < 200; n++) {
       const t = attempt(a, scene, may, n, 20);
       expect(t.speed).toBeGreaterThanOrEqual(0);
       expect(t.speed).toBeLessThanOrEqual(20);
       expect(t.time).toBeGreaterThanOrEqual(1);
       expect(t.time).toBeLessThanOrEqual(scene.duration);
-      expect(attempt(a, scene, { ...may, speed: false, seed: false }, n, 20)).toEqual({
+      expect(attempt(a, scene, { ...may, speed: false, seed: false, place: false }, n, 20)).toEqual({
         seed: scene.seed,
         speed: null,
         time: t.time,
+        ahead: null,
       });
+      expect(Math.abs(t.ahead!)).toBeLessThanOrEqual(5);
     }
   });
 
   it('leave everybody else as they are', () => {
-    const tried = withAttempt(scene, ME, { seed: 9, speed: 3, time: null });
+    const tried = withAttempt(scene, ME, { seed: 9, speed: 3, time: null, ahead: 2 });
     expect(tried.seed).toBe(9);
     expect(startPose(tried.agents.get(ME)!)!.speed).toBe(3);
     for (const [id, a] of scene.agents) if (id !== ME) expect(tried.agents.get(id)).toBe(a);
+    const [p, q] = [scene, tried].map((s) => startPose(s.agents.get(ME)!)!);
+    expect(Math.hypot(q.x - p.x, q.y - p.y)).toBeCloseTo(2, 1);
+    // Where somebody stands it does not start.
+    const blocker = { ...scene.agents.get(OTHER)!, start: { pos: [q.x, q.y] as const, heading: q.heading, speed: 0 } };
+    const full = withAgents(scene, [blocker]);
+    const beside = startPose(withAttempt(full, ME, { seed: 9, speed: 3, time: null, ahead: 2 }).agents.get(ME)!)!;
+    expect(Math.hypot(beside.x - p.x, beside.y - p.y)).toBeLessThan(1.5);
   });
 });
 

@@ -3,6 +3,7 @@
 use crate::net::schedule;
 use crate::planning::world::Planning;
 use scene::preference::{Feedback, Round};
+use scene::score::Thresholds;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -63,6 +64,8 @@ pub struct Request {
     /// What a person said of earlier cards: the answer is the next round of `modes` cards out of a wide draw, in
     /// place of `samples`. [`Request::round`] sets it.
     pub feedback: Option<Feedback>,
+    /// Numbers that decide what is said to be wrong with a future. They change no motion.
+    pub thresholds: Thresholds,
     /// Parts that run; all of them but in an evaluation.
     pub stages: Stages,
 }
@@ -186,6 +189,7 @@ impl Request {
             pinned: BTreeMap::new(),
             shown: BTreeMap::new(),
             feedback: None,
+            thresholds: Thresholds::default(),
             stages: Stages::default(),
         }
     }

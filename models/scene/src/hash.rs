@@ -50,6 +50,16 @@ impl ContentHash {
         self.0.iter().map(|b| format!("{b:02x}")).collect()
     }
 
+    /// Six characters to read out to somebody: 30 bits in Crockford's base 32, which has no I, L, O and U.
+    pub fn short(&self) -> String {
+        const DIGITS: [char; 32] = [
+            '0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J',
+            'K', 'M', 'N', 'P', 'Q', 'R', 'S', 'T', 'V', 'W', 'X', 'Y', 'Z',
+        ];
+        let bits = self.0[..4].iter().fold(0_usize, |bits, byte| bits << 8 | usize::from(*byte)) >> 2;
+        (0..6).rev().map(|i| DIGITS[bits >> (5 * i) & 31]).collect()
+    }
+
     /// Reads 64 hex digits; `None` for anything else.
     pub fn from_hex(text: &str) -> Option<Self> {
         if text.len() != 64 || !text.is_ascii() {

@@ -4,6 +4,7 @@
 use experts::request::{DEFAULTS, Defaults};
 use formats::native::Ranges;
 use scene::limits::Limits;
+use scene::score::{Threshold, Thresholds};
 use scene::via::VIA_WITHIN_S;
 use scene::{AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_VIAS, Size, Subtype, VIA_TOLERANCE_M};
 use schemars::JsonSchema;
@@ -106,13 +107,26 @@ pub struct ViaRanges {
     within_s: f64,
 }
 
+/// A number that decides what counts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ThresholdRange {
+    /// Unless another one is given.
+    usual: f64,
+    /// Least and most.
+    range: [f64; 2],
+}
+
 /// All of them, as `assets/domain.json` has them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Domain {
+    /// Version of the program.
+    version: &'static str,
     limits: KindLimits,
     condition_ranges: ConditionRanges,
     via: ViaRanges,
     defaults: Defaults,
+    /// What counts as an event, by name.
+    thresholds: BTreeMap<&'static str, ThresholdRange>,
     /// By kind of layout and parameter.
     layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
 }
@@ -127,7 +141,16 @@ impl Domain {
             default_tolerance_m: DEFAULT_VIA_TOLERANCE_M,
             within_s: VIA_WITHIN_S,
         };
-        Self { limits, condition_ranges, via, defaults: DEFAULTS, layout_ranges: layouts::ranges() }
+        let range = |t: Threshold| (t.name, ThresholdRange { usual: t.usual(), range: t.range.into() });
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            limits,
+            condition_ranges,
+            via,
+            defaults: DEFAULTS,
+            thresholds: Thresholds::ALL.map(range).into(),
+            layout_ranges: layouts::ranges(),
+        }
     }
 }
 

@@ -157,6 +157,9 @@ pub struct FinalBody {
     pub feedback: Option<RoundBody>,
     /// Where the time went.
     pub timing: TimingBody,
+    /// Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
+    /// options, seed, weights and version. Equal calls have equal codes.
+    pub code: String,
     /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
     /// compact form as columns).
     pub generated: GeneratedHead,

@@ -41,6 +41,8 @@ pub struct Task {
     pub standings: Option<Arc<Standings>>,
     /// Samples hold the futures of those who are not part of the call too.
     pub with_kept: bool,
+    /// Names what the answer follows from, in six characters.
+    pub code: String,
     /// The rest of `generated`.
     pub head: GeneratedHead,
 }

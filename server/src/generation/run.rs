@@ -111,6 +111,7 @@ fn final_body(task: &Task, shown: &[Sample], answer: &Answer, queued: Duration) 
         warnings: answer.warnings.clone(),
         feedback: answer.round.clone().map(|Round { cards, wishes, .. }| RoundBody { cards, wishes }),
         timing,
+        code: task.code.clone(),
         generated: task.head.clone().dated(),
     }
 }
@@ -133,7 +134,8 @@ fn add_scores<'a>(
     let began = Instant::now();
     let drivable = generator.maps().drivable(&scene.map);
     let score = |(sample, changed)| {
-        let input = ScoreInput::of_sample(scene, Some(sample), &drivable);
+        let mut input = ScoreInput::of_sample(scene, Some(sample), &drivable);
+        input.thresholds = task.request.thresholds;
         scoring::of(&input, changed, task.standings.as_deref())
     };
     let scores: Vec<_> = samples.map(score).collect();

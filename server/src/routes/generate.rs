@@ -3,6 +3,7 @@
 use super::feedback::FeedbackDoc;
 use super::openapi::one_scene;
 use super::scene_ref::{AboutScene, SceneRef, Subject};
+use super::score;
 use crate::app::App;
 use crate::base::id::is_id;
 use crate::base::limits::{self, Limits};
@@ -22,7 +23,8 @@ use experts::React;
 use experts::request::{DEFAULTS, ShownLast};
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
-use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
+use scene::score::Thresholds;
+use scene::{ContentHash, MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -191,6 +193,10 @@ pub struct GenerateRequest {
     /// Put scores into `final`.
     #[serde(default = "yes")]
     score: bool,
+    /// Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
+    /// absent have their defaults. They change no motion.
+    #[serde(default)]
+    thresholds: Thresholds,
 }
 
 /// The future that was shown last.
@@ -314,6 +320,7 @@ impl GenerateRequest {
         let request = self.request(&applied, limits.regenerated_agents, limits.reply_points)?;
         let mut head =
             GeneratedHead::new(applied.input_hash().hex(), generator.hashes(), self.seed, self.options());
+        let code = self.code(&applied, &request, &head);
         head.stale = self.keeps_stale(scene, &applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
@@ -328,10 +335,26 @@ impl GenerateRequest {
             form,
             score,
             with_kept,
+            code,
             head,
             streams: true,
             standings: None,
         })
+    }
+
+    /// Names what the answer follows from: the scene with its conditions, what is kept of its futures, the options,
+    /// the seed, and the engine.
+    fn code(&self, scene: &Scene, request: &experts::Request, head: &GeneratedHead) -> String {
+        let sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
+        let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
+        let stays = |id: &String| !asked(id) || request.pinned.contains_key(id);
+        let futures = sample.into_iter().flat_map(|sample| &sample.agents).filter(|(id, _)| stays(id));
+        let kept: Vec<_> =
+            futures.map(|(id, f)| (id, f.modes.get(f.chosen).map(|m| (m.first_step, &m.states)))).collect();
+        let shown: Vec<_> = self.shown.0.iter().map(|(id, s)| (id, s.anchor, &s.x_m, &s.y_m)).collect();
+        let version = env!("CARGO_PKG_VERSION");
+        let of = (version, &head.input_sha256, &head.weights, head.seed, &head.request, kept, shown);
+        ContentHash::of(&of).short()
     }
 
     /// A future that is kept answers something else than what the scene says with this call's conditions.
@@ -385,6 +408,7 @@ impl GenerateRequest {
             let detail = format!("{got} s; null, 3, 6 or 9 expected");
             faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", detail));
         }
+        faults.extend(score::beyond(&self.thresholds));
         refuse(faults)
     }
 
@@ -493,6 +517,7 @@ impl GenerateRequest {
             diversity: self.diversity,
             steps: self.steps as usize,
             stream_all: self.stream_modes == StreamModes::All,
+            thresholds: self.thresholds,
             ..experts::Request::new(Arc::clone(scene))
         };
         let request = match feedback {
@@ -571,6 +596,9 @@ impl GenerateRequest {
         }
         if !self.pinned.is_empty() {
             options["pinned"] = json!(self.pinned);
+        }
+        if self.thresholds != Thresholds::default() {
+            options["thresholds"] = json!(self.thresholds);
         }
         options
     }

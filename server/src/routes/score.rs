@@ -140,13 +140,17 @@ pub async fn score(
     app.pool.run(asked, move |_| JsonText::of(&of(&about, &request, generator.maps())?)).await
 }
 
-fn of(about: &Subject, request: &ScoreRequest, maps: &Maps) -> Result<Score, Problem> {
-    let scene = &about.scene;
-    let beyond = request.thresholds.outside().map(|(threshold, got)| {
+/// Numbers out of their range.
+pub fn beyond(thresholds: &Thresholds) -> impl Iterator<Item = FieldProblem> {
+    thresholds.outside().map(|(threshold, got)| {
         let (least, most) = threshold.range;
         FieldProblem::range(format!("/thresholds/{}", threshold.name), least, most, got)
-    });
-    let mut faults: Vec<FieldProblem> = beyond.collect();
+    })
+}
+
+fn of(about: &Subject, request: &ScoreRequest, maps: &Maps) -> Result<Score, Problem> {
+    let scene = &about.scene;
+    let mut faults: Vec<FieldProblem> = beyond(&request.thresholds).collect();
     let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
     for (id, doc) in &request.trajectories.0 {
         let Some(states) = states(scene, "/trajectories", id, doc, &mut faults) else { continue };

@@ -29,6 +29,20 @@ journeys('judging', (stage) => {
     assert.match(await e.text('aside.insp'), /Collision at \d\.\d s[\s\S]*What you can do/);
     await e.settled();
     await e.picture('events');
+    // What counts is the scene's own: harder to be hard, and as usual again.
+    const harsh = e.page.locator('[data-field="threshold-harsh-brake-mps2"]');
+    assert.equal(await harsh.inputValue(), '4.0');
+    const mark = e.wire.asked.length;
+    await e.type('threshold-harsh-brake-mps2', '0.3');
+    assert.equal(e.wire.since(mark).length, 0, 'no motion is asked for');
+    await e.until(() => /changed in this scene/.test(document.querySelector('.counts').textContent));
+    await e.until(() =>
+      /Hard braking/.test(document.querySelector('aside.insp').textContent.replace('Hard braking above', '')),
+    );
+    await e.page.getByRole('button', { name: 'As usual again' }).click();
+    await e.until(() => /as usual/.test(document.querySelector('.counts').textContent));
+    await e.settled();
+    await badge.click();
     await e.page.getByRole('button', { name: `Change ${car.name}`, exact: true }).click();
     await e.page.waitForSelector('.fu');
     assert.equal(await e.text('.ih h2'), car.name);

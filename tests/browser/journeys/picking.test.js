@@ -43,5 +43,27 @@ journeys('picking', (stage) => {
       sent = now;
       answered = answer.map(([id]) => id);
     }
+    // What is pinned stays while others are drawn, and is taken again with the goal that it was made for.
+    const code = await e.text('.btn.code');
+    assert.match(code, /^[0-9A-Z]{6}$/);
+    const goal = await e.goal();
+    await e.page.locator('[data-future="B"]').hover();
+    await e.key('Shift+P');
+    await e.page.waitForSelector('.pinb[aria-pressed="true"]');
+    assert.equal(await e.text('.btn.code'), code, 'to pin something changes no result');
+    await e.type('goal-pos', String(goal.x + 9), 0);
+    await e.page.waitForSelector('.fu.pinned.misfit');
+    assert.match(await e.text('.fu.pinned .why'), /from the goal/);
+    assert.notEqual(await e.text('.btn.code'), code);
+    await e.picture('pinned');
+    await e.page.reload();
+    await e.ready();
+    await e.settled();
+    await e.choose(car.id);
+    await e.page.locator('.fu.pinned').click();
+    await e.settled();
+    assert.deepEqual(await e.goal(), goal);
+    assert.deepEqual(e.wire.last().body.pinned, [car.id]);
+    await e.page.waitForSelector('.fu[aria-checked="true"] + .pinb[aria-pressed="true"]');
   });
 });

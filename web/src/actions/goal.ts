@@ -4,12 +4,14 @@ import { clearGoal, resetAgent, setSeed, type Command } from '../model/commands'
 import { LETTERS } from '../model/futures';
 import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
+import { pinnedAt, togglePin } from '../edit/pins';
 import { leaveToCross, roadWay } from '../edit/ways-out';
 import { clearGoals } from '../edit/several';
 import { addVia, removeVia, roomForVia } from '../edit/vias';
 import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
+import { TEXTS as PINS } from '../texts/pins';
 
 const LARGEST_NEW_SEED = 9999;
 
@@ -108,6 +110,23 @@ const resetting: Pick<Action, 'when' | 'run'> = {
     const a = c.editor.agent.value;
     if (!a || a.locked) return hasFree(c);
     return a.placed ? TEXTS.nothingOfItWas : changedByHand(a) ? true : TEXTS.itIsAsItWasRecorded;
+  },
+};
+
+/** The future that is pointed at, else the one in force. */
+const toPin = (c: Context): number => pointed(c) ?? c.editor.chosen.value;
+
+const pinning: Pick<Action, 'when' | 'checked' | 'run'> = {
+  when: (c) => {
+    const free = hasFree(c);
+    return free !== true || c.editor.futures.value ? free : TEXTS.itHasNoFutures;
+  },
+  checked: (c) => pinnedAt(c.editor, toPin(c)) !== null,
+  run(c) {
+    const a = c.editor.agent.peek();
+    const done = a && togglePin(c.editor, a, toPin(c));
+    if (typeof done === 'string') c.editor.notices.show({ text: done });
+    else if (done) c.editor.run(done);
   },
 };
 
@@ -228,6 +247,14 @@ export const goal = inGroup('goal', [
       c.variants.show(true);
       void c.variants.make();
     }),
+  },
+  {
+    id: 'future-pin',
+    label: PINS.pin,
+    keys: ['Shift+P'],
+    icon: 'pin',
+    help: 'itStaysWhile',
+    ...pinning,
   },
   {
     id: 'future-best',

@@ -6,6 +6,7 @@ import { STEP_S } from '../model/motion';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';
+import { TEXTS as COUNTS } from '../texts/thresholds';
 
 function stepBy(c: Context, frames: number): void {
   c.editor.playhead.pause();
@@ -55,6 +56,14 @@ const replans = REPLANS.map((s) => ({
 }));
 
 export const time = inGroup('time', [
+  {
+    id: 'what-counts',
+    label: COUNTS.whatCountsAsEvent,
+    icon: 'warn',
+    help: 'howNearAndHard',
+    when: hasScene,
+    run: ({ ui }) => ui.showEvents('counts'),
+  },
   {
     id: 'play',
     label: TEXTS.playOrPause,

@@ -28,7 +28,7 @@ export class Ui {
   readonly #renaming = signal<string | null>(null);
   readonly #contextMenu = signal<ContextMenu | null>(null);
   readonly #emptyHidden = signal<string | null>(null);
-  readonly #eventsPanel = signal(false);
+  readonly #eventsPanel = signal<boolean | 'counts'>(false);
   readonly #tall = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
@@ -43,7 +43,7 @@ export class Ui {
   readonly contextMenu: ReadonlySignal<ContextMenu | null> = this.#contextMenu;
   /** Id of the empty scene whose offers were closed. */
   readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
-  readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
+  readonly eventsPanel: ReadonlySignal<boolean | 'counts'> = this.#eventsPanel;
   /** Is the timeline high, for work on the speed curve? */
   readonly tall: ReadonlySignal<boolean> = this.#tall;
   /** Step of the hint for the first minute; 0 when it is closed. */
@@ -97,7 +97,8 @@ export class Ui {
     this.#emptyHidden.value = scene;
   }
 
-  showEvents(open: boolean): void {
+  /** `counts`: also where there are none, to say what is one. */
+  showEvents(open: boolean | 'counts'): void {
     this.#eventsPanel.value = open;
   }
 

@@ -56,7 +56,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'find-case',
     'zoom-selection',
   ],
-  future: ['future-choose', 'future-play', 'future-compare', null, 'add-via', 'future-best', 'set-goal'],
+  future: ['future-choose', 'future-play', 'future-compare', 'future-pin', null, 'add-via', 'future-best', 'set-goal'],
   goal: ['clear-goal', 'toggle-goal-speed', null, 'remove-via', null, 'zoom-selection', 'reset-agent'],
   ground: [
     'paste',

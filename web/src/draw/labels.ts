@@ -144,7 +144,7 @@ function around(w: number, h: number, radii: readonly number[]): Offset[] {
   return out;
 }
 
-export type PillIcon = 'cross' | 'triangle' | 'bar' | 'flag';
+export type PillIcon = 'cross' | 'triangle' | 'bar' | 'flag' | 'pin';
 
 export interface PillStyle {
   fg?: string;
@@ -262,6 +262,20 @@ export function paintIcon(g: Pen, kind: PillIcon, x: number, y: number, colour: 
       g.lineTo(x - 3, y + 1);
       g.stroke();
       g.setLineDash([]);
+      return;
+    case 'pin':
+      g.lineWidth = 1.5;
+      g.moveTo(x - 2.6, y - 4.4);
+      g.lineTo(x + 2.6, y - 4.4);
+      g.moveTo(x - 1.5, y - 4.4);
+      g.lineTo(x - 1.5, y - 1);
+      g.lineTo(x - 3.4, y + 1);
+      g.lineTo(x + 3.4, y + 1);
+      g.lineTo(x + 1.5, y - 1);
+      g.lineTo(x + 1.5, y - 4.4);
+      g.moveTo(x, y + 1);
+      g.lineTo(x, y + 4.8);
+      g.stroke();
       return;
     case 'triangle':
       g.moveTo(x, y - 4.4);

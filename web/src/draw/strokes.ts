@@ -206,7 +206,7 @@ const CHIP_TRIES: readonly Offset[] = [
 ];
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
-function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
+export function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
   for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--)
     if (v.isClear(m.x[i], m.y[i])) return v.to(m.x[i], m.y[i]);
   return null;

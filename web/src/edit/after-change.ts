@@ -1,5 +1,6 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
 import type { MotionSet } from '../model/futures';
+import { takenPin } from '../model/pins';
 import { canChange, doing, GOAL_TIME, touchedIn, type Scene } from '../model/scene';
 import type { Editor, Step } from './editor';
 import type { Wanted } from './question';
@@ -13,7 +14,7 @@ export function askedAfter(
   step: Step,
   known: MotionSet['futures'] = editor.motion.peek().futures,
 ): Asked {
-  if (step.everybody) return { agents: 'all', react: false, step };
+  if (step.everybody) return everybodyAnew(scene, step, known);
   const mine = touchedIn(scene);
   if (!mine.length) return 'nothing';
   const others = othersThatAnswer(scene);
@@ -30,7 +31,16 @@ export function askedAfter(
     const react = picked.length > 1 || others !== 'all' ? rest : true;
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
-  const asked = whoIsAsked(scene, mine, known, subject ? [subject.id] : (step.several ?? []));
+  const held = heldIn(scene, known);
+  const asked = whoIsAsked(scene, mine, known, subject ? [subject.id] : (step.several ?? [])).filter(
+    (id) => !held.has(id),
+  );
+  if (!asked.length && held.size) {
+    // A pinned future stays as it is, whatever else is drawn anew: others answer it as any that is picked.
+    const rest = others === 'all' ? free(scene) : others;
+    const ids = [...held];
+    return { agents: ids, pinned: ids, react: rest, step, kept: new Set(picked) };
+  }
   const rest = (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
   const react = picked.length || others !== 'all' ? rest : true;
   return { agents: asked, react, step, kept: new Set(picked.filter((id) => !asked.includes(id))) };
@@ -67,3 +77,15 @@ function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['
   const kept = new Set(mine.filter((id) => !open.includes(id)));
   return open.length ? { agents: open, react: false, step, kept } : 'known';
 }
+
+/** Everybody is drawn anew but those that take a pinned future: these go on as they do, and the others see it. */
+function everybodyAnew(scene: Scene, step: Step, known: MotionSet['futures']): Asked {
+  const held = heldIn(scene, known);
+  if (!held.size) return { agents: 'all', react: false, step };
+  const agents = [...scene.agents.values()].filter((a) => canChange(a) && !held.has(a.id)).map((a) => a.id);
+  return agents.length ? { agents, react: false, step, kept: held } : 'known';
+}
+
+/** Those that take a pinned future that is known. */
+const heldIn = (scene: Scene, known: MotionSet['futures']): ReadonlySet<string> =>
+  new Set([...scene.agents.values()].filter((a) => takenPin(a) && known.has(a.id)).map((a) => a.id));

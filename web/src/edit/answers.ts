@@ -3,6 +3,7 @@
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { findChanges, type Change } from '../model/changes';
 import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
+import { withTaken } from '../model/pins';
 import { sceneKey, type Scene } from '../model/scene';
 import type { SpeedUnit } from '../model/units';
 
@@ -77,8 +78,10 @@ export class Answers {
       this.#foreseen.value = null;
       this.#liveReach.value = null;
       this.#remark.value = null;
-      this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
-      if (saved) this.#cache.put(saved);
+      const known = saved ?? emptyMotion(sceneKey(scene));
+      // What a pinned future is stands in the document, also where its answer was not kept.
+      this.#motion.value = { ...known, futures: withTaken(scene, known.futures) };
+      if (saved) this.#cache.put(this.#motion.value);
       this.#status.value = { kind: 'ready' };
     });
   }
@@ -141,9 +144,19 @@ export class Answers {
       }
       const m = this.#motion.peek();
       const keeps = fresh && m.futures.has(fresh) ? fresh : null;
-      const driving = keeps ? new Set([...m.driving, keeps]) : m.driving;
-      this.#motion.value = { ...m, key, stale: true, fresh: keeps, driving };
+      const futures = withTaken(scene, m.futures, keeps);
+      const taken = [...futures].flatMap(([id, f]) => (m.futures.get(id) === f ? [] : [id]));
+      const driving = keeps || taken.length ? new Set([...m.driving, ...taken, ...(keeps ? [keeps] : [])]) : m.driving;
+      this.#motion.value = { ...m, futures, key, stale: true, fresh: keeps, driving };
     });
+  }
+
+  /** Other things count: everybody goes on as they do. Looks that nobody follows are judged when asked anew. */
+  countsOtherwise(scene: Scene): void {
+    const key = sceneKey(scene);
+    const m = this.#motion.peek();
+    const futures = new Map([...m.futures].filter(([id]) => m.driving.has(id)));
+    this.#motion.value = this.#cache.get(key) ?? { ...m, key, futures };
   }
 
   /** Who has gone from the scene has no motion any more. */

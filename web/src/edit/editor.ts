@@ -78,6 +78,8 @@ export interface Step {
   readonly undo: boolean;
   /** Everybody is to be worked out anew. */
   readonly everybody?: boolean;
+  /** The motions stand, only what counts in them is another thing. */
+  readonly counting?: boolean;
 }
 
 /** Why the document can be looked at only, and the way out. */
@@ -382,6 +384,7 @@ export class Editor {
     const changed = changedAgents(before, scene);
     const agent = changed.length === 1 ? changed[0] : null;
     const several = changed.length > 1 ? changed : undefined;
+    const counting = before.thresholds !== scene.thresholds && !this.motion.peek().stale;
     batch(() => {
       this.#show(scene);
       this.#followCast(before, scene);
@@ -389,10 +392,15 @@ export class Editor {
       this.#selectedEvent.value = null;
       // A scene may have become shorter.
       this.playhead.moveTo(Math.min(this.time.peek(), scene.duration));
-      this.answers.documentChanged(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
+      if (counting) this.answers.countsOtherwise(scene);
+      else this.answers.documentChanged(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
-    this.onCommit?.(scene, { name, agent, several, undo, ...(everybody ? { everybody } : {}) });
+    this.onCommit?.(scene, {
+      ...{ name, agent, several, undo },
+      ...(everybody && !counting ? { everybody } : {}),
+      ...(counting ? { counting } : {}),
+    });
   }
 
   /** Who has come is selected, who has gone is not. */

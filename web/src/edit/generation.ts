@@ -6,7 +6,8 @@ import type { MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
 import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
-import { trackJson } from '../model/write';
+import { countedAnew } from '../model/rejudge';
+import { thresholdsOf, trackJson } from '../model/write';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';
@@ -173,6 +174,7 @@ export class Generation implements Previews {
       this.generator.cancel();
       editor.answers.report({ kind: 'ready' });
       this.#selected(editor.selection.peek());
+      if (step.counting) void this.score(step);
     } else if (this.#absence.now) {
       this.#absence.wait();
       if (step.agent) this.#sketch(step.agent, true);
@@ -284,11 +286,17 @@ export class Generation implements Previews {
     );
     const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
     try {
-      const reply = await this.generator.score(this.file.reference(scene), trajectories, abort.signal);
+      const reply = await this.generator.score(
+        this.file.reference(scene),
+        trajectories,
+        thresholdsOf(scene),
+        abort.signal,
+      );
       if (editor.scene.peek() !== scene) return;
       const score = readScore(reply);
       const { futures } = editor.motion.peek();
-      editor.answers.scored(score, score ? judgedCurves(scene, futures, score) : futures);
+      const judged = score ? judgedCurves(scene, futures, score) : futures;
+      editor.answers.scored(score, score && step?.counting ? countedAnew(scene, judged, score) : judged);
       if (step && !quiet) this.#reception.settled(step, 0);
     } catch (e) {
       // Without a score there are no events to show; the motions stand.

@@ -1,12 +1,14 @@
 // What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
 import { insideBox, type OnLine, type Vec } from '../model/geometry';
-import { canChange, startPose, type Agent } from '../model/scene';
+import type { Motion } from '../model/motion';
+import { canChange, startPose, type Agent, type Pin } from '../model/scene';
 import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
 import type { Rect } from '../draw/labels';
 import { sizeOnScreen } from '../draw/sprites';
 import type { Chip } from '../draw/strokes';
 import type { View } from '../draw/view';
 import type { Editor, Grip, HandleName, Part } from './editor';
+import { pinsApart } from './pins';
 import type { StopBar } from './overlay-stops';
 import type { RoadSign } from './overlay-verdicts';
 import { frameAround, poseShown } from './frame';
@@ -15,6 +17,8 @@ import { onPennant, ringRadius, type Pennant } from '../draw/marks';
 export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
+  /** A pinned one that is none of the futures. */
+  | { kind: 'pinned'; pin: Pin }
   | { kind: 'by-road' }
   /** The bar of a stop, by its point of the speed curve. */
   | { kind: 'stop'; point: number }
@@ -90,6 +94,8 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   const f = c.editor.futures.value;
   if (a && f && c.editor.layers.value.futures)
     for (let i = 0; i < f.modes.length; i++) if (futureAt(c, i, x, y)) return { kind: 'future', index: i };
+  if (a && c.editor.layers.value.futures)
+    for (const { pin, motion } of pinsApart(c.editor)) if (wayAt(c, motion, x, y)) return { kind: 'pinned', pin };
   return NOTHING;
 }
 
@@ -227,7 +233,10 @@ export function agentsAt(c: HitContext, x: number, y: number): string[] {
 
 function futureAt(c: HitContext, index: number, x: number, y: number): boolean {
   const m = c.editor.futures.value?.modes[index]?.motion;
-  if (!m) return false;
+  return m !== undefined && wayAt(c, m, x, y);
+}
+
+function wayAt(c: HitContext, m: Motion, x: number, y: number): boolean {
   const reach = c.touch ? 14 : 5;
   let p = c.view.to(m.x[0], m.y[0]);
   for (let i = 1; i < m.x.length; i++) {

@@ -21,10 +21,12 @@ import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { HoveredOverlay } from './overlay-hovered';
+import { paintPins, paintPinWords } from './overlay-pins';
 import { paintStops, type StopBar } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 import { paintVias } from './overlay-via';
+import { pinsApart } from './pins';
 import { saidOf } from './rounds/said';
 import { TEXTS } from '../texts/picture';
 
@@ -208,6 +210,8 @@ export class Overlay {
     this.goal.paintLaneGlow(g, v);
     if (e.layers.value.reach) this.goal.paintAllReach(g, v, a);
     this.goal.paintReach(g, v, a);
+    const pins = this.six ? pinsApart(e) : [];
+    paintPins(g, v, pins, e.drag.value !== null || e.hoverFuture.value !== null);
     if (this.six) this.paintSix(g, v, a);
     if (e.layers.value.log) this.paintLog(g, v, a, now);
     this.hovered.paint(g, v, a);
@@ -248,6 +252,7 @@ export class Overlay {
     this.stops = paintStops(g, this.labels, v, e, a);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
+    if (!e.drag.value) paintPinWords(g, this.labels, v, pins);
     this.goal.dragLabels(g, v, a, goal);
   }
 

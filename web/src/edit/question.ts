@@ -4,7 +4,7 @@ import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../model/json';
 import type { Futures, MotionSet } from '../model/futures';
 import { doing, GOAL_TIME, profileOf, type Scene } from '../model/scene';
-import { castJson, conditionOf, generatedJson, isEmptyCondition, withStill } from '../model/write';
+import { castJson, conditionOf, generatedJson, isEmptyCondition, thresholdsOf, withStill } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
@@ -86,6 +86,7 @@ export class Questions {
       // What it knows of the others it has itself.
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
+      ...thresholdsOf(scene),
       ...(w.feedback ? { feedback: w.feedback } : {}),
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
       // One window is the default and needs no words.

@@ -107,7 +107,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
           ],
         }
       : null;
-  const { picked, variants, feedback, scene_feedback: whole } = scene.x_editor ?? {};
+  const { picked, variants, feedback, pins, scene_feedback: whole } = scene.x_editor ?? {};
   const one = picked && Object.fromEntries(Object.keys(picked).map((id) => [id, 0]));
   return {
     ...scene,
@@ -117,6 +117,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
     x_editor: {
       ...scene.x_editor,
       picked: parts.futures ? one : undefined,
+      pins: parts.futures ? (parts.words ? pins : unnamedPins(pins)) : undefined,
       feedback: parts.futures ? (parts.words ? feedback : unnamed(feedback)) : undefined,
       scene_feedback: parts.futures && whole ? (parts.words ? whole : withoutNames(whole)) : undefined,
       // Their motion is worked out again where somebody looks at them.
@@ -130,3 +131,5 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
 const withoutNames = (f: Feedback): Feedback => ({ ...f, answers: f.answers.map((a) => ({ ...a, name: '' })) });
 const unnamed = (all: EditorJson['feedback']): EditorJson['feedback'] =>
   all && Object.fromEntries(Object.entries(all).map(([id, f]) => [id, withoutNames(f)]));
+const unnamedPins = (all: EditorJson['pins']): EditorJson['pins'] =>
+  all && Object.fromEntries(Object.entries(all).map(([id, list]) => [id, list.map((p) => ({ ...p, name: '' }))]));

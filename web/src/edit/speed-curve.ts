@@ -18,7 +18,7 @@ import {
 } from '../model/profile';
 import type { Way } from '../model/curve-fit';
 import { pointAt, project, type Pose, type Vec } from '../model/geometry';
-import type { Motion } from '../model/motion';
+import { poseAt, type Motion } from '../model/motion';
 import { judgedBy } from '../model/rejudge';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/scene';
 import { stopPlaces, type StopPlace } from '../model/stop-places';
@@ -27,6 +27,9 @@ import { TEXTS } from '../texts/moves';
 
 /** A front so near to where one stops stands there, metres. */
 const THERE_M = 0.6;
+
+/** A new point keeps so far from others, seconds. */
+const ROOM_S = 0.4;
 
 const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPlace | undefined =>
   all.filter((p) => Math.abs(p.s - s) <= within).sort((p, q) => Math.abs(p.s - s) - Math.abs(q.s - s))[0];
@@ -164,11 +167,28 @@ export class SpeedCurve {
     this.release();
   }
 
-  add(t: number, v: number): void {
+  /** A point, or a stop of so many seconds, where the playhead is; else in the middle of the widest gap. */
+  addHere(hold: number | null): void {
+    const points = this.points.peek();
+    const motion = this.editor.futures.peek()?.modes[this.editor.chosen.peek()]?.motion;
+    if (points.length < 2 || !motion) {
+      this.editor.notices.show({ text: this.why ?? TEXTS.thereIsNoRoom });
+      return;
+    }
+    const gaps = points.slice(1).map((p, i) => ({ from: points[i].t + points[i].hold, to: p.t }));
+    const now = this.editor.time.peek();
+    const here = gaps.some(({ from, to }) => now > from + ROOM_S && now < to - ROOM_S - (hold ?? 0));
+    const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
+    const t = here ? now : (widest.from + widest.to - (hold ?? 0)) / 2;
+    const v = hold === null ? Math.abs(poseAt(motion, t)?.speed ?? 0) : 0;
+    this.add(t, v, hold ?? 0);
+  }
+
+  add(t: number, v: number, hold = 0): void {
     const base = this.profile.peek() ?? this.#begun();
     const a = this.editor.agent.peek();
     if (!base || !a) return;
-    const added = addedPoint(base.points, { t: Math.round(t * 10) / 10, v: Math.min(topSpeed(a), v), hold: 0 });
+    const added = addedPoint(base.points, { t: Math.round(t * 10) / 10, v: Math.min(topSpeed(a), v), hold });
     if (!added) {
       this.editor.notices.show({ text: TEXTS.thereIsNoRoom });
       return;

@@ -1486,6 +1486,11 @@ export interface components {
          */
         FinalEvent: {
             /**
+             * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
+             *     options, seed, weights and version. Equal calls have equal codes.
+             */
+            code: string;
+            /**
              * Format: double
              * @description Since the request was read, milliseconds.
              */
@@ -1775,6 +1780,27 @@ export interface components {
              * @default chosen
              */
             stream_modes?: components["schemas"]["StreamModes"];
+            /**
+             * @description Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
+             *     absent have their defaults. They change no motion.
+             * @default {
+             *       "closing_speed_mps": 1,
+             *       "covered_share": 0.5,
+             *       "follow_brake_mps2": 3.35,
+             *       "gap_m": 1,
+             *       "goal_heading_rad": 0.02,
+             *       "goal_position_m": 0.05,
+             *       "goal_speed_mps": 0.05,
+             *       "harsh_brake_mps2": 4,
+             *       "harsh_lateral_mps2": 4,
+             *       "iou": 0,
+             *       "moving_mps": 0.5,
+             *       "offroad_m": 0.1,
+             *       "right_on_red": true,
+             *       "ttc_s": 1.5
+             *     }
+             */
+            thresholds?: components["schemas"]["Thresholds"];
         } & ({
             scene: unknown;
         } | {

@@ -1,5 +1,6 @@
 // A case in words: what is looked for, what a found one is, and what came nearest.
 import { KINDS, type Moment, type Sought, type What } from './cases';
+import type { Pose } from './geometry';
 import { startPose, type Agent, type Scene } from './scene';
 import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit } from './units';
 import { TEXTS } from '../texts/cases';
@@ -10,6 +11,7 @@ export const KIND_WORDS: Readonly<Record<What, string>> = {
   first: TEXTS.whoComesFirst,
   braking: TEXTS.hardBrakingNo,
   goal: TEXTS.goalReachedLittle,
+  red: TEXTS.redLight,
 };
 
 /** What the search is called. */
@@ -19,6 +21,7 @@ export const TITLES: Readonly<Record<What, string>> = {
   first: TEXTS.findWhoComesFirst,
   braking: TEXTS.findHardBraking,
   goal: TEXTS.findATightArrival,
+  red: TEXTS.findARedLight,
 };
 
 /** As in `find a near miss between …`. */
@@ -28,6 +31,7 @@ const SENTENCES: Readonly<Record<What, (a: string, b: string | null) => string>>
   first: (a, b) => TEXTS.justBefore(a, b ?? TEXTS.somebody),
   braking: (a) => TEXTS.hardBrakingOf(a),
   goal: (a, b) => TEXTS.atItsGoalWith(a, b ?? TEXTS.others),
+  red: (a) => TEXTS.runsARedLight(a),
 };
 
 export const sentenceOf = (what: What, a: string, b: string | null): string => SENTENCES[what](a, b);
@@ -37,16 +41,27 @@ export function momentWords({ what }: Sought, m: Moment): string {
   const at = TEXTS.at(seconds(m.time));
   if (what === 'collision') return m.found ? TEXTS.collision2(at) : `${metres(m.value, 1)} ${at}`;
   if (what === 'first') return m.value >= 0 ? TEXTS.sAhead(num(m.value, 1), at) : TEXTS.sBehind(num(-m.value, 1), at);
+  if (what === 'red') return m.found ? TEXTS.atRed(at) : TEXTS.fromARedLight(metres(m.value, 1), at);
   const { unit } = KINDS[what];
   return `${unit === 'm' ? metres(m.value, 1) : unit === 's' ? seconds(m.value) : acceleration(m.value)} ${at}`;
 }
 
+/** Metres from one place to another, below 0 where it lies behind. */
+function along(p: Pose, q: Pose): number {
+  const d = Math.hypot(q.x - p.x, q.y - p.y);
+  const ahead = (q.x - p.x) * Math.cos(p.heading) + (q.y - p.y) * Math.sin(p.heading);
+  return d < 0.05 ? 0 : ahead < 0 ? -d : d;
+}
+
 /** How it happens: where the other one is, and what the one who is tried begins with. */
-export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit): string[] {
+export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit, was?: Agent): string[] {
   const start = startPose(a);
+  const before = was && startPose(was);
+  const moved = start && before ? along(before, start) : 0;
   const other = m.other === null ? null : scene.agents.get(m.other)?.name;
   return [
     start ? TEXTS.startsAt(speedLabel(start.speed, unit)) : '',
+    moved ? (moved > 0 ? TEXTS.furtherOn : TEXTS.furtherBack)(metres(Math.abs(moved), 1)) : '',
     a.goal.pos ? TEXTS.atItsGoalAt(seconds(a.goal.time)) : '',
     other && m.side ? `${other} ${TEXTS.sides[m.side]}` : '',
   ].filter(Boolean);

@@ -2,11 +2,11 @@
 import { motionOf } from './changes';
 import { closestTo, type Moving } from './closest';
 import type { MotionSet } from './futures';
-import { wrapAngle, type Vec } from './geometry';
+import { pointAt, wrapAngle, type Vec } from './geometry';
 import { poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 import { canChange, type Agent, type Scene } from './scene';
 
-export type What = 'near' | 'collision' | 'first' | 'braking' | 'goal';
+export type What = 'near' | 'collision' | 'first' | 'braking' | 'goal' | 'red';
 
 /** What is looked for. */
 export interface Sought {
@@ -31,6 +31,7 @@ export const KINDS: Readonly<
   first: { limit: 2, step: 0.1, unit: 's', range: [0.1, 10], two: true },
   braking: { limit: 4, step: 0.5, unit: 'm/s²', range: [1, 9], two: false },
   goal: { limit: 2, step: 0.1, unit: 'm', range: [0.1, 20], two: false },
+  red: { limit: 0, step: 0, unit: 'm', range: [0, 0], two: false },
 };
 
 /** Where the other one is as seen from the one who is tried. */
@@ -79,6 +80,8 @@ export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null
       return braking(one, others, scene, s);
     case 'goal':
       return arrival(one, others, scene, s);
+    case 'red':
+      return redLight(one, scene, set, s);
   }
 }
 
@@ -183,6 +186,42 @@ function arrival(one: Moving, others: readonly Moving[], scene: Scene, s: Sought
   const found = off <= AT_GOAL_M && !hit && c.gap <= s.limit;
   const miss = Math.min(FAR, c.gap + Math.max(0, off - AT_GOAL_M) + (hit ? s.limit * 2 : 0));
   return momentAt(one, c.b, others, { value: c.gap, time: c.time, found, miss });
+}
+
+/** A signal that one goes by stands no further than this from its way, metres. */
+const BESIDE_M = 6;
+/** One that is for it lies in the direction that it drives in, radians. */
+const OWN_RAD = 0.8;
+
+/** Does the generator's verdict on its motion say that it runs a red light? Else how near it comes to a red one. */
+function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment | null {
+  const f = set.futures.get(s.who);
+  const m = f?.modes[Math.min(f.modes.length - 1, one[0].chosen ?? f.chosen)];
+  const run = m?.about?.faults.find((x) => x.kind === 'red_light');
+  if (run) {
+    const value = run.extent ?? 0;
+    return { value, time: run.time, at: run.at, other: null, side: null, found: true, miss: -value };
+  }
+  let best: { d: number; time: number } | null = null;
+  for (const { lane, stop, states } of scene.signals) {
+    const line = scene.map.lanes.get(lane)?.line;
+    const into = line ? pointAt(line, 0).heading : null;
+    for (let step = 0; stop && step * STEP_S <= scene.duration; step++) {
+      const p = isRed(states, step) ? poseAtStep(one[1], step) : null;
+      // Those of who comes from elsewhere are not for this one.
+      const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < OWN_RAD);
+      const d = own ? Math.hypot(stop[0] - p.x, stop[1] - p.y) : Infinity;
+      if (d < (best?.d ?? Infinity)) best = { d, time: step * STEP_S };
+    }
+  }
+  return best && momentAt(one, null, [], { value: best.d, time: best.time, found: false, miss: best.d + BESIDE_M });
+}
+
+/** States hold from their step on until the next. */
+function isRed(states: Scene['signals'][number]['states'], step: number): boolean {
+  let now = '';
+  for (const [from, state] of states) if (from <= step) now = state;
+  return /stop/.test(now);
 }
 
 /** Closer together than this in time and in the value, and on the same side, two are the same case. */

@@ -1,5 +1,5 @@
 // Who does something else than before, how much, and why.
-import { distances, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
+import { distances, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 import type { MotionSet } from './futures';
 import type { Pose } from './geometry';
 import type { ReactionJson } from './json';
@@ -148,8 +148,11 @@ function furthest(a: Motion, b: Motion, duration: number): { d: number; t: numbe
 
 /** How much later the second motion comes as far as the first; negative when earlier. */
 function secondsLost(before: Motion, after: Motion): number {
-  const s0 = distances(before),
-    s1 = distances(after);
+  // Of two that end at different times the rest of the longer one says nothing.
+  const last = Math.min(lastStep(before), lastStep(after));
+  const upTo = (m: Motion): Float64Array => distances(m).subarray(0, Math.max(0, last - m.first + 1));
+  const s0 = upTo(before),
+    s1 = upTo(after);
   const end0 = s0.at(-1) ?? 0,
     end1 = s1.at(-1) ?? 0;
   return end1 < end0 ? timeBetween(s0, end1) : -timeBetween(s1, end0);
@@ -164,17 +167,25 @@ function timeBetween(s: Float64Array, distance: number): number {
   return i < 0 ? 0 : (Math.max(i, arrived) - i) * STEP_S;
 }
 
+const firstStep = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
+
 /** Words for the ghost of the log: how far the edited road user gets from what was recorded. */
 export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: number; t: number; words: string } | null {
   if (m === a.log) return null;
   const f = furthest(a.log, m, duration);
   if (f.d < 0.3) return null;
-  const end = poseAtStep(m, Math.round(duration / STEP_S)),
-    log = poseAtStep(a.log, Math.round(duration / STEP_S));
+  const last = Math.round(duration / STEP_S);
+  const end = poseAtStep(m, last),
+    log = poseAtStep(a.log, last);
   let words = TEXTS.movesDifferently;
   if (end && log) {
-    const s1 = distances(m).at(-1) ?? 0,
-      s0 = distances(a.log).at(-1) ?? 0;
+    // A recording may begin before, and go on after what is worked out.
+    const from = Math.max(firstStep(m), firstStep(a.log));
+    const gone = (of: Motion): number => {
+      const s = distances(of);
+      return s[last - of.first] - (s[from - of.first] ?? 0);
+    };
+    const [s1, s0] = [gone(m), gone(a.log)];
     const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
     if (turn > 0.6) words = TEXTS.endsFacingAnother;
     else if (s1 < s0 - 2) words = TEXTS.getsLessFar(metres(s0 - s1, 0));

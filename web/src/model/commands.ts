@@ -49,6 +49,7 @@ const PATCHABLE = [
   'locked',
   'does',
   'feedback',
+  'pins',
 ] as const;
 export type AgentPatch = Partial<Pick<Agent, (typeof PATCHABLE)[number]>>;
 
@@ -213,6 +214,7 @@ type ScenePatch = Partial<
     | 'variants'
     | 'variantStates'
     | 'feedback'
+    | 'thresholds'
   >
 >;
 

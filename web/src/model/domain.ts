@@ -28,6 +28,13 @@ const RANGES = domain.condition_ranges as unknown as Record<Exclude<AgentType, '
 
 export const DEFAULTS = domain.defaults;
 
+/** Version of the program that the page is a part of. */
+export const VERSION = domain.version;
+
+/** What counts as an event: the number unless another one is given, and the least and the most that it may be. */
+export const THRESHOLDS: Readonly<Record<string, { readonly usual: number; readonly range: readonly number[] }>> =
+  domain.thresholds;
+
 /** What places on the way may ask for. */
 export const VIAS = domain.via;
 

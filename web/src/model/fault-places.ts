@@ -28,8 +28,10 @@ const EVERY = 4;
 function placesAlong(m: Motion, fault: Fault): Vec[] {
   const out: Vec[] = [fault.at];
   const last = Math.min(m.x.length - 1, Math.round(fault.until / STEP_S) - m.first);
-  for (let i = Math.max(0, Math.round(fault.time / STEP_S) - m.first); i <= last; i += EVERY)
-    out.push([m.x[i], m.y[i]]);
+  const first = Math.max(0, Math.round(fault.time / STEP_S) - m.first);
+  for (let i = first; i <= last; i += EVERY) out.push([m.x[i], m.y[i]]);
+  // The end belongs to it: what breaks the same rule next to it is the same place.
+  if (last > first) out.push([m.x[last], m.y[last]]);
   return out;
 }
 

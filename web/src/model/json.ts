@@ -154,10 +154,21 @@ export interface EditorJson {
   /** The subtype that was recorded, of those that have been given another. */
   was?: Record<string, string>;
   variants?: VariantJson[];
+  /** Futures that stay while others are drawn anew, by road user. */
+  pins?: Record<string, PinJson[]>;
   /** What was said of futures in rounds, by road user. */
   feedback?: Record<string, Feedback>;
   /** The same of the whole scene. */
   scene_feedback?: Feedback;
+  /** What counts as an event, where that is not as usual. */
+  thresholds?: Record<string, number>;
+}
+/** A pinned future: its motion, and the start and the goal that it was made for. */
+export interface PinJson {
+  name: string;
+  type: string;
+  track: TrackJson;
+  conditions: ConditionJson;
 }
 /** A way that the scene could go: what is asked in it, and what is thought of it. */
 export interface VariantJson {

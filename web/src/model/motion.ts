@@ -104,10 +104,16 @@ export function endPose(m: Motion): Pose {
   return poseAtStep(m, last) ?? { x: m.x[m.x.length - 1] ?? 0, y: m.y[m.y.length - 1] ?? 0, heading: 0, speed: 0 };
 }
 
-/** Distance travelled up to each state. */
+/** Distance travelled up to each state. What columns hold where nobody was seen is no place: a gap is gone straight. */
 export function distances(m: Motion): Float64Array {
   const s = new Float64Array(m.x.length);
-  for (let i = 1; i < s.length; i++) s[i] = s[i - 1] + Math.hypot(m.x[i] - m.x[i - 1], m.y[i] - m.y[i - 1]);
+  let last = -1;
+  for (let i = 0; i < s.length; i++) {
+    if (i) s[i] = s[i - 1];
+    if (!isValidAt(m, m.first + i)) continue;
+    if (last >= 0) s[i] += Math.hypot(m.x[i] - m.x[last], m.y[i] - m.y[last]);
+    last = i;
+  }
   return s;
 }
 

@@ -80,6 +80,7 @@ export function settle(n: Newcomer, id: string): Agent {
     chosen: null,
     profile: null,
     dealt: null,
+    pins: Object.freeze([]),
     feedback: null,
   });
 }

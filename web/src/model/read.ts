@@ -8,6 +8,7 @@ import {
   type ConditionJson,
   type EditorJson,
   type MapJson,
+  type PinJson,
   type SceneJson,
   type TrackJson,
   type VariantJson,
@@ -34,10 +35,13 @@ import {
   type GoalSpec,
   type Kind,
   type Others,
+  type Pin,
   type Scene,
   type StartSpec,
 } from './scene';
 import type { Pose, Vec } from './geometry';
+import { keyOfPin, MOST_PINS } from './pins';
+import { readThresholds } from './thresholds';
 import { readVias } from './via';
 import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
 import { TEXTS } from '../texts/reading';
@@ -81,6 +85,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     drawn: ed.drawn ?? 0,
     ...readVariants(ed.variants, agents),
     feedback: readFeedback(ed.scene_feedback),
+    thresholds: readThresholds(ed.thresholds),
   });
 }
 
@@ -132,6 +137,7 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
     name: called ?? name,
     called,
     feedback: readFeedback(ed.feedback?.[json.id]),
+    pins: readPins(ed.pins?.[json.id], logStart),
     note: ed.notes?.[json.id] ?? '',
     locked: !!ed.locked?.includes(json.id),
     logSize: [json.length_m, json.width_m] as const,
@@ -168,6 +174,30 @@ function readConditions(
     profile: readProfile(ed.curves?.[json.id]),
     dealt: typeof dealt === 'string' && dealt ? dealt.slice(0, 32) : null,
   };
+}
+
+/** So many states are as long as the longest future. */
+const MOST_STATES = 202;
+const isColumn = (v: unknown, n: number): boolean =>
+  Array.isArray(v) && v.length === n && v.every((x) => Number.isFinite(x));
+
+/** Pinned futures as far as they can be read. */
+function readPins(json: unknown, logStart: Pose | null): readonly Pin[] {
+  const all = (Array.isArray(json) ? json.slice(0, MOST_PINS) : []) as Partial<PinJson>[];
+  const pins = all.flatMap((p): Pin[] => {
+    const t = p?.track;
+    const n = t?.x_m?.length ?? 0;
+    if (!t || n < 2 || n > MOST_STATES || !whole(t.first_step ?? 0, 0, MOST_STATES)) return [];
+    if (![t.x_m, t.y_m, t.heading_rad, t.vx_mps, t.vy_mps].every((c) => isColumn(c, n))) return [];
+    const { first_step = 0, x_m, y_m, heading_rad, vx_mps, vy_mps } = t;
+    const track = Object.freeze({ first_step, x_m, y_m, heading_rad, vx_mps, vy_mps });
+    const type = typeOf(p.type);
+    const c = typeof p.conditions === 'object' && p.conditions ? p.conditions : {};
+    const name = typeof p.name === 'string' ? p.name.slice(0, 80) : '';
+    const key = keyOfPin(type, track);
+    return [Object.freeze({ key, name, track, type, start: readStart(c, logStart), goal: readGoal(c) })];
+  });
+  return Object.freeze(pins);
 }
 
 /** The pose before the first of the futures: the start, or for one that comes in later where the log first shows it. */

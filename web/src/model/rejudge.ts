@@ -3,7 +3,7 @@
 import { FAULT_KINDS, NOTHING_SAID, type About, type Fault } from './about';
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import type { Vec } from './geometry';
-import type { Agent } from './scene';
+import type { Agent, Scene } from './scene';
 import type { Collision, Future, Futures, NearMiss, Score } from './futures';
 import type { FaultJson } from './json';
 import { endPose, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
@@ -71,6 +71,41 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
   const faults = [...judged.about!.faults];
   faults.sort((p, q) => rank(p) - rank(q) || p.time - q.time);
   return { ...judged, about: { ...about, faults }, sent: { faults: faults.map(faultJson) } };
+}
+
+const isHarsh = (x: { readonly kind: Fault['kind'] }): boolean =>
+  x.kind === 'harsh_braking' || x.kind === 'harsh_steering';
+/** Shorter ones are a jerk of the wheel or of the record, seconds. */
+const HARSH_S = 0.2;
+
+/** The futures in force after what counts was changed: the motions are the same, what is said of them may be less. */
+export function countedAnew(
+  scene: Scene,
+  futures: ReadonlyMap<string, Futures>,
+  score: Score,
+): ReadonlyMap<string, Futures> {
+  const out = new Map(futures);
+  for (const [id, f] of futures) {
+    const a = scene.agents.get(id);
+    const shown = a ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
+    const m = f.modes[shown];
+    if (!m?.about) continue;
+    const harsh = (score.stretches ?? []).filter(
+      (s) => s.agent === id && !s.inLog && isHarsh({ kind: s.what }) && s.until - s.time >= HARSH_S - 1e-6,
+    );
+    const now = harsh.flatMap((s): Fault[] => {
+      const p = poseAt(m.motion, s.time);
+      return p
+        ? [{ kind: s.what, time: s.time, until: s.until, at: [p.x, p.y], extent: s.extent, with: null, edge: null }]
+        : [];
+    });
+    const faults = [...m.about.faults.filter((x) => !isHarsh(x)), ...now];
+    faults.sort((p, q) => rank(p) - rank(q) || p.time - q.time);
+    const judged = { ...m, about: { ...m.about, faults }, sent: { ...m.sent, faults: faults.map(faultJson) } };
+    const met = withMeetingsOf(score, id, judged);
+    out.set(id, { ...f, modes: f.modes.map((was, i) => (i === shown ? met : was)) });
+  }
+  return out;
 }
 
 // -------------------------------------------------------------- others have changed

@@ -5,7 +5,7 @@ import { DEFAULTS } from './domain';
 import type { Feedback } from './feedback';
 import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
-import { STEP_S, type Motion } from './motion';
+import { STEP_S, type Columns, type Motion } from './motion';
 import type { Profile } from './profile';
 import type { Variant, VariantState } from './variants';
 import { NO_VIAS, type Via } from './via';
@@ -64,8 +64,22 @@ export interface Agent {
   readonly profile: Profile | null;
   /** Names the round of cards that its futures are from, where one of those was picked. */
   readonly dealt: string | null;
+  /** Futures that stay while others are drawn anew, in the order in which they were pinned. */
+  readonly pins: readonly Pin[];
   /** What was said of its futures in rounds; null where nothing was. */
   readonly feedback: Feedback | null;
+}
+
+/** A future that stays: its motion, and what it was made for. */
+export interface Pin {
+  /** Names the motion. */
+  readonly key: string;
+  /** What it was called. */
+  readonly name: string;
+  readonly track: Columns;
+  readonly type: AgentType;
+  readonly start: StartSpec;
+  readonly goal: GoalSpec;
 }
 
 export interface Signal {
@@ -104,7 +118,13 @@ export interface Scene {
   readonly variantStates: Readonly<Record<number, VariantState>>;
   /** What was said in rounds of the whole scene; null where nothing was. */
   readonly feedback: Feedback | null;
+  /** What counts as an event, where that is not as usual. */
+  readonly thresholds: Thresholds;
 }
+
+/** Numbers by the names that the server has for them. */
+export type Thresholds = Readonly<Record<string, number>>;
+export const NO_THRESHOLDS: Thresholds = Object.freeze({});
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
 export const GOAL_TIME = DEFAULTS.horizon_s;
@@ -212,6 +232,7 @@ function keyOf(scene: Scene): string {
     scene.drawn,
   ];
   parts.push(scene.roster);
+  if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
     if (profileOf(a)) parts.push([a.id, a.profile]);

@@ -8,6 +8,7 @@ import type {
   GoalJson,
   MapJson,
   MapRef,
+  PinJson,
   SampleJson,
   SceneJson,
   StartJson,
@@ -29,6 +30,7 @@ import {
   touched,
   profileOf,
   type Agent,
+  type Pin,
   type Scene,
 } from './scene';
 import type { Futures, MotionSet } from './futures';
@@ -192,9 +194,14 @@ export function writeScene(
       ...ofAgents(scene.agents.values()),
       ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
       ...(scene.feedback ? { scene_feedback: scene.feedback } : {}),
+      ...thresholdsOf(scene),
     },
   };
 }
+
+/** What counts, where that is not as usual: for files and for questions. */
+export const thresholdsOf = (s: Scene): { thresholds?: Record<string, number> } =>
+  Object.keys(s.thresholds).length ? { thresholds: { ...s.thresholds } } : {};
 
 /** Variants as the file has them. */
 export const variantsJson = (scene: Scene): VariantJson[] =>
@@ -226,6 +233,13 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
     };
   });
 
+const pinJson = (a: Agent, { name, type, track, start, goal }: Pin): PinJson => ({
+  name,
+  type,
+  track: track as TrackJson,
+  conditions: writtenCondition({ ...a, start, goal }),
+});
+
 /** What only the editor knows of single road users. */
 export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   const all = [...agents];
@@ -249,6 +263,7 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
     locked: ids((a) => a.locked),
     does: entries((a) => a.does),
     feedback: entries((a) => a.feedback),
+    pins: entries((a) => (a.pins.length ? a.pins.map((p) => pinJson(a, p)) : null)),
     placed: ids((a) => a.placed),
     was: entries((a) => (a.placed || a.subtype === a.logSubtype ? null : a.logSubtype)),
   };

@@ -29,6 +29,9 @@ export interface Handlers {
   dropped?(): void;
 }
 
+/** What counts in a score, where that is not as usual. */
+export type Counting = { readonly thresholds?: Record<string, number> };
+
 /** Motions to be scored, by road user; all others do as the scene says. */
 export type Trajectories = Readonly<Record<string, unknown>>;
 
@@ -38,7 +41,7 @@ export interface Generator {
   /** Drops everything on its way. */
   cancel(): void;
   /** Collisions and near misses of motions that are known already. */
-  score(scene: SceneRef, trajectories: Trajectories, signal: AbortSignal): Promise<ScoreReply>;
+  score(scene: SceneRef, trajectories: Trajectories, what: Counting, signal: AbortSignal): Promise<ScoreReply>;
   /** Is anybody there? */
   answers(): Promise<boolean>;
 }

@@ -1,7 +1,7 @@
 // The generator behind the HTTP API: one request on the way, one waiting, the newest wins.
 import type { SceneJson } from '../model/json';
 import type { Client } from './client';
-import type { Generator, Question, SceneRef, Trajectories } from './generator';
+import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
 import type { Answer, Line } from './line';
 import type { ScoreReply } from './types';
 
@@ -70,10 +70,10 @@ export class HttpGenerator implements Generator {
     return this.client.answers();
   }
 
-  score(scene: SceneRef, trajectories: Trajectories, signal: AbortSignal): Promise<ScoreReply> {
+  score(scene: SceneRef, trajectories: Trajectories, what: Counting, signal: AbortSignal): Promise<ScoreReply> {
     const motions = Object.keys(trajectories).length ? { trajectories } : {};
     const part = 'id' in scene ? { scene_id: scene.id } : { scene: scene.scene };
-    return this.client.score({ ...part, ...motions }, signal);
+    return this.client.score({ ...part, ...motions, ...what }, signal);
   }
 
   get busy(): boolean {

@@ -21,7 +21,14 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 /** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
 export type GenerateOptions = Pick<
   Schemas['GenerateRequest'],
-  'draft_interval_ms' | 'feedback' | 'horizon_s' | 'kept_futures' | 'pinned' | 'replan_interval_s' | 'shown'
+  | 'draft_interval_ms'
+  | 'feedback'
+  | 'horizon_s'
+  | 'kept_futures'
+  | 'pinned'
+  | 'replan_interval_s'
+  | 'shown'
+  | 'thresholds'
 > &
   Required<
     Pick<

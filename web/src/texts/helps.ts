@@ -2,6 +2,8 @@
 import { table } from './table';
 
 export const HELPS = table('helps', {
+  itStaysWhile: 'It stays, on the picture and in the list, while others are drawn anew; once more lets it go',
+  howNearAndHard: 'How near and how hard something must be to count as a near miss or hard braking in this scene',
   triesSpeeds: 'Tries speeds, goal times and seeds of a road user until a near miss, hard braking or the like happens',
   goesOnUntil: 'Goes on until it is found or stopped; you can keep editing',
   thePickedWay: 'The picked way between two lanes of a map that is being made',

@@ -80,7 +80,7 @@ export const TEXTS = table('hud', {
   generatorAway2: 'Generator away',
   showingFutures: 'Showing futures to the nearest reachable point',
   six: 'Six',
-  futures: (it: number | string) => `${it} futures`,
+  futures: (it: number | string) => (it === 1 ? 'One future' : `${it} futures`),
   othersAdapted: (adapted: number) =>
     plural(adapted, { one: `${adapted} other adapted`, other: `${adapted} others adapted` }),
   ready: 'Ready',

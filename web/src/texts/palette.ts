@@ -22,5 +22,6 @@ export const TEXTS = table('palette', {
   askedForFirst: 'first before',
   askedForBraking: 'brak',
   askedForGoal: 'goal reach',
+  askedForRed: 'red light signal',
   parked: 'parked',
 });

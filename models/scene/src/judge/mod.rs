@@ -63,6 +63,13 @@ impl<'a> Judge<'a> {
         Self { lines: stop_lines(&input), input }
     }
 
+    /// The same by other thresholds; a wheel that touches the kerb stays no event.
+    #[must_use]
+    pub fn with_thresholds(mut self, thresholds: Thresholds) -> Self {
+        self.input.thresholds = Thresholds { offroad_m: thresholds.offroad_m.max(PAST_EDGE_M), ..thresholds };
+        self
+    }
+
     /// Somebody to meet.
     pub fn other(&self, actor: Actor<'a>) -> Other<'a> {
         let mover = Mover::new(&actor, self.input.steps.clone());

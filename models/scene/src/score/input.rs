@@ -77,6 +77,13 @@ pub struct Threshold {
     of: fn(&Thresholds) -> f64,
 }
 
+impl Threshold {
+    /// The value unless another one is given.
+    pub fn usual(&self) -> f64 {
+        (self.of)(&Thresholds::default())
+    }
+}
+
 impl Thresholds {
     /// [`Self::iou`].
     pub const IOU: Threshold = Threshold { name: "iou", range: (0.0, 1.0), of: |t| t.iou };

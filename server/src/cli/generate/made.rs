@@ -51,6 +51,8 @@ pub struct Made {
     pub all_samples: usize,
     /// Who was in the scene's futures before and was not asked for.
     pub kept: Vec<String>,
+    /// Names what it follows from, in six characters.
+    pub code: String,
 }
 
 impl Maker<'_> {
@@ -126,6 +128,7 @@ impl Maker<'_> {
             samples: numbers,
             all_samples,
             kept: others,
+            code: task.code,
         })))
     }
 }

@@ -35,6 +35,7 @@ pub fn lines(made: &Made, args: &GenerateArgs) -> Vec<String> {
             None => format!("{kept} samples; the lines are about the first"),
         });
     }
+    lines.push(format!("code: {}", made.code));
     lines
 }
 

@@ -4,7 +4,8 @@ import { KINDS, type Sought, type What } from '../../model/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
 import { MOST_TRIES, type Case, type Cases } from '../../edit/cases/cases';
-import { accelerationUnit, leftWords, lengthText, lengthUnit, num } from '../../model/units';
+import { PLACE_MORE_M } from '../../model/attempts';
+import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/units';
 import { useAlbum } from '../variants/album';
 import { LivePicture, type Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
@@ -126,6 +127,7 @@ function Sentence({ cases, sought }: Of) {
             ['speed', TEXTS.startSpeed],
             ['time', TEXTS.goalTime],
             ['seed', TEXTS.seed],
+            ['place', TEXTS.placeWithin(metres(PLACE_MORE_M, 0))],
           ] as const
         ).map(([k, words]) => (
           <button
@@ -218,6 +220,11 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
             {TEXTS.letGoalTimeChange}
           </button>
         )}
+        {may.place ? null : (
+          <button type="button" class="opt" onClick={() => cases.toggleMay('place')}>
+            {TEXTS.letItsPlace}
+          </button>
+        )}
         {may.speed ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('speed')}>
             {TEXTS.letStartSpeed}
@@ -232,6 +239,8 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
     </>
   );
 }
+
+const ORDER: Partial<Record<What, string>> = { braking: TEXTS.hardestFirst, red: TEXTS.fastestFirst };
 
 function Found({ cases, sought }: Of) {
   const all = cases.found.value;
@@ -251,7 +260,7 @@ function Found({ cases, sought }: Of) {
     <section class="sect last" aria-label={TEXTS.casesThatWere}>
       <h3>
         {TEXTS.found2}
-        <small>{sought.what === 'braking' ? TEXTS.hardestFirst : TEXTS.closestFirst}</small>
+        <small>{ORDER[sought.what] ?? TEXTS.closestFirst}</small>
       </h3>
       <div class="cases" ref={list} onKeyDown={walk}>
         {all.map((c, i) => (
@@ -297,11 +306,12 @@ function Found({ cases, sought }: Of) {
 function Words({ found: { id, take, moment, like }, sought }: { found: Case; sought: Sought }) {
   const { editor } = useApp();
   const a = take.scene.agents.get(sought.who)!;
+  const from = useCases()?.from.value?.scene.agents.get(sought.who);
   return (
     <span class="words">
       <span>{TEXTS.case(id)}</span>
       <b>{momentWords(sought, moment)}</b>
-      {howWords(a, take.scene, moment, editor.unitOf(a)).map((words) => (
+      {howWords(a, take.scene, moment, editor.unitOf(a), from).map((words) => (
         <small key={words}>{words}</small>
       ))}
       {like ? <small>{TEXTS.andLikeIt(like)}</small> : null}

@@ -17,6 +17,8 @@ export interface Entry {
   readonly group: string;
   readonly icon: string;
   readonly keys: readonly string[];
+  /** Has a letter of its own: what is done most often of several that answer as well. */
+  readonly common?: boolean;
   /** Not possible now; the note says why. */
   readonly off: boolean;
   run(): void;
@@ -54,9 +56,12 @@ export function fit(text: string, words: readonly string[]): number {
   return sum / words.length;
 }
 
+/** More than what begins with the words has before what has them within. */
+const COMMON = 1.5;
+
 /** The group with the best answer first, and in each group the best first. */
 function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
-  const worth = (e: Entry): number => (e.off ? -10 : 0) + (fit(e.label, words) || 0.5);
+  const worth = (e: Entry): number => (e.off ? -10 : 0) + (e.common ? COMMON : 0) + (fit(e.label, words) || 0.5);
   const best = new Map<string, number>();
   for (const e of found) best.set(e.group, Math.max(best.get(e.group) ?? -Infinity, worth(e)));
   return [...found].sort(
@@ -79,6 +84,7 @@ function actions(c: Context, words: readonly string[]): Entry[] {
       group: agent && FOR_AGENT.includes(a.group) ? TEXTS.for(agent.name) : GROUP_TITLES[a.group],
       icon: a.icon ?? 'key',
       keys: a.keys ?? [],
+      common: !moves && /^[A-Z]$/.test(a.keys?.[0] ?? ''),
       off: can !== true,
       run: () => perform(c, a.id),
     });
@@ -170,6 +176,7 @@ const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
   ['first', anyOf(TEXTS.askedForFirst)],
   ['braking', anyOf(TEXTS.askedForBraking)],
   ['goal', anyOf(TEXTS.askedForGoal)],
+  ['red', anyOf(TEXTS.askedForRed)],
 ];
 
 /** `4.2` jumps to that time. */

@@ -8,7 +8,7 @@ import { TEXTS } from '../../texts/hud';
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
 
 export function Coach() {
-  const { editor, form, rounds, searching, ui } = useApp();
+  const { editor, form, rounds, searching, ui, variants } = useApp();
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -20,6 +20,7 @@ export function Coach() {
       // Those who look for something else have found their way.
       !searching.open.value &&
       !rounds.isOpen.value &&
+      !variants.open.value &&
       editor.resting.value !== null,
   );
   if (!shown.value) return null;

@@ -4,14 +4,22 @@ import { project } from '../../model/geometry';
 import { lineOf, stopsOf, type SpeedPoint } from '../../model/profile';
 import { metres, seconds, speedLabel } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/curve-section';
 import type { LiveAgent } from './use-agent';
 
+/** So long a new stop lasts, seconds. */
+const STOP_S = 2;
+
 export function CurveSection({ agent }: { agent: LiveAgent }) {
-  const { editor } = useApp();
+  const { editor, ui } = useApp();
   const { curve } = editor;
-  const drawn = useComputed(() => curve.profile.value !== null).value;
-  if (!drawn) return null;
+  // Who opens the tall timeline is about to draw one.
+  const shown = useComputed(
+    () => curve.profile.value !== null || (ui.tall.value && curve.points.value.length > 1),
+  ).value;
+  if (!shown) return null;
   const points = curve.points.value;
   const unit = editor.unitOf(agent.value);
   return (
@@ -31,6 +39,19 @@ export function CurveSection({ agent }: { agent: LiveAgent }) {
           <small>{kindOf(p, i, points.length)}</small>
         </button>
       ))}
+      <div class="row adds">
+        <button type="button" class="btn line" onClick={() => curve.addHere(null)}>
+          <Icon name="plus" size={14} />
+          {TEXTS.point}
+        </button>
+        <button type="button" class="btn line" onClick={() => curve.addHere(STOP_S)}>
+          <Icon name="plus" size={14} />
+          {TEXTS.stop}
+        </button>
+        <ActionButton id="add-via" class="line" icon="plus" size={14}>
+          {TEXTS.via}
+        </ActionButton>
+      </div>
       <Stops agent={agent} />
     </section>
   );

@@ -1,6 +1,7 @@
 // The list of events, and the facts of the one that is picked.
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import type { Agent } from '../../model/scene';
+import { threshold, type ThresholdName } from '../../model/thresholds';
 import { num } from '../../model/units';
 import type { Editor } from '../../edit/editor';
 import { laneWords } from '../../edit/snap';
@@ -11,10 +12,14 @@ import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { RemedyButton } from '../parts/remedy-button';
 import { EventList } from './event-list';
+import { ThresholdsSection, told } from './thresholds-section';
 import { TEXTS } from '../../texts/events-panel';
+import { TEXTS as COUNTS } from '../../texts/thresholds';
 
 export function EventsPanel() {
-  const { editor } = useApp();
+  const { editor, ui } = useApp();
+  // Asked for by itself it comes first, above however many events there are.
+  const first = ui.eventsPanel.value === 'counts';
   const events = editor.events.value;
   const picked = editor.selectedEvent.value;
   const worst = worstOf(events);
@@ -33,10 +38,12 @@ export function EventsPanel() {
         </div>
         <IconButton id="deselect" icon="x" size={16} />
       </div>
+      {first ? <ThresholdsSection last={false} /> : null}
       <section class="sect">
         <EventList />
       </section>
       {picked ? <Facts event={picked} /> : null}
+      {first ? null : <ThresholdsSection last />}
     </>
   );
 }
@@ -49,6 +56,8 @@ function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): stri
 
 function Facts({ event: e }: { event: TrafficEvent }) {
   const { editor, ui, variants } = useApp();
+  const now = (name: ThresholdName): string => told(name, threshold(editor.scene.peek()!, name));
+  const counts = COUNTS.countsBelow(now('ttc_s'), now('gap_m'));
   const change = (id: string) => {
     editor.setTime(0);
     ui.showEvents(false);
@@ -63,9 +72,9 @@ function Facts({ event: e }: { event: TrafficEvent }) {
           <dd>{whereWords(editor, e)}</dd>
           {e.facts.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
         </dl>
-        {e.kind === 'near' ? <p class="note">{TEXTS.countsAsANear}</p> : null}
+        {e.kind === 'near' ? <p class="note">{counts}</p> : null}
       </section>
-      <section class="sect last">
+      <section class="sect">
         <h3>{TEXTS.whatYouCanDo}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (

@@ -2,16 +2,20 @@
 import { useComputed } from '@preact/signals';
 import { markOf, type Mark } from '../../model/about';
 import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
-import { hasGoal, nameIn, type Scene } from '../../model/scene';
+import type { Command } from '../../model/commands';
+import { takePin, unpin } from '../../model/pins';
+import { hasGoal, nameIn, type Agent, type Pin, type Scene } from '../../model/scene';
 import { seconds } from '../../model/units';
 import { placeWord } from '../../model/verdict-words';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { pickFuture } from '../../edit/moves';
+import { pinnedAt, pinsApart, togglePin, type ShownPin } from '../../edit/pins';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 import { TEXTS } from '../../texts/agent';
+import { TEXTS as PINS } from '../../texts/pins';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
@@ -62,6 +66,7 @@ function FutureList({ agent }: { agent: LiveAgent }) {
       {[...LETTERS].slice(0, count).map((letter, i) => (
         <FutureRow key={letter} agent={agent} index={i} />
       ))}
+      <PinnedRows />
     </div>
   );
 }
@@ -88,28 +93,95 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   };
   const point = () => editor.pointAt({ future: index });
   const leave = () => editor.pointAt({});
+  const pin = useComputed(() => pinnedAt(editor, index)).value;
+  const toggle = () => {
+    const done = togglePin(editor, agent.peek(), index);
+    if (typeof done === 'string') editor.notices.show({ text: done });
+    else editor.run(done);
+  };
+  const label = (pin ? PINS.letGoLetter : PINS.pinLetter)(LETTERS[index]);
   return (
-    <button
-      type="button"
-      class="fu"
-      role="radio"
-      data-future={LETTERS[index]}
-      aria-checked={checked as never}
-      title={title}
-      onClick={pick}
-      onPointerEnter={point}
-      onPointerLeave={leave}
-      onFocus={point}
-      onBlur={leave}
-    >
-      <span class={`l m${index}`}>{LETTERS[index]}</span>
-      <span class="nm">{name}</span>
-      <MarkSign agent={agent} index={index} />
-      <span class="bar">
-        <Share index={index} />
-      </span>
-      <span class="pc">{percent}</span>
-    </button>
+    <div class="furow" onPointerEnter={point} onPointerLeave={leave}>
+      <button
+        type="button"
+        class="fu"
+        role="radio"
+        data-future={LETTERS[index]}
+        aria-checked={checked as never}
+        title={title}
+        onClick={pick}
+        onFocus={point}
+        onBlur={leave}
+      >
+        <span class={`l m${index}`}>{LETTERS[index]}</span>
+        <span class="nm">{name}</span>
+        <MarkSign agent={agent} index={index} />
+        <span class="bar">
+          <Share index={index} />
+        </span>
+        <span class="pc">{percent}</span>
+      </button>
+      <button
+        type="button"
+        class="btn i pinb"
+        aria-pressed={pin !== null}
+        aria-label={label}
+        title={label}
+        onClick={toggle}
+      >
+        <Icon name="pin" size={15} />
+      </button>
+    </div>
+  );
+}
+
+/** Pinned futures that are none of those above. */
+function PinnedRows() {
+  const { editor } = useApp();
+  const shown = useComputed(() => pinsApart(editor)).value;
+  return (
+    <>
+      {shown.map((p) => (
+        <PinnedRow key={p.pin.key} {...p} />
+      ))}
+    </>
+  );
+}
+
+function PinnedRow({ pin, why }: ShownPin) {
+  const { editor } = useApp();
+  const on = (make: (a: Agent, p: Pin) => Command) => () => {
+    const a = editor.agent.peek();
+    if (a && !a.locked) editor.run(make(a, pin));
+  };
+  return (
+    <div class="furow">
+      <button
+        type="button"
+        class={why ? 'fu pinned misfit' : 'fu pinned'}
+        role="radio"
+        data-pin={pin.key}
+        aria-checked="false"
+        title={why ? PINS.noLongerFits(pin.name, why) : pin.name}
+        onClick={on(takePin)}
+      >
+        <span class="l">
+          <Icon name="pin" size={13} />
+        </span>
+        <span class="nm">{pin.name}</span>
+        <span class="why">{why ?? PINS.pinnedSign}</span>
+      </button>
+      <button
+        type="button"
+        class="btn i pinb"
+        aria-pressed="true"
+        aria-label={PINS.letGo(pin.name)}
+        title={PINS.letGo(pin.name)}
+        onClick={on(unpin)}
+      >
+        <Icon name="x" size={14} />
+      </button>
+    </div>
   );
 }
 

@@ -11,7 +11,12 @@ export function Inspector() {
   const judging = rounds.isOpen.value;
   const cases = searching.open.value !== null;
   const comparing = useComputed(() => variants.compared.value !== null).value;
-  const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
+  const events = useComputed(() => {
+    const open = ui.eventsPanel.value;
+    // Where what counts was changed it stays open, though nothing may be left that does.
+    const changed = Object.keys(editor.resting.value?.thresholds ?? {}).length > 0;
+    return open === 'counts' || (open && (changed || editor.events.value.length > 0));
+  }).value;
   const scene = useComputed(() => editor.resting.value?.id).value;
   const selected = editor.selection.value;
   const several = useComputed(() => editor.selected.value.length > 1).value;

@@ -76,6 +76,7 @@ function About({ scene }: { scene: Scene }) {
           <small>{TEXTS.nextS(num(scene.duration, 0))}</small>
         </h3>
         <EventList most={FIRST_EVENTS} />
+        <ActionButton id="what-counts" class="counts" icon="" />
       </section>
       <SceneScore />
       {form.sheet.value ? (

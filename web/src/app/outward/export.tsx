@@ -12,7 +12,9 @@ import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
 import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
 import '../../styles/outward.css';
+import { resultCode } from '../../model/result-code';
 import { TEXTS } from '../../texts/export';
+import { TEXTS as CODE } from '../../texts/result-code';
 import { inSentence } from '../../texts/language';
 
 const SCOPES: readonly (readonly [Scope, string])[] = [
@@ -106,6 +108,8 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const words = sought.value.toLowerCase().trim();
   const shown = kinds.filter((k) => matches(k, words));
   const kind = kinds.find((k) => k.id === chosen.value)!;
+  const { editor } = useApp();
+  const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.motion.peek()));
   const ready = made.value.get(kind.id);
   const choose = (step: number) => {
     if (!shown.length) return;
@@ -154,7 +158,9 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
       </div>
       <div class="dfoot">
         <span class="grow">
-          <span class="about">{TEXTS.metresXEastY}</span>
+          <span class="about">
+            {TEXTS.metresXEastY} {code}
+          </span>
           {typeof ready === 'object' ? fileWords(ready) : (ready ?? `${kind.label} ${kind.ending}`)}
         </span>
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />

@@ -5,7 +5,9 @@ import { setDiversity, setSeed } from '../../model/commands';
 import { DEFAULTS } from '../../model/domain';
 import { useApp } from './app-context';
 import { ActionButton, IconButton } from './buttons';
+import { resultCode } from '../../model/result-code';
 import { TEXTS } from '../../texts/parts';
+import { TEXTS as CODE } from '../../texts/result-code';
 
 export function Controls() {
   const { editor } = useApp();
@@ -18,11 +20,36 @@ export function Controls() {
       <span class="gap" />
       <span class="fieldlab">{TEXTS.diversity}</span>
       <DiversitySlider />
+      <ResultCode />
       <ActionButton id="generate" class="pri" icon="" withKey>
         {away ? TEXTS.waiting : TEXTS.generate}
       </ActionButton>
       <IconButton id="variants" />
     </>
+  );
+}
+
+/** Names what is shown in six characters, to be told to somebody else; a click copies it. */
+function ResultCode() {
+  const { editor } = useApp();
+  const code = useComputed(() => {
+    const scene = editor.resting.value;
+    return scene ? resultCode(scene, editor.motion.value) : '';
+  });
+  const copy = () => {
+    void navigator.clipboard?.writeText(code.peek()).catch(() => undefined);
+    editor.notices.show({ text: CODE.copied(code.peek()) });
+  };
+  return (
+    <button
+      type="button"
+      class="btn code"
+      aria-label={useComputed(() => CODE.label(code.value))}
+      title={CODE.means}
+      onClick={copy}
+    >
+      {code}
+    </button>
   );
 }
 

@@ -50,7 +50,7 @@ const MOST_WAYS = 360;
 export class Cases {
   readonly #open = signal(false);
   readonly #sought = signal<Sought | null>(null);
-  readonly #may = signal<MayChange>({ speed: true, time: true, seed: true });
+  readonly #may = signal<MayChange>({ speed: true, time: true, seed: true, place: false });
   readonly #state = signal<State>('ready');
   readonly #progress = signal<Progress>(NOTHING);
   readonly #found = signal<readonly Case[]>([]);
@@ -150,6 +150,7 @@ export class Cases {
     if (!s || !who) return TEXTS.selectOneOrTwo;
     if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.canBeLookedAt}.`;
     if (KINDS[s.what].two && s.other === null) return TEXTS.thisIsBetween;
+    if (s.what === 'red' && !scene?.signals.length) return TEXTS.noSignalsHere;
     if (s.what === 'goal' && !who.goal.pos) return TEXTS.hasNoGoalYet(who.name);
     return null;
   });
@@ -229,7 +230,7 @@ export class Cases {
     const id = 1 + Math.max(0, ...this.#found.peek().map((c) => c.id));
     const fresh: Case = { id, take, moment, like: 0, starred: false };
     if (!moment.found) {
-      if (sought.what !== 'collision' && moment.value === 0)
+      if (sought.what !== 'collision' && sought.what !== 'red' && moment.value === 0)
         this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
       if (moment.miss < (this.#closest.peek()?.moment.miss ?? Infinity)) this.#closest.value = fresh;
       return;

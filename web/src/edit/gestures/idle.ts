@@ -67,6 +67,7 @@ export class Idle implements State {
       case 'agent':
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':
+      case 'pinned':
       case 'by-road':
       case 'pennant':
         return 'pointer';

@@ -1,4 +1,5 @@
 // The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
+import { takePin } from '../../model/pins';
 import { canChange, startPose, type Agent } from '../../model/scene';
 import { freeOnes, lockedWords } from '../copying';
 import type { Grip } from '../editor';
@@ -163,6 +164,9 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       if (command) editor.run(command);
       break;
     }
+    case 'pinned':
+      if (a && !a.locked) editor.run(takePin(a, hit.pin));
+      break;
     case 'by-road': {
       const way = a && !a.locked && roadWay(editor, a);
       if (way) editor.run(way.command);

@@ -7,7 +7,9 @@ import { endPose } from '../../model/motion';
 import { canChange, startPose, touched, type Agent, type Scene } from '../../model/scene';
 import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/units';
 import { LANGUAGE } from '../../texts/language';
+import { resultCode } from '../../model/result-code';
 import { TEXTS } from '../../texts/report-page';
+import { TEXTS as CODE } from '../../texts/result-code';
 
 export interface ReportOf {
   readonly scene: Scene;
@@ -49,6 +51,7 @@ export function reportPage(r: ReportOf): string {
     [TEXTS.nearMisses, String(own.filter((e) => e.kind === 'near').length)],
     [TEXTS.leastTime, r.motion.score?.minTtc == null ? TEXTS.none : seconds(r.motion.score.minTtc)],
     [TEXTS.seedDiversity, `${scene.seed}, ${Math.round(scene.diversity * 100)} %`],
+    [CODE.code, resultCode(scene, r.motion)],
     [TEXTS.others, { react: TEXTS.react, log: TEXTS.replayTheLog, still: TEXTS.holdStill }[scene.others]],
     [TEXTS.length, seconds(scene.duration)],
     ...(scene.licence ? [[TEXTS.licence, scene.licence] as [string, string]] : []),

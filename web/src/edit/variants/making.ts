@@ -5,8 +5,9 @@ import { motionOf } from '../../model/changes';
 import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/futures';
 import { poseAt, STEP_S } from '../../model/motion';
 import { canChange, canMove, doing, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
+import { withTaken } from '../../model/pins';
 import { readVariantSample } from '../../model/read';
-import { trackJson } from '../../model/write';
+import { thresholdsOf, trackJson } from '../../model/write';
 import { Away, Refused } from '../../net/client';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
@@ -91,7 +92,8 @@ export class Maker {
   /** What everybody does in a document. `dealt`: futures of the subject that are not its usual ones. */
   async workOut(scene: Scene, subject: string | null, dealt?: Futures): Promise<Take> {
     const usual = subject === null ? emptyMotion('') : await this.#base(scene, subject);
-    const base = subject !== null && dealt ? { ...usual, futures: new Map(usual.futures).set(subject, dealt) } : usual;
+    const own = subject !== null && dealt ? new Map(usual.futures).set(subject, dealt) : usual.futures;
+    const base = { ...usual, futures: withTaken(scene, own) };
     const step: Step = { name: '', agent: subject, undo: false, ...(subject === null && scene.drawn ? EVERYBODY : {}) };
     const asked = askedAfter(this.editor, scene, step, base.futures);
     if (typeof asked === 'string') return { scene, set: await this.#scored(scene, base) };
@@ -145,7 +147,12 @@ export class Maker {
       (a) => canChange(a) && (driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );
     const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
-    const reply = await this.generator.score(this.file.reference(scene), tracks, new AbortController().signal);
+    const reply = await this.generator.score(
+      this.file.reference(scene),
+      tracks,
+      thresholdsOf(scene),
+      new AbortController().signal,
+    );
     return { ...set, score: readScore(reply) };
   }
 }

@@ -6,7 +6,6 @@ export const german: Said<typeof TEXTS> = {
   events: 'Ereignisse',
   inTheLog: (inLog) => ` · ${inLog} in der Aufzeichnung`,
   where: 'Wo',
-  countsAsANear: 'Gilt als Beinahe-Unfall unter 1,5 s oder 1,0 m.',
   whatYouCanDo: 'Was sich tun lässt',
   change: (name) => `${name} ändern`,
   keepAsAVariant: 'Als Variante behalten',

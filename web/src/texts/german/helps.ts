@@ -2,6 +2,9 @@ import type { HELPS } from '../helps';
 import type { Said } from '../table';
 
 export const german: Said<typeof HELPS> = {
+  itStaysWhile: 'Sie bleibt im Bild und in der Liste, während andere neu gezogen werden; noch einmal löst sie',
+  howNearAndHard:
+    'Wie nah und wie hart etwas sein muss, um in dieser Szene als Beinahe-Unfall oder starkes Bremsen zu zählen',
   triesSpeeds:
     'Probiert Tempo, Zielzeit und Startwert eines Verkehrsteilnehmers, bis ein Beinahe-Unfall, starkes Bremsen oder Ähnliches geschieht',
   goesOnUntil: 'Läuft, bis es gefunden oder angehalten wird; weiterarbeiten geht dabei',

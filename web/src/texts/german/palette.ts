@@ -22,5 +22,6 @@ export const german: Said<typeof TEXTS> = {
   askedForFirst: 'zuerst vor',
   askedForBraking: 'brems',
   askedForGoal: 'ziel ankunft',
+  askedForRed: 'rot ampel',
   parked: 'parkt',
 };

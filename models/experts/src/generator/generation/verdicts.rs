@@ -20,6 +20,7 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
     let scene = &request.scene;
     let steps = request.start_step..request.start_step + request.horizon_steps + 1;
     let judge = Judge::new(&scene.map, &scene.signals, &map.drivable, steps);
+    let judge = judge.with_thresholds(request.thresholds);
     let shown: Vec<Actor<'_>> = scene.agents.iter().map(|agent| as_shown(request, sample, agent)).collect();
     let futures: Vec<(usize, &Future)> = scene
         .agents

@@ -1,0 +1,57 @@
+// What somebody does beside what was recorded of it, where the recording has gaps, begins late or goes on for longer.
+import { describe, expect, it } from 'vitest';
+import { comparedWithLog, findChanges } from '../src/model/changes';
+import { emptyMotion } from '../src/model/futures';
+import { distances, motionFrom, type Motion } from '../src/model/motion';
+import { sceneKey, withAgents, type Agent } from '../src/model/scene';
+import { car, crossing } from './helpers';
+
+/** Along x at 10 m/s, seen in these steps; elsewhere the columns hold noughts, as files have them. */
+function seen(steps: number, valid: [number, number][], speed = 10): Motion {
+  const there = (i: number): boolean => valid.some(([a, b]) => i >= a && i < b);
+  const at = Array.from({ length: steps }, (_, i) => i);
+  return motionFrom({
+    x_m: at.map((i) => (there(i) ? 300 + (i * speed) / 10 : 0)),
+    y_m: at.map((i) => (there(i) ? 200 : 0)),
+    heading_rad: at.map(() => 0),
+    vx_mps: at.map((i) => (there(i) ? speed : 0)),
+    vy_mps: at.map(() => 0),
+    valid,
+  });
+}
+
+describe('compared with the log', () => {
+  const scene = crossing();
+  const of = (log: Motion): Agent => ({ ...car(scene), log });
+  const own = seen(91, [[0, 91]], 9);
+
+  it('goes straight over gaps', () => {
+    const gaps = seen(91, [
+      [0, 20],
+      [60, 91],
+    ]);
+    expect(distances(gaps).at(-1)).toBeCloseTo(90, 6);
+    const said = comparedWithLog(of(gaps), own, 9)!;
+    expect(said.words).toBe('Gets 9 m less far than in the log.');
+    expect(said.d).toBeCloseTo(9, 1);
+  });
+
+  it('counts neither what was recorded after the end nor what came before both are there', () => {
+    expect(comparedWithLog(of(seen(200, [[0, 200]])), own, 9)!.words).toBe('Gets 9 m less far than in the log.');
+    // Seen from 4.5 s on it has half of the time to get behind.
+    expect(comparedWithLog(of(seen(91, [[45, 91]])), own, 9)!.words).toBe('Gets 5 m less far than in the log.');
+  });
+
+  it('says of nobody that it comes later because its recording goes on', () => {
+    const a = of(seen(200, [[0, 200]]));
+    const there = withAgents(scene, [a]);
+    const motion = seen(91, [[0, 91]], 9.99);
+    const modes = [{ probability: 1, motion, name: 'A' }];
+    const set = {
+      ...emptyMotion(sceneKey(there)),
+      futures: new Map([[a.id, { modes, chosen: 0, step: 5, steps: 5 }]]),
+      driving: new Set([a.id]),
+    };
+    expect(findChanges(there, emptyMotion(sceneKey(there)), set, new Set())).toEqual([]);
+  });
+});

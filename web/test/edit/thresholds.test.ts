@@ -1,0 +1,70 @@
+// What counts as an event: kept with the scene, sent along, and changed without another motion.
+import { describe, expect, it } from 'vitest';
+import { choose, setSeed } from '../../src/model/commands';
+import { readScene } from '../../src/model/read';
+import { resultCode } from '../../src/model/result-code';
+import { NO_THRESHOLDS, sceneKey } from '../../src/model/scene';
+import { readThresholds, resetThresholds, setThreshold, threshold } from '../../src/model/thresholds';
+import { writeScene } from '../../src/model/write';
+import { finalOf, json, Session } from './session';
+
+const ID = '1';
+
+describe('what counts', () => {
+  it('is the usual where nothing else is said, and goes with the file', () => {
+    const t = new Session();
+    const before = t.editor.scene.peek()!;
+    expect([threshold(before, 'gap_m'), threshold(before, 'ttc_s')]).toEqual([1, 1.5]);
+    t.editor.run(setThreshold(before, 'gap_m', 2));
+    const scene = t.editor.scene.peek()!;
+    expect(scene.thresholds).toEqual({ gap_m: 2 });
+    const file = writeScene(json, scene, null);
+    expect(readScene(file).thresholds).toEqual({ gap_m: 2 });
+    expect(sceneKey(readScene(file))).toBe(sceneKey(scene));
+    // The usual value, typed, is no difference; what cannot be is left out.
+    expect(setThreshold(scene, 'gap_m', 1).apply(scene).thresholds).toBe(NO_THRESHOLDS);
+    expect(readThresholds({ gap_m: -1, ttc_s: 'x', harsh_brake_mps2: 2, toString: 3 })).toEqual({
+      harsh_brake_mps2: 2,
+    });
+    t.editor.run(resetThresholds());
+    expect(sceneKey(t.editor.scene.peek()!)).toBe(sceneKey(before));
+    t.editor.undo();
+    expect(t.editor.scene.peek()!.thresholds).toEqual({ gap_m: 2 });
+  });
+
+  it('changes no motion: what is followed is scored anew, and looks are asked for again with it', () => {
+    const t = new Session();
+    t.editor.select(ID);
+    t.generator.last.on.final(finalOf(ID), 10);
+    t.editor.run(choose(t.editor.agent.peek()!, 1, 'B'));
+    t.editor.answers.settle(t.editor.scene.peek()!, { ...t.editor.motion.peek(), key: '', stale: false }, null);
+    const driving = t.editor.motion.peek().futures.get(ID);
+    const asked = t.generator.asked.length;
+    t.editor.run(setThreshold(t.editor.scene.peek()!, 'harsh_brake_mps2', 2));
+    expect(t.editor.motion.peek().futures.get(ID)).toBe(driving);
+    expect([t.editor.motion.peek().stale, t.generator.scored.length]).toEqual([false, 1]);
+    expect(t.generator.asked.length).toBe(asked);
+    t.editor.select('2');
+    expect(t.generator.last.options.thresholds).toEqual({ harsh_brake_mps2: 2 });
+  });
+});
+
+describe('the code of a result', () => {
+  it('is the same for the same scene, whatever it is called, and another for whatever is asked', () => {
+    const t = new Session();
+    const [scene, set] = [t.editor.scene.peek()!, t.editor.motion.peek()];
+    const code = resultCode(scene, set);
+    expect(code).toMatch(/^[0-9A-HJKMNP-TV-Z]{6}$/);
+    expect(resultCode(readScene({ ...json, id: 'other', name: 'Other' }), set)).toBe(code);
+    const a = scene.agents.get(ID)!;
+    const others = [
+      setSeed(7).apply(scene),
+      setThreshold(scene, 'ttc_s', 2).apply(scene),
+      choose(a, 2, 'C').apply(scene),
+      readScene({ ...json, agents: json.agents.slice(1) }),
+    ];
+    const codes = new Set([code, ...others.map((s) => resultCode(s, set))]);
+    const engine = resultCode(others[2], { ...set, head: { weights: { car: 'x' } } });
+    expect(codes.add(engine).size).toBe(others.length + 2);
+  });
+});
