@@ -1,4 +1,4 @@
-import { table } from './table';
+import { plural, table } from './table';
 
 export const TEXTS = table('inspector', {
   futures: 'Futures',
@@ -23,9 +23,9 @@ export const TEXTS = table('inspector', {
   cyclists: 'Cyclists',
   pedestrians: 'Pedestrians',
   otherObjects: 'Other objects',
-  lanes: (n: number) => `${n} lanes`,
-  crosswalks: (count: number) => `${count} crosswalks`,
-  bikeLanes: (n: number) => `${n} bike lanes`,
+  lanes: (n: number) => plural(n, { one: `${n} lane`, other: `${n} lanes` }),
+  crosswalks: (n: number) => plural(n, { one: `${n} crosswalk`, other: `${n} crosswalks` }),
+  bikeLanes: (n: number) => plural(n, { one: `${n} bike lane`, other: `${n} bike lanes` }),
   stopSigns: 'stop signs',
   noSignals: 'no signals',
   licence: (licence: string) => `Licence: ${licence}`,
