@@ -31,7 +31,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     return hasGoal(a.goal) ? TEXTS.of(n) : TEXTS.noGoalSet(n);
   });
   return (
-    <section class="sect last" aria-label={TEXTS.futures}>
+    <section class="sect last futsec" aria-label={TEXTS.futures}>
       <h3>
         {TEXTS.futures}
         <small>{note}</small>
@@ -62,7 +62,7 @@ function FutureList({ agent }: { agent: LiveAgent }) {
   if (!count) return <Waiting />;
   if (sketch) return <p class="mut">{TEXTS.aPlainCurveIs}</p>;
   return (
-    <div role="radiogroup" aria-label={TEXTS.futures}>
+    <div class="futures" role="radiogroup" aria-label={TEXTS.futures}>
       {[...LETTERS].slice(0, count).map((letter, i) => (
         <FutureRow key={letter} agent={agent} index={i} />
       ))}
