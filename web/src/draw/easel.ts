@@ -1,5 +1,4 @@
 // The three canvases and what is on them: map, road users, overlay. Works in a worker and on the page alike.
-import { both, NOTHING, within, type Part } from './reach';
 import type { News } from './recording';
 import { Player, pen2d, surface, type Canvas2D } from './replay';
 
@@ -48,8 +47,6 @@ export class Easel {
   readonly #player = new Player();
   readonly #pens: Record<LayerName | 'loupe', Canvas2D>;
   #size: Size | null = null;
-  /** The part of each layer that may have something on it. */
-  readonly #painted: Record<'agents' | 'overlay', Part> = { agents: NOTHING, overlay: NOTHING };
   /** The map with its margin, as it was painted. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
@@ -70,11 +67,8 @@ export class Easel {
       if (!ops) continue;
       const g = this.#pens[name];
       const { width, height } = this.canvases[name];
-      const reach = this.#player.reach(ops, size.dpr);
-      const { x0, y0, x1, y1 } = within(both(this.#painted[name], reach), width, height);
-      this.#painted[name] = reach;
       g.setTransform(1, 0, 0, 1, 0, 0);
-      g.clearRect(x0, y0, x1 - x0, y1 - y0);
+      g.clearRect(0, 0, width, height);
       g.setTransform(size.dpr, 0, 0, size.dpr, 0, 0);
       this.#player.play(g, ops);
     }
@@ -98,7 +92,6 @@ export class Easel {
     if (was && was.w === size.w && was.h === size.h && was.dpr === size.dpr) return;
     this.#size = size;
     for (const name of LAYERS) {
-      // A canvas is empty after that.
       this.canvases[name].width = Math.round(size.w * size.dpr);
       this.canvases[name].height = Math.round(size.h * size.dpr);
     }

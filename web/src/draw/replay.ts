@@ -1,6 +1,5 @@
 // Plays recordings on a 2D canvas, in a worker or on the page.
 import type { Pen } from './pen';
-import { both, NOTHING, reachOf, type Part } from './reach';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
@@ -17,32 +16,21 @@ export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
 export class Player {
   #texts: string[] = [];
   #shapes: Path2D[] = [];
-  /** How far the shapes reach. */
-  #parts: Part[] = [];
   #sprites: Surface[] = [];
 
   learn(news: News): void {
     if (news.afresh) {
       this.#texts = [];
       this.#shapes = [];
-      this.#parts = [];
       this.#sprites = [];
     }
     this.#texts.push(...news.texts);
-    for (const { id, points, ends } of news.shapes) {
-      this.#shapes[id] = pathOf(points, ends);
-      this.#parts[id] = partOf(points);
-    }
+    for (const { id, points, ends } of news.shapes) this.#shapes[id] = pathOf(points, ends);
     for (const { id, width, height, ops } of news.sprites) {
       const s = surface(width, height);
       this.play(pen2d(s), ops);
       this.#sprites[id] = s;
     }
-  }
-
-  /** The part of a canvas that a recording may paint on, whose coordinates begin as `dpr` pixels each. */
-  reach(o: Float64Array, dpr: number): Part {
-    return reachOf(o, { texts: this.#texts, shapes: this.#parts }, dpr);
   }
 
   play(g: Canvas2D, o: Float64Array): void {
@@ -188,15 +176,6 @@ export function paintOn(g: Canvas2D, paint: (pen: Pen) => void): void {
   const player = new Player();
   player.learn(words.news());
   player.play(g, recording.take());
-}
-
-function partOf(points: Float64Array): Part {
-  let part = NOTHING;
-  for (let i = 0; i < points.length; i += 2) {
-    const [x, y] = [points[i], points[i + 1]];
-    part = both(part, { x0: x, y0: y, x1: x, y1: y });
-  }
-  return part;
 }
 
 function pathOf(points: Float64Array, ends: Int32Array): Path2D {
