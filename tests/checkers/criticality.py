@@ -38,6 +38,9 @@ STRAIGHT_RAD, SAME_RAD = 0.002, 0.02
 CLOSING_MPS = 0.6
 # Lanes are turned to lead this far off the east: CriMe takes the mean of directions on both sides of it for west.
 LEAST_RAD = 0.001
+# A state of CommonRoad has a speed and a heading: who slips aside in a bend by more than this, m/s, has another speed
+# along its heading there than here.
+SLIP_MPS = 0.01
 # Steps from one moment that is looked at to the next, and most moments of a scene.
 EVERY, MOST = 2, 12
 # Maps with straight lanes, filled by these seeds.
@@ -113,7 +116,8 @@ def behind(pair, step):
         return False
     aside = max(abs(left @ between), abs(left @ (between - faster * gap_m / closing)))
     turn = abs(math.remainder(heading2 - heading, math.tau))
-    return turn < SAME_RAD and aside < 0.4 * (a["width_m"] + b["width_m"])
+    slips = max(math.hypot(*v) - abs(way @ v) for v in ((vx, vy), (vx2, vy2)))
+    return turn < SAME_RAD and slips < SLIP_MPS and aside < 0.4 * (a["width_m"] + b["width_m"])
 
 
 class Measured:
