@@ -48,10 +48,10 @@ pub(crate) static NOCTURNE: Engine = Engine {
 fn flavour(head: &[u8]) -> Option<Flavour> {
     let object = head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
     let has = |name: &str| head.windows(name.len()).any(|part| part == name.as_bytes());
-    if !object
-        || !has("\"objects\"")
-        || !(has("\"goalPosition\"") || (has("\"roads\"") && has("\"geometry\"")))
-    {
+    // Of a long recording nothing but the places of the first object is seen.
+    let places = has("\"position\"") && has("\"x\"") && !has("\"dragtraffic.scene\"");
+    let known = has("\"goalPosition\"") || (has("\"roads\"") && has("\"geometry\"")) || places;
+    if !object || !has("\"objects\"") || !known {
         return None;
     }
     Some(if has("\"z\"") || has("\"scenario_id\"") { Flavour::GpuDrive } else { Flavour::Nocturne })
@@ -106,5 +106,20 @@ impl Format for Engine {
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
         one_scene(scenes).and_then(|scene| export::write(scene, options, self.flavour))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Flavour, flavour};
+
+    #[test]
+    fn long_recordings_are_known_by_their_first_places() {
+        let head =
+            |place: &str| format!("{{\"name\":\"a\",\"objects\":[{{\"position\":[{{{place}}},{{{place}}}");
+        assert!(matches!(flavour(head("\"x\":1.0,\"y\":2.0").as_bytes()), Some(Flavour::Nocturne)));
+        assert!(matches!(flavour(head("\"x\":1.0,\"y\":2.0,\"z\":0.0").as_bytes()), Some(Flavour::GpuDrive)));
+        let scene = br#"{"format":"dragtraffic.scene","x_a":{"objects":[],"position":{"x":1}}"#;
+        assert!(flavour(scene).is_none());
     }
 }
