@@ -127,5 +127,12 @@ journeys('sharing', (stage) => {
     await e.drop('notes.json', Buffer.from('%PDF-1.7 nothing'));
     await e.page.waitForSelector('.dlg.import');
     assert.match(await e.text('.dlg.import'), /Named \.json, but it is a PDF/);
+    // An archive may hold a network and a recording: only who looks into it knows.
+    await e.page.keyboard.press('Escape');
+    await e.drop('junction.zip', readFileSync(new URL('../../../fuzz/corpus/sumo/junction.sumo.zip', import.meta.url)));
+    await e.until(() => /^FCD 0\.0 s imported/.test(document.querySelector('.toast')?.textContent ?? ''));
+    await e.drop('photos.zip', Buffer.from('PK\x03\x04 and nothing else', 'latin1'));
+    await e.page.waitForSelector('.dlg.import');
+    assert.match(await e.text('.dlg.import'), /photos\.zip.+ZIP archive/s);
   });
 });

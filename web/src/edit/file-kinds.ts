@@ -5,13 +5,15 @@ import { TEXTS } from '../texts/importing';
 interface Mark {
   readonly bytes: readonly number[];
   readonly kind: string;
+  /** Some of these hold a scene: the server looks into them. */
+  readonly open?: true;
 }
 
 const text = (s: string): number[] => [...s].map((c) => c.charCodeAt(0));
 
 const MARKS: readonly Mark[] = [
   { bytes: text('%PDF'), kind: TEXTS.aPdf },
-  { bytes: [0x50, 0x4b, 3, 4], kind: TEXTS.aZipArchive },
+  { bytes: [0x50, 0x4b, 3, 4], kind: TEXTS.aZipArchive, open: true },
   { bytes: text('AC10'), kind: TEXTS.aCadDrawingDwg },
   { bytes: [0x89, ...text('PNG')], kind: TEXTS.aPicture },
   { bytes: [0xff, 0xd8, 0xff], kind: TEXTS.aPicture },
@@ -22,10 +24,14 @@ const MARKS: readonly Mark[] = [
 /** How many bytes tell. */
 const LOOKED_AT = 16;
 
-/** The kind of a file that is surely no scene; null where that cannot be told from its beginning. */
-export async function foreignKind(file: Blob): Promise<string | null> {
+/**
+ * The kind of a file that is no scene, or `surely: false` hardly ever one; null where that cannot be told from its
+ * beginning.
+ */
+export async function foreignKind(file: Blob): Promise<{ readonly kind: string; readonly surely: boolean } | null> {
   const head = new Uint8Array(await file.slice(0, LOOKED_AT).arrayBuffer());
-  return MARKS.find((m) => m.bytes.every((b, i) => head[i] === b))?.kind ?? null;
+  const mark = MARKS.find((m) => m.bytes.every((b, i) => head[i] === b));
+  return mark ? { kind: mark.kind, surely: !mark.open } : null;
 }
 
 const CALLED: Record<string, string> = {

@@ -125,7 +125,7 @@ export class Importing {
 
   async #one(file: File, net?: File): Promise<FileVerdict> {
     const foreign = await foreignKind(file);
-    if (foreign) return foreignVerdict(file.name, foreign);
+    if (foreign?.surely) return foreignVerdict(file.name, foreign.kind);
     return this.#send(file.name, file, [], { net });
   }
 
@@ -141,6 +141,8 @@ export class Importing {
 
   /** What is wrong, with the place in the file; the rest of it is kept where it can be taken. */
   async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
+    const foreign = p.code === 'format-unknown' ? await foreignKind(file) : null;
+    if (foreign) return foreignVerdict(name, foreign.kind);
     const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
     const columns = columnsIn(p);
     if (columns) {
