@@ -19,6 +19,7 @@ use compact::FuturesForm;
 use events::GeneratedHead;
 use experts::{Generator, React, Request};
 use feed::Feed;
+use scene::ContentHash;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
@@ -41,13 +42,29 @@ pub struct Task {
     pub standings: Option<Arc<Standings>>,
     /// Samples hold the futures of those who are not part of the call too.
     pub with_kept: bool,
-    /// Names what the answer follows from, in six characters.
-    pub code: String,
     /// The rest of `generated`.
     pub head: GeneratedHead,
 }
 
 impl Task {
+    /// Names what the answer follows from, in six characters: the scene with its conditions, what is kept of its
+    /// futures, the options, the seed, and the engine.
+    pub fn code(&self) -> String {
+        let Self { request, head, .. } = self;
+        let generated = request.scene.generated.as_ref();
+        let sample = generated.and_then(|generated| generated.samples.get(generated.chosen_sample));
+        let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
+        let stays = |id: &String| !asked(id) || request.pinned.contains_key(id);
+        let futures = sample.into_iter().flat_map(|sample| &sample.agents).filter(|(id, _)| stays(id));
+        let kept: Vec<_> =
+            futures.map(|(id, f)| (id, f.modes.get(f.chosen).map(|m| (m.first_step, &m.states)))).collect();
+        let shown: Vec<_> =
+            request.shown.iter().map(|(id, shown)| (id, shown.anchor, &shown.places)).collect();
+        let version = env!("CARGO_PKG_VERSION");
+        let of = (version, &head.input_sha256, &head.weights, head.seed, &head.request, kept, shown);
+        ContentHash::of(&of).short()
+    }
+
     /// About how long it takes one thread. Measured on two cores of 2.6 GHz, scores included: 4 ms for each road
     /// user, window and sample, and a tenth of one for each denoising step.
     fn cost(&self) -> Duration {

@@ -111,7 +111,7 @@ fn final_body(task: &Task, shown: &[Sample], answer: &Answer, queued: Duration) 
         warnings: answer.warnings.clone(),
         feedback: answer.round.clone().map(|Round { cards, wishes, .. }| RoundBody { cards, wishes }),
         timing,
-        code: task.code.clone(),
+        code: task.code(),
         generated: task.head.clone().dated(),
     }
 }

@@ -24,7 +24,7 @@ use experts::request::{DEFAULTS, ShownLast};
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
 use scene::score::Thresholds;
-use scene::{ContentHash, MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
+use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -320,7 +320,6 @@ impl GenerateRequest {
         let request = self.request(&applied, limits.regenerated_agents, limits.reply_points)?;
         let mut head =
             GeneratedHead::new(applied.input_hash().hex(), generator.hashes(), self.seed, self.options());
-        let code = self.code(&applied, &request, &head);
         head.stale = self.keeps_stale(scene, &applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
@@ -335,26 +334,10 @@ impl GenerateRequest {
             form,
             score,
             with_kept,
-            code,
             head,
             streams: true,
             standings: None,
         })
-    }
-
-    /// Names what the answer follows from: the scene with its conditions, what is kept of its futures, the options,
-    /// the seed, and the engine.
-    fn code(&self, scene: &Scene, request: &experts::Request, head: &GeneratedHead) -> String {
-        let sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
-        let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
-        let stays = |id: &String| !asked(id) || request.pinned.contains_key(id);
-        let futures = sample.into_iter().flat_map(|sample| &sample.agents).filter(|(id, _)| stays(id));
-        let kept: Vec<_> =
-            futures.map(|(id, f)| (id, f.modes.get(f.chosen).map(|m| (m.first_step, &m.states)))).collect();
-        let shown: Vec<_> = self.shown.0.iter().map(|(id, s)| (id, s.anchor, &s.x_m, &s.y_m)).collect();
-        let version = env!("CARGO_PKG_VERSION");
-        let of = (version, &head.input_sha256, &head.weights, head.seed, &head.request, kept, shown);
-        ContentHash::of(&of).short()
     }
 
     /// A future that is kept answers something else than what the scene says with this call's conditions.

@@ -317,15 +317,17 @@ impl<'o> Taken<'o> {
         for (at, file) in files.iter().enumerate() {
             self.text.push(if at == 0 { b"{\"files\":[" } else { b"," })?;
             let (name, kept) = (file.label.clone(), self.rows.len());
-            let (read, problem) = match self.file(file, name.as_deref(), cancel) {
-                Ok(read) => (Some(read), None),
+            told.push(match self.file(file, name.as_deref(), cancel) {
+                Ok(read) => ImportedFile { name, read: Some(read), problem: None },
                 Err(problem) if self.ends(&problem) => return Err(problem),
                 Err(problem) => {
                     self.rows.truncate(kept);
-                    (None, Some(self.fault(at, name.as_deref(), problem, &mut faults)?))
+                    let error =
+                        FieldProblem::new(format!("/file/{at}"), problem.code.name(), &problem.detail);
+                    faults.push((problem.code, error));
+                    self.fault(name, &problem)?
                 }
-            };
-            told.push(ImportedFile { name, read, problem });
+            });
         }
         self.text.push(b"]}")?;
         match faults.first().filter(|_| faults.len() == files.len()) {
@@ -344,31 +346,17 @@ impl<'o> Taken<'o> {
     }
 
     /// One of several files that cannot be read.
-    fn fault(
-        &mut self,
-        at: usize,
-        name: Option<&str>,
-        problem: Problem,
-        faults: &mut Vec<(Code, FieldProblem)>,
-    ) -> Result<ProblemDoc, Problem> {
+    fn fault(&mut self, name: Option<String>, problem: &Problem) -> Result<ImportedFile, Problem> {
         metrics::transfer(false, known(self.order.format.as_deref().unwrap_or("auto")), "error");
-        let doc = problem.doc(None, None);
-        let text = serde_json::to_string(&doc).map_err(Problem::internal)?;
+        let told = ImportedFile { name, read: None, problem: Some(problem.doc(None, None)) };
         if std::mem::take(&mut self.open) {
-            self.text.push(format!("],\"skipped\":[],\"problem\":{text}}}").as_bytes())?;
+            self.text.push(b"],\"skipped\":[],\"problem\":")?;
+            self.text.push_json(&told.problem)?;
+            self.text.push(b"}")?;
         } else {
-            let entry = ImportedFile {
-                name: name.map(str::to_owned),
-                read: None,
-                problem: Some(problem.doc(None, None)),
-            };
-            self.text.push_json(&entry)?;
+            self.text.push_json(&told)?;
         }
-        faults.push((
-            problem.code,
-            FieldProblem::new(format!("/file/{at}"), problem.code.name(), problem.detail),
-        ));
-        Ok(doc)
+        Ok(told)
     }
 
     /// Takes the scenes of a file. `name`: what it is called among several.
@@ -444,16 +432,18 @@ impl<'o> Taken<'o> {
     }
 }
 
-/// The text of a reply about a file, before its scenes and behind them.
+/// The text of a reply about a file, before its scenes and behind them. `name`: what it is called among several.
 fn around_scenes(name: Option<&str>, read: &ImportReply) -> Result<(String, String), Problem> {
-    let name = name.map(|name| serde_json::json!(name));
-    let text = serde_json::to_string(read).map_err(Problem::internal)?;
+    #[derive(Serialize)]
+    struct Told<'a> {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        name: Option<&'a str>,
+        #[serde(flatten)]
+        read: &'a ImportReply,
+    }
+    let text = serde_json::to_string(&Told { name, read }).map_err(Problem::internal)?;
     let (lead, rest) = text.split_once(SCENES).ok_or_else(|| Problem::internal("a reply without scenes"))?;
-    let lead = match name {
-        Some(name) => format!("{{\"name\":{name},{}", lead.trim_start_matches('{')),
-        None => lead.to_owned(),
-    };
-    Ok((lead + SCENES, rest.to_owned()))
+    Ok((lead.to_owned() + SCENES, rest.to_owned()))
 }
 
 /// A name of the table, for labels.

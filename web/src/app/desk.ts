@@ -100,7 +100,7 @@ function connect(c: Context): void {
       variants.busy.value ||
       editor.deck.asking.value ||
       trial.asking.value;
-    const busy = asked || editor.status.value.kind === 'loading' || gliding.value;
+    const busy = asked || editor.status.value.kind === 'loading' || gliding.value || editor.calm.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');

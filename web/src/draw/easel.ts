@@ -50,6 +50,8 @@ export class Easel {
   /** The map with its margin, as it was painted. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
+  /** What is to be painted next. */
+  #next: Omit<Picture, 'news'> | null = null;
 
   constructor(private readonly canvases: Canvases) {
     const pen = (name: LayerName | 'loupe') =>
@@ -57,9 +59,19 @@ export class Easel {
     this.#pens = { map: pen('map'), agents: pen('agents'), overlay: pen('overlay'), loupe: pen('loupe') };
   }
 
-  show({ size, news, layers, shift, loupe }: Picture): void {
-    this.#fit(size);
+  /** A picture to be painted; what was to be painted and is not anew in this one stays so. */
+  take({ news, ...picture }: Picture): void {
+    // Recordings of before speak of what is forgotten now.
+    if (news.afresh) this.paint();
     this.#player.learn(news);
+    this.#next = { ...picture, layers: { ...this.#next?.layers, ...picture.layers } };
+  }
+
+  paint(): void {
+    if (!this.#next) return;
+    const { size, layers, shift, loupe } = this.#next;
+    this.#next = null;
+    this.#fit(size);
     if (layers.map) this.#player.play(pen2d(this.#map), layers.map);
     if (layers.map || !sameShift(shift, this.#shift)) this.#placeMap(shift);
     for (const name of ['agents', 'overlay'] as const) {

@@ -8,15 +8,18 @@ import type { FromEasel, ToEasel } from './screen';
 interface Scope {
   onmessage: ((e: MessageEvent<ToEasel>) => void) | null;
   postMessage(message: FromEasel): void;
+  requestAnimationFrame?(paint: () => void): number;
   readonly fonts: FontFaceSet;
 }
 const scope = self as unknown as Scope;
 
 let easel: Easel | null = null;
+/** Pictures taken and not painted yet. */
+let waiting = 0;
 
 scope.onmessage = ({ data }) => {
   if ('canvases' in data) start(data.canvases);
-  else show(data.picture);
+  else take(data.picture);
 };
 
 function start(canvases: Canvases): void {
@@ -36,7 +39,16 @@ function start(canvases: Canvases): void {
   }
 }
 
-function show(picture: Picture): void {
-  easel?.show(picture);
-  scope.postMessage('shown');
+/** Once for each frame of the screen: of two pictures in one of them nobody would see the first. */
+function take(picture: Picture): void {
+  easel?.take(picture);
+  if (waiting++) return;
+  if (scope.requestAnimationFrame) scope.requestAnimationFrame(paint);
+  else paint();
+}
+
+function paint(): void {
+  easel?.paint();
+  scope.postMessage({ shown: waiting });
+  waiting = 0;
 }

@@ -4,11 +4,11 @@ import { Easel, LAYERS, type Canvases, type LayerName, type Picture, type Size, 
 import { Recording, Vocabulary } from './recording';
 
 export type ToEasel = { canvases: Canvases } | { picture: Picture };
-/** A picture is on the canvases; or letters look otherwise now than they did. */
-export type FromEasel = 'shown' | 'fonts';
+/** So many pictures are on the canvases; or letters look otherwise now than they did. */
+export type FromEasel = { shown: number } | 'fonts';
 
-/** So many pictures may be on their way: one is painted while the next is recorded. */
-const AHEAD = 2;
+/** So many pictures may be on their way: that of a frame, and one of news that came since. */
+const AHEAD = 4;
 const CANVASES = [...LAYERS, 'loupe'] as const;
 
 export class Screen {
@@ -49,7 +49,11 @@ export class Screen {
     loupe: Picture['loupe'] = null,
   ): void {
     const picture: Picture = { size, layers, shift, loupe, news: this.#words.news() };
-    if (this.#easel) return this.#easel.show(picture);
+    if (this.#easel) {
+      this.#easel.take(picture);
+      this.#easel.paint();
+      return;
+    }
     this.#onWay++;
     const moved = [
       ...Object.values(layers).map((ops) => ops.buffer),
@@ -83,7 +87,7 @@ export class Screen {
     this.#worker = worker;
     worker.onmessage = ({ data }: MessageEvent<FromEasel>) => {
       if (data === 'fonts') return this.onLost();
-      this.#onWay--;
+      this.#onWay -= data.shown;
       this.onFree();
     };
     // Canvases that were handed over do not come back: the page paints on new ones.

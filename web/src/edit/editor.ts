@@ -13,6 +13,7 @@ import { localReach, type LocalReach } from '../model/reach';
 import { type SpeedUnit, toldIn, walkingUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
+import { Calm } from './calm';
 import { Filling } from './filling';
 import { Layouts } from './layouts';
 import type { ToolName } from './gestures/tools';
@@ -251,6 +252,11 @@ export class Editor {
   });
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);
+  /** What panels say follows a drag now and then. */
+  readonly calm = new Calm(this.dragging, () => void [this.draft.value, this.status.value, this.scene.value]);
+  /** The futures and the one in force, as panels say them. */
+  readonly toldFutures = computed(() => this.calm.read(() => this.futures.value));
+  readonly toldChosen = computed(() => this.calm.read(() => this.chosen.value));
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
     return s && !this.dragging.value ? readEvents(s, this.motion.value, this.speedUnit.value) : NO_EVENTS;

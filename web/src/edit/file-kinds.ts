@@ -25,8 +25,8 @@ const MARKS: readonly Mark[] = [
 const LOOKED_AT = 16;
 
 /**
- * The kind of a file that is no scene, or `surely: false` hardly ever one; null where that cannot be told from its
- * beginning.
+ * The kind of a file that holds no scene, by its first bytes; null where they do not tell. With `surely: false` some
+ * files of the kind do hold one.
  */
 export async function foreignKind(file: Blob): Promise<{ readonly kind: string; readonly surely: boolean } | null> {
   const head = new Uint8Array(await file.slice(0, LOOKED_AT).arrayBuffer());

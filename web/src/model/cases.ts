@@ -4,7 +4,7 @@ import { closestTo, type Moving } from './closest';
 import type { MotionSet } from './futures';
 import { pointAt, wrapAngle, type Vec } from './geometry';
 import { poseAt, poseAtStep, STEP_S, type Motion } from './motion';
-import { canChange, type Agent, type Scene } from './scene';
+import { AT_GOAL_M, canChange, type Agent, type Scene } from './scene';
 
 export type What = 'near' | 'collision' | 'first' | 'braking' | 'goal' | 'red';
 
@@ -51,8 +51,6 @@ export interface Moment {
   readonly miss: number;
 }
 
-/** Nearer than this to its place a goal is reached, metres. */
-const AT_GOAL_M = 1;
 /** Braking is that over so many steps: one step alone may be a jump of what was recorded. */
 const BRAKING_STEPS = 5;
 /** Two ways that pass each other at a greater distance do not cross, metres. */

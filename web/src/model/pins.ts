@@ -5,7 +5,7 @@ import type { Future, Futures } from './futures';
 import { wrapAngle } from './geometry';
 import { endPose, endsBefore, motionFrom, poseAt, poseAtStep, type Columns, type Motion } from './motion';
 import { patchAgents, type AgentPatch, type Command } from './commands';
-import { startPose, type Agent, type AgentType, type Pin, type Scene } from './scene';
+import { AT_GOAL_M, startPose, type Agent, type AgentType, type Pin, type Scene } from './scene';
 import { metres, speedLabel, type SpeedUnit } from './units';
 import { passed } from './via';
 import { trackJson } from './write';
@@ -58,7 +58,6 @@ export const takenPin = (a: Agent): Pin | null =>
 const SAME_PLACE_M = 0.3;
 const SAME_HEADING_RAD = 0.09;
 const SAME_SPEED_MPS = 0.3;
-const AT_GOAL_M = 1;
 const GOAL_HEADING_RAD = 0.17;
 const GOAL_SPEED_MPS = 1;
 

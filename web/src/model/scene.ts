@@ -128,6 +128,8 @@ export const NO_THRESHOLDS: Thresholds = Object.freeze({});
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
 export const GOAL_TIME = DEFAULTS.horizon_s;
+/** Nearer than this to its place a goal is reached, metres. */
+export const AT_GOAL_M = 1;
 export const LENGTHS = [9, 12, 15, 20] as const;
 export const REPLANS = [3, 6, 9] as const;
 export type Length = (typeof LENGTHS)[number];

@@ -16,7 +16,7 @@ use scene::geometry::obb::OrientedBox;
 use scene::geometry::{cross, direction};
 use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
-use scene::score::Actor as ScoreActor;
+use scene::score::{Actor as ScoreActor, Drivable};
 use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
 /// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
@@ -192,13 +192,15 @@ fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceT
             looked_at.filter(|s| off(s)).count() as f64 / (INSTANTS + 1) as f64
         }
     };
-    let against = |s: &MotionState| {
-        let moves = s.speed_mps() > STANDING_MPS;
-        moves && map.drivable.is_wrong_way(s.position, direction(s.heading_rad)) == Some(true)
-    };
-    let (past_edges, wrong_way) = (share(&beyond), share(&against));
+    let (past_edges, wrong_way) = (share(&beyond), share(&|s| drives_against(&map.drivable, s)));
     let at_all = if past_edges + wrong_way > 0.0 { tuning.leaving_the_road } else { 0.0 };
     tuning.off_lanes * share(&away) + tuning.past_edges * past_edges + tuning.wrong_way * wrong_way + at_all
+}
+
+/// A vehicle moves against the traffic of the lane that it is in.
+pub(super) fn drives_against(ground: &Drivable, state: &MotionState) -> bool {
+    let moves = state.speed_mps() > STANDING_MPS;
+    moves && ground.is_wrong_way(state.position, direction(state.heading_rad)) == Some(true)
 }
 
 /// Mean distance of a motion from the one that the actor keeps, metres.

@@ -3,7 +3,7 @@
 use super::actor::Actor;
 use super::candidates::{Candidate, Origin, own, shown};
 use super::choice::{Choice, Choosable, swept};
-use super::costs::{Yardstick, options};
+use super::costs::{Yardstick, drives_against, options};
 use super::evading::{Field, short_of, way_round};
 use super::guidance::guided;
 use super::reacting::{Answered, Changed, Moving, caused, reaction_of};
@@ -12,12 +12,11 @@ use super::trajectory::{Motion, PER_INSTANT};
 use super::window::Window;
 use crate::features::agent::BEYOND_M;
 use crate::request::{React, Shown};
-use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{Judge, Reaction};
 use scene::motion::MotionState;
 use scene::score::overlap;
-use scene::{AgentId, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
+use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
 
 /// Motions of one road user that are led round what is in their way.
 const MOST_TRIED: usize = 2;
@@ -157,7 +156,7 @@ impl Window<'_> {
             // Nothing was asked that would be missed by waiting behind whoever is in the lawful way.
             let free = actor.plan.target.position.is_none();
             let leaves = leaves_the_road(actor, &shown.motion);
-            let breaks = free && (leaves || drives_against(actor, &shown.motion));
+            let breaks = free && (leaves || is_against_traffic(actor, &shown.motion));
             if !meets && !leaves && !breaks {
                 return (Vec::new(), None);
             }
@@ -313,12 +312,11 @@ fn leaves_the_road(actor: &Actor, motion: &Motion) -> bool {
     !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
 }
 
-/// A vehicle moves against the traffic of its lane.
-fn drives_against(actor: &Actor, motion: &Motion) -> bool {
-    let Some(ground) = &actor.plan.ground else { return false };
-    motion.states.iter().step_by(PER_INSTANT).any(|state| {
-        let moves = state.speed_mps() > STANDING_MPS;
-        moves && ground.is_wrong_way(state.position, direction(state.heading_rad)) == Some(true)
+/// A vehicle on the road is led against the traffic.
+fn is_against_traffic(actor: &Actor, motion: &Motion) -> bool {
+    let ground = actor.plan.ground.as_deref();
+    ground.is_some_and(|ground| {
+        motion.states.iter().step_by(PER_INSTANT).any(|state| drives_against(ground, state))
     })
 }
 

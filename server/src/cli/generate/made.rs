@@ -87,6 +87,7 @@ impl Maker<'_> {
         };
         let actor =
             task.request.agents.as_ref().filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
+        let code = task.code();
         let answer = self.generator.answer(task.request).map_err(failed)?;
         let all_samples = answer.samples.len();
         let mut samples = Vec::new();
@@ -128,7 +129,7 @@ impl Maker<'_> {
             samples: numbers,
             all_samples,
             kept: others,
-            code: task.code,
+            code,
         })))
     }
 }

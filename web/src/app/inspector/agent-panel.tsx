@@ -95,7 +95,7 @@ function Head({ agent }: { agent: LiveAgent }) {
 /** The verdict in a line, for where there is no room for more. */
 function VerdictLine({ agent }: { agent: LiveAgent }) {
   const c = useApp();
-  const v = useComputed(() => verdictOn(c, agent.value)).value;
+  const v = useComputed(() => verdictOn(c, agent)).value;
   return v ? (
     <p class={`vline ${v.kind}`}>
       <Icon name={v.icon} size={14} />
@@ -215,7 +215,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
   const list = useComputed(() => {
     const all = c.editor.motion.value.warnings?.get(agent.value.id);
     // That there is no lane is said once.
-    return verdictOn(c, agent.value)?.snap ? all?.filter((w) => !w.startsWith('There is no lane')) : all;
+    return verdictOn(c, agent)?.snap ? all?.filter((w) => !w.startsWith('There is no lane')) : all;
   }).value;
   if (!list?.length) return null;
   return (

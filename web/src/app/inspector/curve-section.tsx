@@ -66,7 +66,7 @@ function Stops({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const { profile } = editor.curve;
   const path = profile.value?.path;
-  const motion = editor.futures.value?.modes[editor.chosen.value]?.motion;
+  const motion = editor.toldFutures.value?.modes[editor.toldChosen.value]?.motion;
   const stops = motion ? stopsOf(motion) : [];
   if (!path || !stops.length) return null;
   const line = lineOf(path);

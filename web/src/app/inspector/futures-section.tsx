@@ -20,9 +20,9 @@ import { TEXTS as PINS } from '../../texts/pins';
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const note = useComputed(() => {
-    const f = editor.futures.value;
+    const f = editor.toldFutures.value;
     const a = agent.value;
-    if (!f) return editor.status.value.kind === 'refining' ? 'working' : '';
+    if (!f) return editor.calm.read(() => editor.status.value).kind === 'refining' ? 'working' : '';
     if (f.sketch) return TEXTS.sketchGenerator;
     if (!isSettled(f)) return f.step ? TEXTS.stepOf(f.step, f.steps) : TEXTS.firstGuess;
     if (editor.outdated.value) return TEXTS.fromBeforeThe;
@@ -57,8 +57,8 @@ function Remark({ agent }: { agent: LiveAgent }) {
 
 function FutureList({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const count = useComputed(() => editor.futures.value?.modes.length ?? 0).value;
-  const sketch = useComputed(() => editor.futures.value?.sketch ?? false).value;
+  const count = useComputed(() => editor.toldFutures.value?.modes.length ?? 0).value;
+  const sketch = useComputed(() => editor.toldFutures.value?.sketch ?? false).value;
   if (!count) return <Waiting />;
   if (sketch) return <p class="mut">{TEXTS.aPlainCurveIs}</p>;
   return (
@@ -82,11 +82,11 @@ function Waiting() {
 
 function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
-  const mode = useComputed(() => editor.futures.value?.modes[index]);
+  const mode = useComputed(() => editor.toldFutures.value?.modes[index]);
   const name = useComputed(() => mode.value?.name ?? '');
-  const percent = useComputed(() => `${percents(editor.futures.value?.modes ?? [])[index] ?? 0}%`);
-  const title = useComputed(() => inWords(editor.scene.value, mode.value));
-  const checked = useComputed(() => String(editor.chosen.value === index));
+  const percent = useComputed(() => `${percents(editor.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
+  const title = useComputed(() => inWords(editor.resting.value, mode.value));
+  const checked = useComputed(() => String(editor.toldChosen.value === index));
   const pick = () => {
     const command = agent.peek().chosen === index ? null : pickFuture(editor, agent.peek(), index);
     if (command) editor.run(command);
@@ -197,7 +197,7 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
-    const about = verdictsHold(editor) ? editor.futures.value?.modes[index]?.about : null;
+    const about = verdictsHold(editor) ? editor.toldFutures.value?.modes[index]?.about : null;
     const m = about ? markOf(about) : null;
     return m === 'ok' && !agent.value.goal.pos ? null : m;
   }).value;
@@ -221,7 +221,7 @@ function inWords(scene: Scene | null, m: Future | undefined): string {
 function Share({ index }: { index: number }) {
   const { editor } = useApp();
   const missing = useComputed(() => {
-    const modes = editor.futures.value?.modes ?? [];
+    const modes = editor.toldFutures.value?.modes ?? [];
     const share = (modes[index]?.probability ?? 0) / Math.max(...modes.map((m) => m.probability), 1e-9);
     return `translate: ${((share - 1) * 100).toFixed(2)}%`;
   });

@@ -16,7 +16,7 @@ import { TEXTS } from '../../texts/agent';
 
 export function Hint({ agent }: { agent: LiveAgent }) {
   const c = useApp();
-  const v = useComputed(() => verdictOn(c, agent.value)).value;
+  const v = useComputed(() => verdictOn(c, agent)).value;
   if (!v) return null;
   return (
     <div class="sect">

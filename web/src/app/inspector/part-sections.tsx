@@ -52,7 +52,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const place = useComputed(() => {
     const a = agent.value;
-    const drag = editor.drag.value;
+    const drag = editor.calm.read(() => editor.drag.value);
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
     if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asInLog;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);

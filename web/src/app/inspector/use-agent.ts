@@ -1,5 +1,5 @@
-// A road user as the document has it now. It changes with the drag of one's own handles alone: the others stay the
-// same objects while the scene around them changes.
+// A road user as the document has it now, or in a drag had it a moment ago. It changes with the drag of one's own
+// handles alone: the others stay the same objects while the scene around them changes.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import type { Agent, Scene } from '../../model/scene';
 import { useApp } from '../parts/app-context';
@@ -10,5 +10,5 @@ export type LiveAgent = ReadonlySignal<Agent>;
 export function useAgent(id: string, of?: () => ReadonlySignal<Scene | null>): LiveAgent {
   const { editor } = useApp();
   const first = editor.scene.peek()!.agents.get(id)!;
-  return useComputed(() => (of?.() ?? editor.scene).value?.agents.get(id) ?? first);
+  return useComputed(() => editor.calm.read(() => (of?.() ?? editor.scene).value?.agents.get(id)) ?? first);
 }

@@ -13,6 +13,7 @@ import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 import { TEXTS } from '../../texts/agent';
 import { isGoalOfLog } from '../../edit/moves';
+import type { LiveAgent } from './use-agent';
 
 export interface Verdict {
   readonly kind: 'ok' | 'near' | 'collision' | 'plain';
@@ -32,7 +33,11 @@ const REACHED_M = 2;
 /** A goal further from all lanes than this lies beside the road, in metres. */
 const NO_LANE_M = 4;
 
-export function verdictOn(c: Context, a: Agent): Verdict | null {
+/** As panels say it: in a drag now and then. */
+export const verdictOn = (c: Context, agent: LiveAgent): Verdict | null =>
+  c.editor.calm.read(() => verdictNow(c, agent.value));
+
+function verdictNow(c: Context, a: Agent): Verdict | null {
   const { editor: e } = c;
   if (e.away.value && e.motion.value.stale) return OUTDATED;
   const bad = a.goal.pos ? outOfReach(e, a) : null;

@@ -63,8 +63,8 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
   const name = useComputed(() => viaName(agent.value, i)).value;
   const held = useComputed(() => editor.viaInHand.value === i).value;
   const said = useComputed(() => {
-    const f = editor.futures.value;
-    const m = f?.modes[editor.chosen.value]?.motion;
+    const f = editor.toldFutures.value;
+    const m = f?.modes[editor.toldChosen.value]?.motion;
     const at = m && verdictsHold(editor) ? passed(agent.value.goal.via, m)[i] : null;
     if (!at) return '';
     return at.ok ? TEXTS.passedAt(seconds(at.time)) : TEXTS.awayAt(metres(at.away, 1), seconds(at.time));

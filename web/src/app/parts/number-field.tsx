@@ -67,7 +67,7 @@ function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
 
 export function NumberField(props: NumberFieldProps) {
   const p = inUnitOfLengths(props);
-  const { form } = useApp();
+  const { form, editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   /** Something is typed that has not been taken over. */
   const typed = useRef(false);
@@ -91,7 +91,7 @@ export function NumberField(props: NumberFieldProps) {
   };
 
   useLiveEffect(() => {
-    const text = p.text();
+    const text = editor.calm.read(p.text);
     const el = input.current!;
     if (typed.current || el.value === text) return;
     el.value = text;

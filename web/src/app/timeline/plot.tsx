@@ -40,7 +40,7 @@ export function Plot() {
   const { editor } = c;
   const box = useRef<HTMLDivElement>(null);
   const size = useSignal<Size>({ w: 900, h: 110 });
-  const tick = useFrameTick(() => [shown(c), size.value]);
+  const tick = useFrameTick(() => [editor.calm.read(() => shown(c)), size.value]);
   const now = useComputed(() => editor.time.value.toFixed(1));
   const end = useComputed(() => String(editor.resting.value?.duration ?? 9));
   useLayoutEffect(() => {

@@ -2,13 +2,18 @@ import type { TEXTS } from '../kinds';
 import { plural } from '../german-plural';
 import type { Said } from '../table';
 
-export const german: Said<typeof TEXTS> = {
+/** Nouns are the same in a sentence and at the head of one. */
+const NAMES = {
   car: 'Auto',
   truck: 'Lkw',
   bus: 'Bus',
   motorcycle: 'Motorrad',
   cyclist: 'Radfahrer',
   pedestrian: 'Fußgänger',
+};
+
+export const german: Said<typeof TEXTS> = {
+  ...NAMES,
   object: 'Objekt',
   smallCar: 'Kleinwagen',
   van: 'Lieferwagen',
@@ -24,15 +29,7 @@ export const german: Said<typeof TEXTS> = {
   adult: 'Erwachsener',
   child: 'Kind',
   wheelchair: 'Rollstuhl',
-  one: {
-    car: 'Auto',
-    truck: 'Lkw',
-    bus: 'Bus',
-    motorcycle: 'Motorrad',
-    cyclist: 'Radfahrer',
-    pedestrian: 'Fußgänger',
-    other: 'Objekt',
-  },
+  one: { ...NAMES, other: 'Objekt' },
   count: {
     car: (n: number) => plural(n, { one: `${n} Auto`, other: `${n} Autos` }),
     truck: (n: number) => `${n} Lkw`,
