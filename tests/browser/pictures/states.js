@@ -310,9 +310,17 @@ export const STATES = [
       await e.settled();
       const [start, end] = [await e.pose('Start'), await e.pose('Goal')];
       const [x, y] = await e.at(end.x, end.y);
-      const to = await e.at(start.x + 45 * Math.cos(start.heading), start.y + 45 * Math.sin(start.heading));
-      await e.drag([x + 9, y - 26], [to[0] + 9, to[1] - 26], { moves: 4 });
-      // Whoever would do something else has been asked.
+      const flagAt = async (ahead) => {
+        const to = await e.at(start.x + ahead * Math.cos(start.heading), start.y + ahead * Math.sin(start.heading));
+        return [to[0] + 9, to[1] - 26];
+      };
+      await e.drag([x + 9, y - 26], await flagAt(45), { moves: 4 });
+      // Whoever would do something else has been asked; where this car itself waits nobody would.
+      for (const ahead of [40, 35, 50, 30]) {
+        await e.settled();
+        if (await e.shows('.foreseen')) break;
+        await e.page.mouse.move(...(await flagAt(ahead)), { steps: 2 });
+      }
       await e.page.waitForSelector('.foreseen');
       await e.settled();
     },
