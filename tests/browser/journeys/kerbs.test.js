@@ -26,11 +26,12 @@ journeys('kerbs', (stage) => {
 
     await e.drag(await flag(car.end), await flag(across));
     await e.until(() => document.querySelector('.helpbar')?.textContent.includes('while a kerb is in the way'));
+    // The panel says where the flag is a moment later than the picture.
+    await e.settled();
     assert.ok(Math.abs((await behind()) - LAG_PX) < ROUNDING_PX, `${await behind()} px behind the hand`);
     await e.picture('kerb-held');
     await e.page.keyboard.down('Alt');
     await e.until(() => !document.querySelector('.helpbar')?.textContent.includes('kerb'));
-    // The panel says where the flag is a moment later than the picture.
     await e.settled();
     assert.ok((await behind()) < ROUNDING_PX, 'at once');
     await e.page.keyboard.up('Alt');
