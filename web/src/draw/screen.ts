@@ -7,7 +7,7 @@ export type ToEasel = { canvases: Canvases } | { picture: Picture };
 /** So many pictures are on the canvases; or letters look otherwise now than they did. */
 export type FromEasel = { shown: number } | 'fonts';
 
-/** So many pictures may be on their way: that of a frame, and one of news that came since. */
+/** So many pictures may be on their way: the worker paints what is newest of them once a frame. */
 const AHEAD = 4;
 const CANVASES = [...LAYERS, 'loupe'] as const;
 

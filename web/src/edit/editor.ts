@@ -253,7 +253,9 @@ export class Editor {
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);
   /** What panels say follows a drag now and then. */
-  readonly calm = new Calm(this.dragging, () => void [this.draft.value, this.status.value, this.scene.value]);
+  readonly calm = new Calm(this.dragging, () => {
+    void [this.draft.value, this.status.value, this.scene.value, this.motion.value, this.layers.value];
+  });
   /** The futures and the one in force, as panels say them. */
   readonly toldFutures = computed(() => this.calm.read(() => this.futures.value));
   readonly toldChosen = computed(() => this.calm.read(() => this.chosen.value));

@@ -18,10 +18,10 @@ interface Line {
 
 export function Status() {
   const c = useApp();
-  return c.editor.calm.read(() => line(c));
+  return c.editor.calm.read(() => statusLine(c));
 }
 
-function line(c: Context) {
+function statusLine(c: Context) {
   const { editor } = c;
   const s = editor.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
