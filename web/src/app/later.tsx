@@ -81,7 +81,8 @@ export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<
     const say = (to: 'there' | 'missing') => () => {
       if (wanted) state.value = to;
     };
-    if (!here.has(part)) void fetchPart(part).then(say('there'), say('missing'));
+    // Also one that has come since it was drawn: nobody else would draw it anew.
+    void fetchPart(part).then(say('there'), say('missing'));
     return () => {
       wanted = false;
     };
