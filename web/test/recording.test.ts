@@ -1,6 +1,7 @@
 // What is recorded on the page is what is played elsewhere.
 import fc from 'fast-check';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Easel, type Canvases, type Picture } from '../src/draw/easel';
 import { Shape, type Pen, type Sprite } from '../src/draw/pen';
 import { Recording, Vocabulary } from '../src/draw/recording';
 import { Player, type Canvas2D } from '../src/draw/replay';
@@ -37,8 +38,8 @@ function listener(): { g: Canvas2D; calls: Call[] } {
 class FakeCanvas {
   readonly heard = listener();
   constructor(
-    readonly width: number,
-    readonly height: number,
+    public width: number,
+    public height: number,
   ) {}
   getContext() {
     return this.heard.g;
@@ -169,5 +170,78 @@ describe('recordings', () => {
       { afresh: true, last: 'text 5999' },
       { afresh: false, last: 'text 1499' },
     ]);
+  });
+});
+
+describe('the easel', () => {
+  const IN_PLACE: Picture['shift'] = { dx: 0, dy: 0, scale: 1, angle: 0 };
+  const size = { w: 400, h: 300, dpr: 1 };
+
+  function easel() {
+    const picture = new FakeCanvas(1, 1);
+    const loupe = new FakeCanvas(1, 1);
+    const painter = new Easel({ picture, loupe } as unknown as Canvases);
+    const words = new Vocabulary();
+    const recording = new Recording(words);
+    const write = (text: string) => {
+      recording.fillText(text, 0, 0);
+      return recording.take();
+    };
+    /** Layers with a text on each of them, by which it is known. */
+    const take = (texts: Partial<Record<keyof Picture['layers'], string>>, shift = IN_PLACE) => {
+      const layers = Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, write(text)]));
+      const news = words.news();
+      painter.take({ size, layers, news, shift, loupe: null });
+      return news;
+    };
+    /** What is seen, lowest first: texts, and canvases by what was written on them. */
+    const seen = (calls: Call[]): string[] =>
+      calls.flatMap(([name, what]) => {
+        if (name === 'fillText') return [what as string];
+        if (name !== 'drawImage') return [];
+        const below = (what as FakeCanvas).heard.calls;
+        // What was painted over by something as large is not seen.
+        return seen(below.slice(below.findLastIndex(([n]) => n === 'drawImage')).filter(Boolean));
+      });
+    const paint = () => {
+      picture.heard.calls.length = 0;
+      painter.paint();
+      return seen(picture.heard.calls);
+    };
+    return { take, paint, write };
+  }
+
+  it('shows the layers in their order, whichever of them are new', () => {
+    const { take, paint } = easel();
+    take({ map: 'map', agents: 'cars', overlay: 'flag' });
+    expect(paint()).toEqual(['map', 'cars', 'flag']);
+    take({ overlay: 'flag 2' });
+    expect(paint()).toEqual(['map', 'cars', 'flag 2']);
+    take({ agents: 'cars 2' });
+    expect(paint()).toEqual(['map', 'cars 2', 'flag 2']);
+    take({ overlay: 'flag 3' });
+    expect(paint()).toEqual(['map', 'cars 2', 'flag 3']);
+    take({}, { ...IN_PLACE, dx: 5 });
+    expect(paint()).toEqual(['map', 'cars 2', 'flag 3']);
+    expect(paint()).toEqual([]);
+  });
+
+  it('paints what is newest of pictures that came together', () => {
+    const { take, paint } = easel();
+    take({ map: 'map', agents: 'cars', overlay: 'flag' });
+    take({ agents: 'cars 2' });
+    take({ overlay: 'flag 2' });
+    expect(paint()).toEqual(['map', 'cars 2', 'flag 2']);
+  });
+
+  it('still shows layers of before when texts are told afresh', () => {
+    const { take, paint, write } = easel();
+    take({ map: 'map', agents: 'cars', overlay: 'flag' });
+    for (let i = 0; i < 4500; i++) write(`text ${i}`);
+    take({ overlay: 'flag 2' });
+    expect(take({ overlay: 'flag 3' }).afresh).toBe(true);
+    expect(paint()).toEqual(['map', 'cars', 'flag 3']);
+    take({ agents: 'cars 2' });
+    expect(paint()).toEqual(['map', 'cars 2', 'flag 3']);
   });
 });

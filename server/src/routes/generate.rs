@@ -126,6 +126,9 @@ pub struct GenerateRequest {
     #[serde(default)]
     #[schemars(range(max = 9007199254740991u64))]
     revision: Option<u64>,
+    /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+    #[serde(default)]
+    background: bool,
     /// Road users to regenerate.
     #[serde(default = "everyone")]
     agents: Who,
@@ -368,7 +371,7 @@ impl GenerateRequest {
                 return Err(Problem::field("/revision", Code::InvalidField, detail));
             }
         };
-        Ok(Caller { job: self.job.clone(), client, connection: None })
+        Ok(Caller { job: self.job.clone(), client, connection: None, background: self.background })
     }
 
     /// Numbers that do not depend on the scene.

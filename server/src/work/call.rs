@@ -201,6 +201,29 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn what_nobody_waits_for_holds_up_nobody() {
+        let pool = pool(Limits { running: 1, ..Limits::default() });
+        let call = |background, ms| {
+            let caller = Caller { background, ..Caller::default() };
+            let asked = Asked { kind: Kind::Generate, cost: Duration::from_millis(1), caller };
+            let work = move |_: &experts::Cancel| {
+                std::thread::sleep(Duration::from_millis(ms));
+                // Of this thread, on Linux.
+                Ok(rustix::process::getpriority_process(None).unwrap())
+            };
+            let pool = Arc::clone(&pool);
+            tokio::spawn(async move { pool.run(asked, work).await.unwrap() })
+        };
+        let behind = call(true, 300);
+        tokio::time::sleep(Duration::from_millis(5)).await;
+        let first = call(false, 1).await.unwrap();
+        assert!(!behind.is_finished());
+        let behind = behind.await.unwrap();
+        assert!(!cfg!(target_os = "linux") || behind == (first + 10).min(19), "{first} and {behind}");
+        pool.stop();
+    }
+
+    #[tokio::test]
     async fn a_long_call_lets_smaller_ones_of_others_go_first() {
         let pool = pool(Limits { running: 1, ..Limits::default() });
         let done: Arc<Mutex<Vec<&'static str>>> = Arc::default();

@@ -21,6 +21,8 @@ pub struct Caller {
     pub client: Option<(String, u64)>,
     /// The connection it came by.
     pub connection: Option<u64>,
+    /// Nobody waits for the answer.
+    pub background: bool,
 }
 
 impl Caller {
@@ -48,7 +50,7 @@ pub struct Asked {
 impl Asked {
     /// Its queue.
     pub fn lane(&self) -> Lane {
-        self.kind.lane(self.cost)
+        self.kind.lane(self.cost, self.caller.background)
     }
 }
 
@@ -113,6 +115,7 @@ impl Ticket {
 /// A job that waits or is worked on.
 pub struct Job {
     pub(super) kind: Kind,
+    pub(super) lane: Lane,
     pub(super) cost: Duration,
     pub(super) party: String,
     pub(super) ticket: Arc<Ticket>,
@@ -127,6 +130,7 @@ pub struct Job {
 impl Job {
     pub(super) fn new(
         kind: Kind,
+        lane: Lane,
         cost: Duration,
         party: String,
         ticket: Arc<Ticket>,
@@ -134,11 +138,7 @@ impl Job {
         work: Work,
     ) -> Self {
         let (work, began, paused) = (Mutex::new(Some(work)), Mutex::default(), Mutex::default());
-        Self { kind, cost, party, ticket, ending, work, began, paused }
-    }
-
-    pub(super) fn lane(&self) -> Lane {
-        self.kind.lane(self.cost)
+        Self { kind, lane, cost, party, ticket, ending, work, began, paused }
     }
 
     /// A worker takes it.

@@ -10,7 +10,7 @@ const PATIENT: Duration = Duration::from_millis(150);
 pub enum Lane {
     /// Calls that people wait for.
     Quick,
-    /// Calls that take long whoever waits.
+    /// Calls that take long whoever waits, and those that nobody waits for.
     Patient,
     /// Documents, which must be read before it is known what a call asks.
     Document,
@@ -76,11 +76,11 @@ impl Kind {
         }
     }
 
-    /// Queue of such work that is expected to take so long.
-    pub fn lane(self, cost: Duration) -> Lane {
+    /// Queue of such work that is expected to take so long, or that nobody waits for.
+    pub fn lane(self, cost: Duration, background: bool) -> Lane {
         match self {
             Self::Document => Lane::Document,
-            _ if cost > PATIENT => Lane::Patient,
+            _ if background || cost > PATIENT => Lane::Patient,
             _ => Lane::Quick,
         }
     }

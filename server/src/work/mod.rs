@@ -3,7 +3,8 @@
 //! There are three lanes with threads of their own. What is expected to take long (big generations, large
 //! files) never stands before what people wait for, and reading and writing of documents before neither, so
 //! that a newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take
-//! turns, and a long call lets the smaller ones of others go first between its steps.
+//! turns, and a long call lets the smaller ones of others go first between its steps. Threads for what takes
+//! long, or what nobody waits for, leave the cores to the others.
 //!
 //! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
 //! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
@@ -41,6 +42,18 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// How much less of a core than others a thread gets that gives way: a tenth.
+#[cfg(all(target_os = "linux", not(feature = "shuttle")))]
+const NICE: i32 = 10;
+
+/// The calling thread, and those that it starts, leave the cores to others where they are short. On Linux alone:
+/// elsewhere this would be said of the whole process.
+fn give_way() {
+    #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
+    // Where that is not allowed it works as the others do.
+    let _ = rustix::process::nice(NICE);
+}
+
 /// Shared by handlers and workers.
 pub struct Pool {
     state: Mutex<State>,
@@ -64,7 +77,10 @@ impl Pool {
         });
         for number in 0..limits.workers() {
             pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Quick, Lane::Document]))?;
-            pool.spawn(format!("patient-{number}"), |pool| pool.work(&[Lane::Patient]))?;
+            pool.spawn(format!("patient-{number}"), |pool| {
+                give_way();
+                pool.work(&[Lane::Patient]);
+            })?;
         }
         for number in 0..limits.readers() {
             pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Document]))?;
@@ -116,7 +132,7 @@ impl Pool {
         let ticket = Arc::new(Ticket::new(id, caller.client, before));
         let (ending, work) = make(&ticket);
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
-        let job = Arc::new(Job::new(kind, cost, party, ticket, end, work));
+        let job = Arc::new(Job::new(kind, lane, cost, party, ticket, end, work));
         state.arrived(&job);
         // A worker reads documents too, while all readers are at it or have been called for others already.
         let reads = lane == Lane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
@@ -214,7 +230,7 @@ impl Pool {
         metrics::work(job.kind.name(), "work", began.elapsed().as_secs_f64());
         let mut state = lock(&self.state);
         state.jobs.remove(&job.ticket.id);
-        state.lane(job.lane()).finished(job, job.worked());
+        state.lane(job.lane).finished(job, job.worked());
         state.show();
     }
 
@@ -223,7 +239,7 @@ impl Pool {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
         let began = Instant::now();
         let goes = |job: &Job| job.party != own.party && 4 * job.cost <= own.cost;
-        while own.lane() == Lane::Patient && !self.stopped.load(Ordering::Relaxed) {
+        while own.lane == Lane::Patient && !self.stopped.load(Ordering::Relaxed) {
             let Some(job) = lock(&self.state).next(Lane::Patient, goes) else { break };
             self.perform(&job);
         }

@@ -83,7 +83,7 @@ impl State {
 
     /// A job waits from now on.
     pub fn arrived(&mut self, job: &Arc<Job>) {
-        self.lane(job.lane()).queue.push_back(Arc::clone(job));
+        self.lane(job.lane).queue.push_back(Arc::clone(job));
         self.jobs.insert(job.ticket.id.clone(), Arc::clone(job));
         self.show();
     }
@@ -112,7 +112,7 @@ impl State {
 
     /// Takes a job that has ended out of its queue, if it still waits there.
     pub fn forget_queued(&mut self, job: &Arc<Job>) {
-        let queue = &mut self.lane(job.lane()).queue;
+        let queue = &mut self.lane(job.lane).queue;
         let before = queue.len();
         queue.retain(|queued| !Arc::ptr_eq(queued, job));
         if queue.len() < before {

@@ -1,10 +1,11 @@
-// The three canvases and what is on them: map, road users, overlay. Works in a worker and on the page alike.
+// The canvas that is looked at, and what is on it: map, road users, overlay. Works in a worker and on the page alike.
 import type { News } from './recording';
-import { Player, pen2d, surface, type Canvas2D } from './replay';
+import { Player, opaquePen, surface, type Canvas2D, type Surface } from './replay';
 
 export const LAYERS = ['map', 'agents', 'overlay'] as const;
 export type LayerName = (typeof LAYERS)[number];
-export type Canvases = Record<LayerName | 'loupe', HTMLCanvasElement | OffscreenCanvas>;
+export const CANVASES = ['picture', 'loupe'] as const;
+export type Canvases = Record<(typeof CANVASES)[number], HTMLCanvasElement | OffscreenCanvas>;
 
 export interface Size {
   /** Of the picture, in CSS pixels. */
@@ -43,85 +44,125 @@ export interface Picture {
   readonly loupe: Loupe | null;
 }
 
+/** What a layer shows, with what it speaks of. */
+interface Layer {
+  readonly player: Player;
+  readonly ops: Float64Array;
+}
+
+/**
+ * One opaque canvas rather than one for each layer: the browser then copies it to the screen, where it would have to
+ * blend each of them over the others in every frame.
+ */
 export class Easel {
-  readonly #player = new Player();
-  readonly #pens: Record<LayerName | 'loupe', Canvas2D>;
+  #player = new Player();
+  readonly #picture: Canvas2D;
+  readonly #loupe: Canvas2D;
   #size: Size | null = null;
   /** The map with its margin, as it was painted. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
+  #agents: Layer = { player: this.#player, ops: new Float64Array() };
+  #overlay = this.#agents;
+  /** What lies below the overlay, for the frames in which only that changes; null until one of them comes. */
+  #below: Surface | null = null;
+  #belowIsOld = true;
   /** What is to be painted next. */
-  #next: Omit<Picture, 'news'> | null = null;
+  #next: Pick<Picture, 'size' | 'shift' | 'loupe'> | null = null;
+  #layers: Partial<Record<LayerName, Layer>> = {};
 
   constructor(private readonly canvases: Canvases) {
-    const pen = (name: LayerName | 'loupe') =>
-      canvases[name].getContext('2d', { alpha: name !== 'map' && name !== 'loupe' }) as Canvas2D;
-    this.#pens = { map: pen('map'), agents: pen('agents'), overlay: pen('overlay'), loupe: pen('loupe') };
+    this.#picture = opaquePen(canvases.picture);
+    this.#loupe = opaquePen(canvases.loupe);
   }
 
   /** A picture to be painted; what was to be painted and is not anew in this one stays so. */
-  take({ news, ...picture }: Picture): void {
-    // Recordings of before speak of what is forgotten now.
-    if (news.afresh) this.paint();
+  take({ news, layers, ...picture }: Picture): void {
+    // Layers of before are still played, by who knows what they speak of.
+    if (news.afresh) this.#player = new Player();
     this.#player.learn(news);
-    this.#next = { ...picture, layers: { ...this.#next?.layers, ...picture.layers } };
+    this.#next = picture;
+    for (const name of LAYERS) {
+      const ops = layers[name];
+      if (ops) this.#layers[name] = { player: this.#player, ops };
+    }
   }
 
   paint(): void {
     if (!this.#next) return;
-    const { size, layers, shift, loupe } = this.#next;
+    const { size, shift, loupe } = this.#next;
+    const { map, agents, overlay } = this.#layers;
     this.#next = null;
-    this.#fit(size);
-    if (layers.map) this.#player.play(pen2d(this.#map), layers.map);
-    if (layers.map || !sameShift(shift, this.#shift)) this.#placeMap(shift);
-    for (const name of ['agents', 'overlay'] as const) {
-      const ops = layers[name];
-      if (!ops) continue;
-      const g = this.#pens[name];
-      const { width, height } = this.canvases[name];
-      g.setTransform(1, 0, 0, 1, 0, 0);
-      g.clearRect(0, 0, width, height);
-      g.setTransform(size.dpr, 0, 0, size.dpr, 0, 0);
-      this.#player.play(g, ops);
-    }
+    this.#layers = {};
+    const fitted = this.#fit(size);
+    if (map) map.player.play(opaquePen(this.#map), map.ops);
+    this.#agents = agents ?? this.#agents;
+    this.#overlay = overlay ?? this.#overlay;
+    if (fitted || map || agents || !sameShift(shift, this.#shift)) {
+      this.#shift = shift;
+      this.#belowIsOld = true;
+      this.#paintBelow(this.#picture);
+    } else this.#picture.drawImage(this.#freshBelow(), 0, 0);
+    this.#play(this.#picture, this.#overlay);
     if (loupe) this.#magnify(loupe, size.dpr);
   }
 
-  /** The three layers around a place, larger. */
+  #freshBelow(): Surface {
+    const { width, height } = this.canvases.picture;
+    this.#below ??= surface(width, height);
+    if (this.#belowIsOld) this.#paintBelow(opaquePen(this.#below));
+    this.#belowIsOld = false;
+    return this.#below;
+  }
+
+  #paintBelow(g: Canvas2D): void {
+    this.#placeMap(g);
+    this.#play(g, this.#agents);
+  }
+
+  #play(g: Canvas2D, { player, ops }: Layer): void {
+    const { dpr } = this.#size!;
+    g.save();
+    g.setTransform(dpr, 0, 0, dpr, 0, 0);
+    player.play(g, ops);
+    g.restore();
+  }
+
+  /** What is around a place, larger. */
   #magnify({ x, y, px }: Loupe, dpr: number): void {
-    const g = this.#pens.loupe;
-    const { loupe } = this.canvases;
+    const { loupe, picture } = this.canvases;
     const side = Math.round(px * dpr);
     if (loupe.width !== side) loupe.width = loupe.height = side;
     const part = side / LARGER;
-    g.clearRect(0, 0, side, side);
-    for (const name of LAYERS)
-      g.drawImage(this.canvases[name], x * dpr - part / 2, y * dpr - part / 2, part, part, 0, 0, side, side);
+    this.#loupe.clearRect(0, 0, side, side);
+    this.#loupe.drawImage(picture, x * dpr - part / 2, y * dpr - part / 2, part, part, 0, 0, side, side);
   }
 
-  #fit(size: Size): void {
+  /** True where the size is another one; canvases are empty then. */
+  #fit(size: Size): boolean {
     const was = this.#size;
-    if (was && was.w === size.w && was.h === size.h && was.dpr === size.dpr) return;
+    if (was && was.w === size.w && was.h === size.h && was.dpr === size.dpr) return false;
     this.#size = size;
-    for (const name of LAYERS) {
-      this.canvases[name].width = Math.round(size.w * size.dpr);
-      this.canvases[name].height = Math.round(size.h * size.dpr);
-    }
+    const { picture } = this.canvases;
+    picture.width = Math.round(size.w * size.dpr);
+    picture.height = Math.round(size.h * size.dpr);
+    this.#below = null;
     this.#map = surface(Math.round((size.w + 2 * MARGIN) * size.dpr), Math.round((size.h + 2 * MARGIN) * size.dpr));
+    return true;
   }
 
-  #placeMap(shift: Shift): void {
-    this.#shift = shift;
-    const { width, height } = this.canvases.map;
+  #placeMap(g: Canvas2D): void {
+    const shift = this.#shift!;
+    const { width, height } = this.canvases.picture;
     const { dpr } = this.#size!;
     const w = this.#map.width * shift.scale,
       h = this.#map.height * shift.scale;
-    const g = this.#pens.map;
     if (shift.angle) {
-      g.setTransform(1, 0, 0, 1, width / 2 + shift.dx * dpr, height / 2 + shift.dy * dpr);
+      g.save();
+      g.translate(width / 2 + shift.dx * dpr, height / 2 + shift.dy * dpr);
       g.rotate(shift.angle);
       g.drawImage(this.#map, -w / 2, -h / 2, w, h);
-      g.setTransform(1, 0, 0, 1, 0, 0);
+      g.restore();
       return;
     }
     // On whole pixels: a shift by a part of one would blur every line.

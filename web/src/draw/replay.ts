@@ -3,7 +3,7 @@ import type { Pen } from './pen';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
-type Surface = HTMLCanvasElement | OffscreenCanvas;
+export type Surface = HTMLCanvasElement | OffscreenCanvas;
 
 /** A canvas that nobody sees. */
 export function surface(width: number, height: number): Surface {
@@ -12,6 +12,8 @@ export function surface(width: number, height: number): Surface {
 }
 
 export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
+/** The pen of a canvas that is covered whole, so that copying it is no blending. */
+export const opaquePen = (s: Surface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
 
 export class Player {
   #texts: string[] = [];

@@ -1,6 +1,5 @@
-// What is seen of the scene: three canvases that a worker paints, or the page itself where a browser has no canvas for
-// workers.
-import { Easel, LAYERS, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
+// What is seen of the scene: a canvas that a worker paints, or the page itself where a browser has no canvas for workers.
+import { CANVASES, Easel, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
 import { Recording, Vocabulary } from './recording';
 
 export type ToEasel = { canvases: Canvases } | { picture: Picture };
@@ -9,7 +8,6 @@ export type FromEasel = { shown: number } | 'fonts';
 
 /** So many pictures may be on their way: the worker paints what is newest of them once a frame. */
 const AHEAD = 4;
-const CANVASES = [...LAYERS, 'loupe'] as const;
 
 export class Screen {
   #words = new Vocabulary();
@@ -26,7 +24,7 @@ export class Screen {
     private readonly onLost: () => void,
   ) {
     const canvases = this.#hang();
-    const canHandOver = typeof Worker !== 'undefined' && 'transferControlToOffscreen' in canvases.map;
+    const canHandOver = typeof Worker !== 'undefined' && 'transferControlToOffscreen' in canvases.picture;
     if (canHandOver) this.#employ(canvases);
     else this.#easel = new Easel(canvases);
   }
@@ -69,20 +67,20 @@ export class Screen {
   }
 
   /** New canvases in place of old ones. */
-  #hang(): Record<LayerName | 'loupe', HTMLCanvasElement> {
+  #hang(): Record<keyof Canvases, HTMLCanvasElement> {
     for (const c of this.#canvases) c.remove();
     const made = CANVASES.map((name) => {
       const c = document.createElement('canvas');
-      c.className = name === 'loupe' ? name : `layer ${name}`;
+      c.className = name;
       c.setAttribute('aria-hidden', 'true');
       return [name, c] as const;
     });
     this.#canvases = made.map(([, c]) => c);
     this.element.prepend(...this.#canvases);
-    return Object.fromEntries(made) as Record<LayerName | 'loupe', HTMLCanvasElement>;
+    return Object.fromEntries(made) as Record<keyof Canvases, HTMLCanvasElement>;
   }
 
-  #employ(canvases: Record<LayerName | 'loupe', HTMLCanvasElement>): void {
+  #employ(canvases: Record<keyof Canvases, HTMLCanvasElement>): void {
     const worker = new Worker(new URL('./easel.worker.ts', import.meta.url), { type: 'module' });
     this.#worker = worker;
     worker.onmessage = ({ data }: MessageEvent<FromEasel>) => {
@@ -101,7 +99,7 @@ export class Screen {
       this.onLost();
     };
     const off = CANVASES.map((name) => [name, canvases[name].transferControlToOffscreen()] as const);
-    const handed = Object.fromEntries(off) as Record<LayerName | 'loupe', OffscreenCanvas>;
+    const handed = Object.fromEntries(off) as Record<keyof Canvases, OffscreenCanvas>;
     worker.postMessage({ canvases: handed } satisfies ToEasel, Object.values(handed));
   }
 }

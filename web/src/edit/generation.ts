@@ -134,7 +134,7 @@ export class Generation implements Previews {
 
   #foreseeing(scene: Scene, on: Handlers): Question | null {
     const asked = this.#absence.now ? null : this.#onRelease(scene);
-    return asked && this.#questions.make(scene, asked, true, on);
+    return asked && this.#questions.make(scene, { ...asked, background: true }, true, on);
   }
 
   /** The release takes over what was foreseen of exactly this document; false when nothing was. */

@@ -29,6 +29,8 @@ export interface Wanted {
   readonly feedback?: FeedbackDocJson;
   /** What is to be seen on the way to the answer; all six unless only the answer counts. */
   readonly drafts?: 'all' | 'chosen';
+  /** The hand's own questions go before this one, on the server too. */
+  readonly background?: boolean;
 }
 
 /** A draft that stays for less than a picture on the screen would not be seen. */
@@ -88,6 +90,7 @@ export class Questions {
       score: w.step !== null && !w.unscored,
       ...thresholdsOf(scene),
       ...(w.feedback ? { feedback: w.feedback } : {}),
+      ...(w.background ? { background: true } : {}),
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME

@@ -1635,6 +1635,11 @@ export interface components {
              */
             agents?: components["schemas"]["Who"];
             /**
+             * @description Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+             * @default false
+             */
+            background?: boolean;
+            /**
              * @description With `revision`: a newer revision of this client takes over.
              * @default null
              */

@@ -21,6 +21,7 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 /** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
 export type GenerateOptions = Pick<
   Schemas['GenerateRequest'],
+  | 'background'
   | 'draft_interval_ms'
   | 'feedback'
   | 'horizon_s'
