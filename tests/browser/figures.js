@@ -55,6 +55,7 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
         const c = await costs(browser, e, ...way, moves);
         row('frame p50', c.frame.p50);
         row('frame p95', c.frame.p95);
+        row('draw to draw p95', c.drawn.p95);
         row('page thread a move', c.page);
         row('CPU of page and drawing a move', c.all);
         for (const [name, ms] of Object.entries(c.threads).slice(0, 5)) row(`  ${name}`, ms);

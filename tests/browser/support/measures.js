@@ -102,9 +102,10 @@ export async function costs(browser, e, from, to, moves) {
     const trace = await traced(browser, e.page, run, FRAMES_ALONE);
     return { trace, threads: since(before, await threadTimes(browser)) };
   });
-  const frames = trace.drawn;
+  const between = (times) => spread(times.slice(1).map((t, i) => t - times[i]));
   return {
-    frame: spread(frames.slice(1).map((t, i) => t - frames[i])),
+    frame: between(trace.screen),
+    drawn: between(trace.drawn),
     page: trace.pageMs / moves,
     all: trace.cpuMs / moves,
     threads: Object.fromEntries(Object.entries(threads).map(([name, ms]) => [name, ms / moves])),

@@ -1,6 +1,8 @@
 // The browser's own record of what happened when. Times are milliseconds of its monotonic clock.
 
 const CATEGORIES = ['devtools.timeline', 'disabled-by-default-devtools.timeline', 'blink', 'viz'];
+/** A frame of the screen. */
+const FRAME_MS = 1000 / 60;
 /** What tells of frames alone, and costs the page next to nothing. */
 export const FRAMES_ALONE = ['viz'];
 
@@ -58,6 +60,10 @@ class Trace {
         .filter((v) => v.name === name && v.ph === 'X')
         .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000, event: v }))
         .sort((a, b) => a.at - b.at);
+    // A screen shows with its next tick what was drawn by then; of two pictures, the last.
+    const phase = phaseOf(times('DelayBasedBeginFrameSource::OnTimerTick'));
+    const shownAt = ({ done }) => Math.ceil((done - phase) / FRAME_MS);
+    this.screen = [...new Set(spans('Display::DrawAndSwap').map(shownAt))].map((tick) => tick * FRAME_MS);
     const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame').filter((c) => c.event.pid === page?.pid);
     this.finished = canvases.map((c) => c.done);
     // What the page told the worker that paints, and when it had painted it.
@@ -92,6 +98,13 @@ class Trace {
     const finished = told && this.finished.find((t) => t >= told.painted);
     return (finished && (this.drawn.find((t) => t >= finished) ?? null)) || null;
   }
+}
+
+/** Where in a frame the clock of a screen ticks, which goes evenly: its timer is late now and then. */
+function phaseOf(ticks) {
+  const [first = 0] = ticks;
+  const late = ticks.map((t) => t - first - FRAME_MS * Math.round((t - first) / FRAME_MS)).sort((a, b) => a - b);
+  return first + (late[late.length >> 1] ?? 0);
 }
 
 /** Median, 95th percentile and count. */

@@ -72,10 +72,10 @@ export class Overlay {
     this.hovered = new HoveredOverlay(editor);
   }
 
-  /** Where the time tag was painted, for the pointer. */
   /** Bars where somebody with a speed drawn by hand stands. */
   stops: readonly StopBar[] = [];
 
+  /** Where the time tag was painted, for the pointer. */
   get timeTag(): GoalOverlay['timeTag'] {
     return this.goal.timeTag;
   }
