@@ -1,4 +1,5 @@
-// What is seen of the scene: a canvas that a worker paints, or the page itself where a browser has no canvas for workers.
+// What is seen of the scene: a canvas that a worker paints, or the page itself where a browser has no canvas for
+// workers.
 import { CANVASES, Easel, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
 import { Recording, Vocabulary } from './recording';
 
