@@ -48,7 +48,9 @@ describe('while a handle is dragged', () => {
     s.others.last.on.dropped!();
     const asked = s.generator.last;
     expect(asked.preview).toBe(false);
-    expect({ ...foreseen.options, stream_modes: 'all' }).toEqual(asked.options);
+    const { background, ...foreseenOptions } = foreseen.options;
+    expect(background).toBe(true);
+    expect({ ...foreseenOptions, stream_modes: 'all' }).toEqual(asked.options);
     expect(foreseen.scene()).toEqual(asked.scene());
   });
 
