@@ -91,7 +91,7 @@ pub fn identity(weights: impl Iterator<Item = (String, String)>) {
     for expert in ["vehicle", "pedestrian", "cyclist"] {
         counter!("dragtraffic_steps_total", "expert" => expert).increment(0);
     }
-    for lane in ["quick", "patient", "document"] {
+    for lane in ["quick", "patient", "background", "document"] {
         load(lane, 0, 0);
     }
 }

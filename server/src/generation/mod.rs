@@ -90,9 +90,9 @@ pub fn concerned(request: &Request) -> usize {
 /// The experts by the lane of a call.
 #[derive(Clone, Copy)]
 pub struct Experts<'a> {
-    /// For calls that people wait for.
+    /// For small calls that people wait for.
     pub quick: &'a Arc<Generator>,
-    /// For long ones.
+    /// For the others.
     pub patient: &'a Arc<Generator>,
 }
 
@@ -108,7 +108,7 @@ pub fn submit(
     task: Task,
 ) -> Result<Reader, Problem> {
     let asked = Asked { kind: Kind::Generate, cost: task.cost(), caller };
-    let generator = Arc::clone(if asked.lane() == Lane::Patient { experts.patient } else { experts.quick });
+    let generator = Arc::clone(if asked.lane() == Lane::Quick { experts.quick } else { experts.patient });
     let most = limits.buffered_events as usize;
     let (feed, handle) = pool.submit(asked, |ticket| {
         let feed = Arc::new(Feed::new(Arc::clone(ticket), most));

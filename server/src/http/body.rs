@@ -76,7 +76,7 @@ impl Room {
     pub async fn import(&self, lane: Lane) -> Result<[Option<OwnedSemaphorePermit>; 2], Problem> {
         let long = match lane {
             Lane::Patient => Some(Arc::clone(&self.long_imports).acquire_owned().await),
-            Lane::Quick | Lane::Document => None,
+            Lane::Quick | Lane::Background | Lane::Document => None,
         };
         let place = Arc::clone(&self.imports).acquire_owned().await;
         Ok([long.transpose().map_err(Problem::internal)?, Some(place.map_err(Problem::internal)?)])

@@ -203,9 +203,9 @@ mod tests {
     #[tokio::test]
     async fn what_nobody_waits_for_holds_up_nobody() {
         let pool = pool(Limits { running: 1, ..Limits::default() });
-        let call = |background, ms| {
+        let call = |background, cost_ms, ms| {
             let caller = Caller { background, ..Caller::default() };
-            let asked = Asked { kind: Kind::Generate, cost: Duration::from_millis(1), caller };
+            let asked = Asked { kind: Kind::Generate, cost: Duration::from_millis(cost_ms), caller };
             let work = move |_: &experts::Cancel| {
                 std::thread::sleep(Duration::from_millis(ms));
                 // Of this thread, on Linux.
@@ -214,12 +214,17 @@ mod tests {
             let pool = Arc::clone(&pool);
             tokio::spawn(async move { pool.run(asked, work).await.unwrap() })
         };
-        let behind = call(true, 300);
+        let behind = call(true, 1, 300);
         tokio::time::sleep(Duration::from_millis(5)).await;
-        let first = call(false, 1).await.unwrap();
+        let first = call(false, 1, 1).await.unwrap();
         assert!(!behind.is_finished());
         let behind = behind.await.unwrap();
         assert!(!cfg!(target_os = "linux") || behind == (first + 10).min(19), "{first} and {behind}");
+        // Nor does what takes long hold it up: somebody may wait for it by the time it is there.
+        let long = call(false, 4_000, 300);
+        tokio::time::sleep(Duration::from_millis(5)).await;
+        call(true, 1, 1).await.unwrap();
+        assert!(!long.is_finished());
         pool.stop();
     }
 

@@ -10,21 +10,24 @@ const PATIENT: Duration = Duration::from_millis(150);
 pub enum Lane {
     /// Calls that people wait for.
     Quick,
-    /// Calls that take long whoever waits, and those that nobody waits for.
+    /// Calls that take long whoever waits.
     Patient,
+    /// Small calls that nobody waits for.
+    Background,
     /// Documents, which must be read before it is known what a call asks.
     Document,
 }
 
 impl Lane {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Quick, Self::Patient, Self::Document];
+    pub const ALL: [Self; 4] = [Self::Quick, Self::Patient, Self::Background, Self::Document];
 
     /// Label of metrics.
     pub fn name(self) -> &'static str {
         match self {
             Self::Quick => "quick",
             Self::Patient => "patient",
+            Self::Background => "background",
             Self::Document => "document",
         }
     }
@@ -80,7 +83,8 @@ impl Kind {
     pub fn lane(self, cost: Duration, background: bool) -> Lane {
         match self {
             Self::Document => Lane::Document,
-            _ if background || cost > PATIENT => Lane::Patient,
+            _ if cost > PATIENT => Lane::Patient,
+            _ if background => Lane::Background,
             _ => Lane::Quick,
         }
     }

@@ -1,10 +1,10 @@
 //! CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
 //!
-//! There are three lanes with threads of their own. What is expected to take long (big generations, large
-//! files) never stands before what people wait for, and reading and writing of documents before neither, so
-//! that a newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take
-//! turns, and a long call lets the smaller ones of others go first between its steps. Threads for what takes
-//! long, or what nobody waits for, leave the cores to the others.
+//! There are four lanes with threads of their own. What is expected to take long (big generations, large
+//! files) never stands before smaller calls, whether somebody waits for them or not, and none of these before
+//! reading and writing of documents, so that a newer revision is read, and a scene saved, while all workers are
+//! busy. Within a lane callers take turns, and a long call lets the smaller ones of others go first between its
+//! steps. Threads for what takes long, or what nobody waits for, leave the cores to the others.
 //!
 //! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
 //! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
@@ -42,16 +42,12 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How much less of a core than others a thread gets that gives way: a tenth.
-#[cfg(all(target_os = "linux", not(feature = "shuttle")))]
-const NICE: i32 = 10;
-
-/// The calling thread, and those that it starts, leave the cores to others where they are short. On Linux alone:
-/// elsewhere this would be said of the whole process.
+/// The calling thread, and those that it starts, leave the cores to others where they are short: it gets a tenth of
+/// what they do. On Linux alone: elsewhere this would be said of the whole process.
 fn give_way() {
     #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
     // Where that is not allowed it works as the others do.
-    let _ = rustix::process::nice(NICE);
+    let _ = rustix::process::nice(10);
 }
 
 /// Shared by handlers and workers.
@@ -77,10 +73,12 @@ impl Pool {
         });
         for number in 0..limits.workers() {
             pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Quick, Lane::Document]))?;
-            pool.spawn(format!("patient-{number}"), |pool| {
-                give_way();
-                pool.work(&[Lane::Patient]);
-            })?;
+            for lane in [Lane::Patient, Lane::Background] {
+                pool.spawn(format!("{}-{number}", lane.name()), move |pool| {
+                    give_way();
+                    pool.work(&[lane]);
+                })?;
+            }
         }
         for number in 0..limits.readers() {
             pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Document]))?;

@@ -4,7 +4,7 @@
 import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
-import { paintOn } from './replay';
+import { opaquePen, paintOn } from './replay';
 import { Screen } from './screen';
 import type { Point, Vec } from '../model/geometry';
 import { View } from './view';
@@ -77,7 +77,7 @@ export class Stage {
     v.dpr = scale;
     const [w, h] = [Math.round(v.w * scale), Math.round(v.h * scale)];
     if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-    const g = canvas.getContext('2d', { alpha: false })!;
+    const g = opaquePen(canvas);
     for (const name of layers) {
       g.setTransform(scale, 0, 0, scale, 0, 0);
       paintOn(g, (pen) => this.painters[name]?.(pen, v));
