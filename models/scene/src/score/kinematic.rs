@@ -163,8 +163,8 @@ fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<Moment> {
     let (speed, along) = (signed_speed(here), (signed_speed(after) - signed_speed(before)) / span);
     let yaw_rate = wrap_angle(after.heading_rad - before.heading_rad).abs() / span;
     Some(Moment {
-        // In reverse gear, faster is speeding up.
-        along: along * 1f64.copysign(speed),
+        // In reverse gear, faster is speeding up. Who stands is in no gear, whatever the sign of its zero.
+        along: if speed < 0.0 { -along } else { along },
         lateral: speed.abs() * yaw_rate,
         yaw_rate: Some(yaw_rate),
         curvature: (speed.abs() > LEAST_CURVE_MPS).then(|| yaw_rate / speed.abs()),
@@ -241,6 +241,15 @@ mod tests {
         assert!(found.violations >= 2 && found.violations <= 6, "{}", found.violations);
         assert!(turns.is_empty());
         assert_eq!(score_kinematic(&braking(2.0), 0..91).0.violations, 0);
+    }
+
+    #[test]
+    fn braking_to_a_stand_is_braking_whatever_the_sign_of_zero() {
+        let mut actor = braking(5.0);
+        let (positive, _) = score_kinematic(&actor, 0..91);
+        let states = actor.track.to_mut().states.iter_mut().flatten();
+        states.filter(|state| state.vx_mps == 0.0).for_each(|state| state.vx_mps = -0.0);
+        assert_eq!(score_kinematic(&actor, 0..91).0, positive);
     }
 
     #[test]
