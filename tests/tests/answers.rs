@@ -28,7 +28,7 @@ fn equal_calls_have_equal_codes_and_a_change_has_another() {
         "{usual}"
     );
     // How it is sent, and by whom, is nothing that it follows from.
-    let sent = json!({"client": "a", "revision": 1, "draft_interval_ms": 20, "futures": "compact"});
+    let sent = json!({"client": "a", "revision": 1, "draft_delay_ms": 8, "draft_interval_ms": 20, "futures": "compact"});
     assert_eq!(code(&ask(&server, &sent)), usual);
     let goal = json!({"goal": {"x_m": -20.0, "y_m": 0.0}});
     let changes = [

@@ -12,7 +12,7 @@ mod compare;
 use cases::{CASES, Case};
 use compare::Differences;
 use dragtraffic_tests::program::root;
-use experts::{Cancel, Engine, Event};
+use experts::{Cancel, Engine, Event, Generation};
 use scene::{AgentFutures, Sample, State};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -74,14 +74,14 @@ fn sample(of: &Sample, all: bool) -> Value {
     of.agents.iter().map(|(id, f)| (id.clone(), futures(f, all))).collect::<serde_json::Map<_, _>>().into()
 }
 
-fn event(event: Event) -> Value {
+fn event(event: Event, call: &mut Generation<'_>) -> Value {
     match event {
         Event::Accepted(a) => {
             json!({"event": "accepted", "regenerated": a.regenerated, "reacting": a.reacting,
             "fixed": a.fixed.len(), "steps": a.steps, "windows": a.windows, "warnings": a.warnings})
         }
         Event::Draft(d) => json!({"event": "draft", "window": d.window, "sample": d.sample, "step": d.step,
-            "futures": sample(&d.futures, false)}),
+            "futures": sample(&call.drafted().unwrap(), false)}),
         Event::Final(a) => {
             let resolved = a.resolved.iter().map(|(id, r)| {
                 (id.clone(), json!({"type": r.agent_type, "reach": r.reach, "intermediate": r.intermediate}))
@@ -97,7 +97,12 @@ fn event(event: Event) -> Value {
 fn answer(engine: &Engine, case: &Case) -> Value {
     match case {
         Case::Generate(request) => {
-            engine.generator.start(request(), Cancel::default()).unwrap().map(|e| event(e.unwrap())).collect()
+            let mut call = engine.generator.start(request(), Cancel::default()).unwrap();
+            let mut events = Vec::new();
+            while let Some(told) = call.next() {
+                events.push(event(told.unwrap(), &mut call));
+            }
+            events.into()
         }
         Case::Place(request) => {
             let placed = engine.placer.place(&request(), &Cancel::default()).unwrap();

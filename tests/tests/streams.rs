@@ -137,7 +137,7 @@ fn three_representations_have_equal_samples() {
 }
 
 #[test]
-fn drafts_closer_than_asked_are_left_out() {
+fn drafts_sooner_or_closer_than_asked_are_left_out() {
     let server = Server::start(&[]).unwrap();
     let mut body = generate(4);
     let names = |body: &Value| {
@@ -148,7 +148,10 @@ fn drafts_closer_than_asked_are_left_out() {
     let (all, samples) = names(&body);
     assert_eq!(all, ["accepted", "initial", "step", "step", "step", "step", "step", "final"]);
     body["draft_interval_ms"] = json!(1000);
-    assert_eq!(names(&body), (["accepted", "initial", "final"].map(str::to_owned).to_vec(), samples));
+    assert_eq!(names(&body), (["accepted", "initial", "final"].map(str::to_owned).to_vec(), samples.clone()));
+    body["draft_delay_ms"] = json!(1000);
+    assert_eq!(names(&body), (["accepted", "final"].map(str::to_owned).to_vec(), samples));
+    body["draft_delay_ms"] = json!(0);
     body["draft_interval_ms"] = json!(1001);
     let reply = server.post("/v1/generate", &body).unwrap();
     assert_eq!((reply.status, &reply.json()["errors"][0]["pointer"]), (422, &json!("/draft_interval_ms")));

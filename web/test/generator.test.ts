@@ -309,6 +309,11 @@ describe('a drag that is answered in time, and heard of late', () => {
         asked[i].tell({ event: 'initial', revision: asked[i].body.revision, window: 0, steps: 5, agents: {} } as never);
         await quiet();
       },
+      async final(i: number) {
+        const nothing = { samples: [], resolved: {} };
+        asked[i].tell({ event: 'final', revision: asked[i].body.revision, ...nothing } as never);
+        await quiet();
+      },
     };
   }
 
@@ -338,6 +343,34 @@ describe('a drag that is answered in time, and heard of late', () => {
     await s.draft(9);
     expect(b.seen).toMatchObject({ drafts: [0], dropped: 0 });
     s.g.cancel();
+  });
+
+  it('passes answers that come without drafts in the same way', async () => {
+    const s = scripted();
+    for (let i = 0; i < 8; i++) {
+      s.g.ask(ask(true, i).ask);
+      await s.quiet();
+      s.pass(8);
+      await s.final(i);
+    }
+    const [a, b] = [ask(true, 20), ask(true, 21)];
+    s.g.ask(a.ask);
+    await s.quiet();
+    s.pass(16);
+    s.g.ask(b.ask);
+    await s.quiet();
+    expect(s.asked).toHaveLength(10);
+    await s.final(8);
+    expect(a.seen).toMatchObject({ drafts: [], final: 1, dropped: 0 });
+    // Something was drawn: the next may be passed again.
+    s.pass(16);
+    s.g.ask(ask(true, 22).ask);
+    await s.quiet();
+    expect(s.asked).toHaveLength(11);
+    // A newer answer leaves the older question behind.
+    await s.final(10);
+    expect(s.asked[9].signal.aborted).toBe(true);
+    expect(b.seen).toMatchObject({ final: 0, dropped: 1 });
   });
 
   it('passes no second one before something was drawn', async () => {

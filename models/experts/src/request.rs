@@ -469,7 +469,7 @@ pub struct Accepted {
     pub warnings: Vec<Warning>,
 }
 
-/// Futures that are not settled yet.
+/// Futures that are not settled yet stand: [`crate::Generation::drafted`] has them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     /// Planning window, from 0. Its futures begin one step after the window's start.
@@ -480,8 +480,8 @@ pub struct Draft {
     pub step: usize,
     /// Denoising steps in all.
     pub steps: usize,
-    /// Chosen and alternatives; `score` is empty.
-    pub futures: Sample,
+    /// Whom they are about.
+    pub agents: Vec<AgentId>,
 }
 
 /// Milliseconds spent.

@@ -101,10 +101,11 @@ fn limits_hold_and_goals_are_met_in_every_event() {
         let mut request = ask(scene.clone(), Some(&["1", "4", "5"]));
         request.diversity = 2.0;
         let mut events = 0;
-        for event in GENERATOR.start(request, Cancel::default()).unwrap() {
+        let mut call = GENERATOR.start(request, Cancel::default()).unwrap();
+        while let Some(event) = call.next() {
             let samples = match event.unwrap() {
                 Event::Accepted(_) => continue,
-                Event::Draft(draft) => vec![draft.futures],
+                Event::Draft(_) => vec![call.drafted().unwrap()],
                 Event::Final(answer) => answer.samples,
             };
             events += 1;

@@ -91,8 +91,8 @@ pub struct DraftBody {
 
 impl DraftBody {
     /// Of a draft; with `all_modes`, all alternatives and not the chosen ones alone.
-    pub fn new(draft: &Draft, all_modes: bool, form: FuturesForm) -> Self {
-        let agents = draft.futures.agents.iter();
+    pub fn new(draft: &Draft, futures: &Sample, all_modes: bool, form: FuturesForm) -> Self {
+        let agents = futures.agents.iter();
         let agents =
             agents.map(|(id, futures)| (id.clone(), FuturesDoc::new(futures, all_modes, form))).collect();
         let step = (draft.step > 0).then_some(draft.step);

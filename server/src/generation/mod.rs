@@ -32,6 +32,8 @@ pub struct Task {
     pub streams: bool,
     /// All alternatives in drafts, not the chosen ones alone.
     pub all_modes: bool,
+    /// Drafts that stand sooner than this after the work began are left out, until one is sent.
+    pub draft_delay: Duration,
     /// Steps that follow the draft sent before sooner than this are left out.
     pub draft_interval: Duration,
     /// How futures are written.

@@ -26,12 +26,13 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
     let scene = Arc::clone(&task.request.scene);
-    let generation = match generator.start(task.request.clone(), feed.ticket.cancel.clone()) {
+    let mut generation = match generator.start(task.request.clone(), feed.ticket.cancel.clone()) {
         Ok(generation) => generation,
         Err(error) => return fail(error.into()),
     };
+    let begun = Instant::now();
     let mut last_draft: Option<Instant> = None;
-    for event in generation {
+    while let Some(event) = generation.next() {
         others();
         match event {
             Ok(Event::Accepted(accepted)) => {
@@ -41,11 +42,17 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
             }
             Ok(Event::Draft(draft)) => {
                 count(&scene, &draft);
-                let soon = |sent: Instant| draft.step > 0 && sent.elapsed() < task.draft_interval;
-                let soon = last_draft.is_some_and(soon);
+                let soon = match last_draft {
+                    Some(sent) => draft.step > 0 && sent.elapsed() < task.draft_interval,
+                    None => begun.elapsed() < task.draft_delay,
+                };
                 if task.streams && !soon {
+                    let futures = match generation.drafted() {
+                        Ok(futures) => futures,
+                        Err(error) => return fail(error.into()),
+                    };
                     last_draft = Some(Instant::now());
-                    feed.send(DraftBody::new(&draft, task.all_modes, task.form), None);
+                    feed.send(DraftBody::new(&draft, &futures, task.all_modes, task.form), None);
                     // Who writes it to the socket needs a core now, and all may be at work here: without this it
                     // waits out a time slice.
                     std::thread::yield_now();
@@ -64,7 +71,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
 }
 
 fn count(scene: &Scene, draft: &Draft) {
-    let types = draft.futures.agents.keys().filter_map(|id| scene.agent(id)).filter_map(expert_of);
+    let types = draft.agents.iter().filter_map(|id| scene.agent(id)).filter_map(expert_of);
     if draft.step == 0 {
         types.for_each(|expert| metrics::agents(expert, 1));
     } else {

@@ -182,6 +182,11 @@ pub struct GenerateRequest {
     /// What drafts carry.
     #[serde(default)]
     stream_modes: StreamModes,
+    /// Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
+    /// leaves out none. An answer that is there as soon as that needs no drafts before it.
+    #[serde(default)]
+    #[schemars(range(max = 1000))]
+    draft_delay_ms: u64,
     /// `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
     /// all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
     #[serde(default)]
@@ -329,10 +334,12 @@ impl GenerateRequest {
         let all_modes = self.stream_modes == StreamModes::All;
         let (form, score) = (self.futures, self.score);
         let with_kept = self.kept_futures == KeptFutures::Answered;
+        let draft_delay = Duration::from_millis(self.draft_delay_ms);
         let draft_interval = Duration::from_millis(self.draft_interval_ms);
         Ok(Task {
             request,
             all_modes,
+            draft_delay,
             draft_interval,
             form,
             score,
@@ -385,6 +392,7 @@ impl GenerateRequest {
             ("/modes", 1.0, limits::MODES as f64, self.modes as f64),
             ("/diversity", 0.0, 2.0, self.diversity),
             ("/steps", 0.0, 100.0, self.steps as f64),
+            ("/draft_delay_ms", 0.0, 1000.0, self.draft_delay_ms as f64),
             ("/draft_interval_ms", 0.0, 1000.0, self.draft_interval_ms as f64),
         ];
         let outside = numbers.into_iter().filter(|(_, min, max, got)| !(got >= min && got <= max));

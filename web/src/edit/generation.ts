@@ -129,7 +129,7 @@ export class Generation implements Previews {
   #onRelease(scene: Scene): Wanted | null {
     const agent = this.editor.selection.peek();
     const asked = agent && askedAfter(this.editor, scene, { name: '', agent, undo: false });
-    return asked && typeof asked !== 'string' ? { ...asked, drafts: 'chosen' } : null;
+    return asked && typeof asked !== 'string' ? { ...asked, drafts: false } : null;
   }
 
   #foreseeing(scene: Scene, on: Handlers): Question | null {

@@ -27,16 +27,19 @@ export interface Wanted {
   readonly unscored?: boolean;
   /** Cards are wanted in place of the likeliest futures, by what was said of earlier ones. */
   readonly feedback?: FeedbackDocJson;
-  /** What is to be seen on the way to the answer; all six unless only the answer counts. */
-  readonly drafts?: 'all' | 'chosen';
+  /** Does anybody look at drafts on the way to the answer? Yes, unless this says no. */
+  readonly drafts?: boolean;
   /** The hand's own questions go before this one, on the server too. */
   readonly background?: boolean;
 }
 
-/** A draft that stays for less than a picture on the screen would not be seen. */
-const FRAME_MS = 16;
+/**
+ * A draft that stays for less than a picture on the screen would not be seen; nor would one before an answer that
+ * comes in the same picture.
+ */
+const DRAFTS = { stream_modes: 'all', draft_delay_ms: 8, draft_interval_ms: 16 } as const;
 /** Where nobody looks at drafts. */
-const ANSWER_ALONE = { stream_modes: 'chosen', draft_interval_ms: 1000 } as const;
+const ANSWER_ALONE = { stream_modes: 'chosen', draft_delay_ms: 1000, draft_interval_ms: 1000 } as const;
 
 export class Questions {
   /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
@@ -83,8 +86,7 @@ export class Questions {
       seed: scene.seed,
       diversity: scene.diversity,
       steps: DEFAULTS.steps,
-      stream_modes: w.drafts ?? 'all',
-      draft_interval_ms: FRAME_MS,
+      ...(w.drafts === false ? ANSWER_ALONE : DRAFTS),
       // What it knows of the others it has itself.
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,

@@ -1659,6 +1659,13 @@ export interface components {
             diversity?: number;
             /**
              * Format: uint64
+             * @description Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
+             *     leaves out none. An answer that is there as soon as that needs no drafts before it.
+             * @default 0
+             */
+            draft_delay_ms?: number;
+            /**
+             * Format: uint64
              * @description `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
              *     all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
              * @default 0

@@ -30,7 +30,7 @@ export interface Patience {
 /** `lost` is longer than the time between two signs of life in a stream. */
 const PATIENCE: Omit<Patience, 'alive'> = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
 
-/** A first draft is taken to be on its way a little later than the quickest of so many last ones was heard of. */
+/** What can be seen first is taken to be on its way a little later than the quickest of so many last ones was heard of. */
 const SURELY = { of: 8, times: 1.25, more_ms: 2 };
 
 /** A server that is only busy says so within this time. */
@@ -41,9 +41,9 @@ const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
 export class HttpGenerator implements Generator {
   private running: Running | null = null;
   private waiting: Question | null = null;
-  /** A question of a drag whose first draft is on its way while the next one is asked already. */
+  /** A question of a drag of which the first that can be seen is on its way while the next one is asked already. */
   private passed: Running | null = null;
-  /** How long the last first drafts took until they were heard of, milliseconds. */
+  /** How long that took with the last ones until it was heard of, milliseconds. */
   private readonly firsts: number[] = [];
   /** Was a question passed since something was drawn? */
   private guessed = false;
@@ -95,22 +95,27 @@ export class HttpGenerator implements Generator {
     void this.run(ask);
   }
 
-  /** Must the first draft have left the server? Never twice in a row on a guess: something is to be drawn. */
+  /** Must the first that can be seen have left the server? Never twice in a row on a guess: something is to be drawn. */
   private isAnswered(r: Running): boolean {
     if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
     return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
   }
 
-  /** The next question overtakes one whose draft was not heard of yet, and is heard of all the same. */
+  /** The next question overtakes one of which nothing was heard yet, and is heard of all the same. */
   private pass(r: Running): void {
     this.passed = r;
     this.guessed = true;
     this.next();
   }
 
-  private noteFirst(ms: number): void {
-    this.firsts.push(ms);
-    if (this.firsts.length > SURELY.of) this.firsts.shift();
+  /** Something of a question was heard of that can be seen: a draft, or its answer where that was as quick. */
+  private noteDrawn(r: Running, ms: number): void {
+    this.guessed = false;
+    if (!r.drawn && r.question.preview) {
+      this.firsts.push(ms);
+      if (this.firsts.length > SURELY.of) this.firsts.shift();
+    }
+    r.drawn = true;
   }
 
   private forgetPassed(): void {
@@ -289,9 +294,7 @@ export class HttpGenerator implements Generator {
         if (e.window < window || (e.window === window && step <= shown)) continue;
         window = e.window;
         shown = step;
-        me.drawn = true;
-        this.guessed = false;
-        if (step === 0 && me.question.preview) this.noteFirst(ms);
+        this.noteDrawn(me, ms);
         on.draft(e, step, e.steps, ms);
         // Of two on their way the older one has shown what it is for, or comes too late for it.
         this.forgetPassed();
@@ -303,7 +306,10 @@ export class HttpGenerator implements Generator {
         }
       } else if (e.event === 'final') {
         ended = true;
+        this.noteDrawn(me, ms);
         on.final(e, ms);
+        if (this.passed === me) this.passed = null;
+        else this.forgetPassed();
       } else if (e.event === 'error') {
         ended = true;
         on.refused(e.problem);

@@ -22,6 +22,7 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 export type GenerateOptions = Pick<
   Schemas['GenerateRequest'],
   | 'background'
+  | 'draft_delay_ms'
   | 'draft_interval_ms'
   | 'feedback'
   | 'horizon_s'

@@ -59,8 +59,8 @@ pub(super) struct Window<'g> {
     pub(super) answerers: Answerers<'g>,
     /// The same as motions that drafts are named by.
     pub(super) traces: Vec<Trace>,
-    /// What is said of the sample's first drafts.
-    names: Names,
+    /// What was said of the drafts that were seen first.
+    names: Option<Names>,
     pullback: Pullback,
     /// The present sample, from 0.
     pub(super) sample: usize,
@@ -90,7 +90,7 @@ impl<'g> Window<'g> {
             background: Background::none(),
             answerers: Answerers::none(&generator.tuning),
             traces: Vec::new(),
-            names: Names::default(),
+            names: None,
             pullback: Pullback::default(),
             sample: 0,
             drafts: Vec::new(),
@@ -200,15 +200,24 @@ impl<'g> Window<'g> {
         Material { actor, drafts, window: self.number, tuning, shown }
     }
 
+    /// What stands after a refinement step.
+    pub(super) fn draft(&self, step: usize) -> Draft {
+        Draft {
+            window: self.number,
+            sample: self.sample,
+            step,
+            steps: self.request.steps,
+            agents: self.actors.iter().map(|actor| actor.id.clone()).collect(),
+        }
+    }
+
     /// The present drafts as futures that can be shown.
-    pub(super) fn draft(&mut self, step: usize) -> Draft {
+    pub(super) fn drafted(&mut self) -> Sample {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let count = if all { self.request.modes } else { 1 };
         let shown: Vec<Vec<Candidate>> =
             self.workers().map(&self.indices(), |&i| self.material(i).alternatives(count));
-        if step == 0 {
-            self.names = self.names(&shown);
-        }
+        let names = self.names.take().unwrap_or_else(|| self.names(&shown));
         let futures = shown.iter().enumerate().map(|(i, alternatives)| {
             let actor = &self.actors[i];
             let middle = middle(actor);
@@ -216,18 +225,13 @@ impl<'g> Window<'g> {
             let chosen = alternatives.iter().position(is_middle).unwrap_or(0);
             let mut futures = self.futures(chosen, alternatives);
             for (future, draft) in futures.modes.iter_mut().zip(alternatives) {
-                future.about = self.names.of(i, draft);
+                future.about = names.of(i, draft);
             }
             (actor.id.clone(), futures)
         });
-        let futures = futures.collect();
-        Draft {
-            window: self.number,
-            sample: self.sample,
-            step,
-            steps: self.request.steps,
-            futures: Sample { agents: futures, score: serde_json::Value::Null },
-        }
+        let agents = futures.collect();
+        self.names = Some(names);
+        Sample { agents, score: serde_json::Value::Null }
     }
 
     /// Alternatives as futures, cut to what was asked for.

@@ -178,12 +178,13 @@ fn neither_threads_nor_order_change_a_byte_of_a_rollout() {
 #[test]
 fn events_name_their_window_and_begin_where_it_begins() {
     let mut windows = Vec::new();
-    for event in GENERATOR.start(rollout(crossing(), None, 200, 90), Cancel::default()).unwrap() {
+    let mut call = GENERATOR.start(rollout(crossing(), None, 200, 90), Cancel::default()).unwrap();
+    while let Some(event) = call.next() {
         match event.unwrap() {
             Event::Accepted(accepted) => assert_eq!(accepted.windows, 3),
             Event::Draft(draft) => {
                 windows.push((draft.window, draft.step));
-                for future in draft.futures.agents.values().flat_map(|f| &f.modes) {
+                for future in call.drafted().unwrap().agents.values().flat_map(|f| &f.modes) {
                     assert_eq!(future.first_step, 1 + 90 * draft.window);
                     assert_eq!(future.states.len(), if draft.window < 2 { 90 } else { 20 });
                 }

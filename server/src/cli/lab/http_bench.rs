@@ -97,10 +97,14 @@ impl Alone<'_> {
         let began = Instant::now();
         let ms = || began.elapsed().as_secs_f64() * 1e3;
         let (mut first, mut whole) = (f64::NAN, f64::NAN);
-        for event in self.generator.start(self.task.request.clone(), Cancel::default()).map_err(failed)? {
+        let mut call = self.generator.start(self.task.request.clone(), Cancel::default()).map_err(failed)?;
+        while let Some(event) = call.next() {
             match event.map_err(failed)? {
-                Event::Accepted(_) => {}
-                Event::Draft(_) => first = first.min(ms()),
+                Event::Draft(draft) if draft.step == 0 => {
+                    std::hint::black_box(call.drafted().map_err(failed)?);
+                    first = ms();
+                }
+                Event::Accepted(_) | Event::Draft(_) => {}
                 Event::Final(answer) => {
                     std::hint::black_box(run::answered(&self.task, &answer, Duration::ZERO, self.generator));
                     whole = ms();

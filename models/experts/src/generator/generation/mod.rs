@@ -21,7 +21,7 @@ use crate::planning::world::World;
 use crate::request::{Accepted, Answer, Cancel, Event, GenerateError, Request, Warning};
 use ledger::Ledger;
 use roster::{Part, Roster};
-use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS, Scene};
+use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS, Sample, Scene};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
@@ -256,6 +256,15 @@ impl<'g> Generation<'g> {
         Ok(answer)
     }
 
+    /// The futures of the draft that was told last. They are made here, since most drafts are gone before anybody
+    /// could look at them; it changes nothing of what follows. `score` is empty.
+    ///
+    /// # Errors
+    /// No draft was told yet.
+    pub fn drafted(&mut self) -> Result<Sample, GenerateError> {
+        Ok(self.windows.present_mut()?.drafted())
+    }
+
     fn stop_if_cancelled(&self) -> Result<(), GenerateError> {
         if self.cancel.is_cancelled() { Err(GenerateError::Cancelled) } else { Ok(()) }
     }
@@ -279,13 +288,13 @@ impl<'g> Generation<'g> {
                 self.begin(number)?;
                 let refines = steps(&self.request) > 0;
                 self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present_mut()?.draft(0)))
+                Ok(Event::Draft(self.windows.present()?.draft(0)))
             }
             Stage::Step(number, step) => {
                 self.refine(step)?;
                 let more = step < steps(&self.request);
                 self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present_mut()?.draft(step)))
+                Ok(Event::Draft(self.windows.present()?.draft(step)))
             }
             Stage::Finish | Stage::Done => {
                 self.stage = Stage::Done;
