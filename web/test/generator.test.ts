@@ -273,7 +273,7 @@ describe('stream', () => {
         },
       });
       const out = [];
-      for await (const e of readEvents(body)) out.push(e.event);
+      for await (const events of readEvents(body)) out.push(...events.map((e) => e.event));
       expect(out).toEqual(['heartbeat', 'step', 'superseded']);
     }
   });

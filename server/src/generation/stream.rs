@@ -8,15 +8,24 @@ use crate::work::{Stop, superseded};
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
+use futures_util::stream::unfold;
 use std::convert::Infallible;
 use std::time::Duration;
 
+/// When a stream says something.
+#[derive(Clone, Copy)]
+pub struct Pace {
+    /// A sign of life after so long a silence.
+    pub heartbeat: Duration,
+    /// So long the first event waits for the second: what comes together is sent, heard of and read in one.
+    pub together: Duration,
+}
+
 /// Answers with the events of a job.
-pub async fn reply(reader: Reader, form: Form, heartbeat: Duration) -> Response {
+pub async fn reply(reader: Reader, form: Form, pace: Pace) -> Response {
     match form {
         Form::Json => last(reader).await,
-        Form::Ndjson | Form::Sse => first(reader, form, heartbeat).await,
+        Form::Ndjson | Form::Sse => stream(reader, form, pace).await,
     }
 }
 
@@ -38,13 +47,17 @@ async fn last(reader: Reader) -> Response {
 
 /// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
 /// longer than the heartbeat begins the stream in any case.
-async fn first(reader: Reader, form: Form, heartbeat: Duration) -> Response {
-    let first = tokio::time::timeout(heartbeat, reader.next()).await.ok().flatten();
+async fn stream(reader: Reader, form: Form, pace: Pace) -> Response {
+    let within = async |time| tokio::time::timeout(time, reader.next()).await.ok().flatten();
+    let first = within(pace.heartbeat).await;
     if let Some(Message { end: Some(End::Stopped(Stop::Problem(problem))), .. }) = first {
         return problem.into_response();
     }
-    let source = Source { reader, form, heartbeat, first, done: false };
-    let events = stream::unfold(source, |mut source| async move {
+    let waits = first.is_some() && !pace.together.is_zero();
+    let second = if waits { within(pace.together).await } else { None };
+    let begun = first.into_iter().chain(second).collect();
+    let source = Source { reader, form, heartbeat: pace.heartbeat, begun, done: false };
+    let events = unfold(source, |mut source| async move {
         source.next().await.map(|bytes| (Ok::<_, Infallible>(bytes), source))
     });
     let mut response = Body::from_stream(events).into_response();
@@ -58,7 +71,8 @@ struct Source {
     reader: Reader,
     form: Form,
     heartbeat: Duration,
-    first: Option<Message>,
+    /// What came before the head of the reply was sent.
+    begun: Vec<Message>,
     done: bool,
 }
 
@@ -67,15 +81,17 @@ impl Source {
         if self.done {
             return None;
         }
-        let message = match self.first.take() {
-            Some(message) => message,
-            None => match tokio::time::timeout(self.heartbeat, self.reader.next()).await {
-                Ok(message) => message?,
+        let mut messages = std::mem::take(&mut self.begun);
+        if messages.is_empty() {
+            match tokio::time::timeout(self.heartbeat, self.reader.next()).await {
+                Ok(message) => messages.push(message?),
                 Err(_) => return Some(self.sign_of_life()),
-            },
-        };
-        self.done = message.end.is_some();
-        Some(self.written(&message))
+            }
+        }
+        self.done = messages.iter().any(|message| message.end.is_some());
+        let mut bytes = Vec::with_capacity(messages.iter().map(|message| message.json.len() + 64).sum());
+        messages.iter().for_each(|message| self.write(message, &mut bytes));
+        Some(bytes.into())
     }
 
     fn sign_of_life(&self) -> Bytes {
@@ -85,8 +101,7 @@ impl Source {
         }
     }
 
-    fn written(&self, message: &Message) -> Bytes {
-        let mut bytes = Vec::with_capacity(message.json.len() + 64);
+    fn write(&self, message: &Message, bytes: &mut Vec<u8>) {
         if self.form == Form::Sse {
             bytes.extend_from_slice(
                 format!("event: {}\nid: {}\ndata: ", message.event, message.seq).as_bytes(),
@@ -94,6 +109,5 @@ impl Source {
         }
         bytes.extend_from_slice(&message.json);
         bytes.extend_from_slice(if self.form == Form::Sse { b"\n\n" } else { b"\n" });
-        bytes.into()
     }
 }

@@ -10,7 +10,8 @@ use crate::base::limits::{self, Limits};
 use crate::base::problem::{Code, Problem};
 use crate::generation::compact::FuturesForm;
 use crate::generation::events::GeneratedHead;
-use crate::generation::{self, Task, stream};
+use crate::generation::stream::{self, Pace};
+use crate::generation::{self, Task};
 use crate::http::accept::Form;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
@@ -183,7 +184,8 @@ pub struct GenerateRequest {
     #[serde(default)]
     stream_modes: StreamModes,
     /// Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
-    /// leaves out none. An answer that is there as soon as that needs no drafts before it.
+    /// leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
+    /// `accepted`, which waits for it so long.
     #[serde(default)]
     #[schemars(range(max = 1000))]
     draft_delay_ms: u64,
@@ -304,8 +306,10 @@ pub async fn generate(
         Ok(Task { streams, standings, ..task })
     };
     let task = app.pool.document(bytes, prepare).await?;
+    let pace =
+        Pace { heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)), together: task.draft_delay };
     let reader = generation::submit(&app.pool, app.experts(), &app.limits, caller, task)?;
-    let mut reply = stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await;
+    let mut reply = stream::reply(reader, form, pace).await;
     if let Some(name) = held.and_then(|name| HeaderValue::from_str(&name).ok()) {
         reply.headers_mut().insert("dragtraffic-scene", name);
     }

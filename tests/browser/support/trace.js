@@ -1,6 +1,6 @@
 // The browser's own record of what happened when. Times are milliseconds of its monotonic clock.
 
-const CATEGORIES = ['devtools.timeline', 'disabled-by-default-devtools.timeline', 'blink', 'viz'];
+const CATEGORIES = ['devtools.timeline', 'blink', 'viz'];
 /** A frame of the screen. */
 const FRAME_MS = 1000 / 60;
 /** What tells of frames alone, and costs the page next to nothing. */

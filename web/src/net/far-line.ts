@@ -16,8 +16,8 @@ class Open {
   #over: { readonly error: unknown } | null = null;
   #wake: (() => void) | null = null;
 
-  event(e: GenerateEvent): void {
-    this.#come.push(e);
+  add(events: readonly GenerateEvent[]): void {
+    this.#come.push(...events);
     this.#wake?.();
   }
 
@@ -93,10 +93,12 @@ export class FarLine {
     worker.onmessage = ({ data }: MessageEvent<FromLine>) => {
       const question = this.#open.get(data.id);
       if (!question) return;
-      if ('head' in data) return question.head(data.head);
-      if ('event' in data) return question.event(data.event);
-      this.#open.delete(data.id);
-      question.end('failed' in data ? new Error(data.failed) : null);
+      const failed = 'failed' in data;
+      if (failed || data.last) this.#open.delete(data.id);
+      if (failed) return question.end(new Error(data.failed));
+      if (data.head) question.head(data.head);
+      question.add(data.events);
+      if (data.last) question.end();
     };
     worker.onerror = (e) => {
       e.preventDefault();

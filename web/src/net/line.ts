@@ -1,6 +1,6 @@
 // One question to the generator and what comes back: a refusal, or events one after the other.
 import { problemOf, type Client } from './client';
-import { readEvents } from './stream';
+import { readEvents, type Together } from './stream';
 import type { GenerateEvent, Problem } from './types';
 
 export interface Head {
@@ -21,11 +21,24 @@ export interface Answer extends Head {
 /** Puts a question, given as the body of its request. A signal that aborts fails what is on its way. */
 export type Line = (body: string, signal: AbortSignal) => Promise<Answer>;
 
-async function* none(): AsyncGenerator<GenerateEvent> {}
+async function* none(): AsyncGenerator<Together> {}
 
 /** The line of the thread that it is made in. */
 export function lineHere(client: Client): Line {
+  const ask = askHere(client);
   return async (body, signal) => {
+    const { pieces, ...head } = await ask(body, signal);
+    return { ...head, events: oneByOne(pieces) };
+  };
+}
+
+async function* oneByOne(pieces: AsyncIterable<Together>): AsyncGenerator<GenerateEvent> {
+  for await (const events of pieces) yield* events;
+}
+
+/** The same, with what came together in one. */
+export function askHere(client: Client) {
+  return async (body: string, signal: AbortSignal): Promise<Head & { pieces: AsyncIterable<Together> }> => {
     const reply = await client.send('/v1/generate', {
       method: 'POST',
       body,
@@ -37,7 +50,7 @@ export function lineHere(client: Client): Line {
       retryAfter_s: Number(reply.headers.get('retry-after')) || null,
       held: reply.headers.get('dragtraffic-scene') ?? undefined,
     };
-    if (!reply.ok) return { ...head, problem: await problemOf(reply), events: none() };
-    return { ...head, problem: null, events: readEvents(reply.body!) };
+    if (!reply.ok) return { ...head, problem: await problemOf(reply), pieces: none() };
+    return { ...head, problem: null, pieces: readEvents(reply.body!) };
   };
 }

@@ -1,16 +1,22 @@
-// Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over event by event.
+// Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over. What came together goes
+// in one message: each costs the page a task, sixty times a second.
 import { Client } from './client';
-import { lineHere, type Head } from './line';
+import { askHere, type Head } from './line';
+import type { Together } from './stream';
 import type { GenerateEvent } from './types';
 
 /** A question by a number of its own; or the end of one. */
 export type ToLine = { readonly id: number; readonly body: string } | { readonly end: number };
-/** The head comes first; the last is either the end or a failure, unless the page has ended the question. */
+/** The head comes with the first events; the last says that it is, or is a failure, unless the page has ended it. */
 export type FromLine = { readonly id: number } & (
-  { readonly head: Head } | { readonly event: GenerateEvent } | { readonly ended: true } | { readonly failed: string }
+  { readonly head: Head | null; readonly events: Together; readonly last: boolean } | Failed
 );
+type Failed = { readonly failed: string };
 
-const ask = lineHere(new Client());
+/** Nothing follows these. */
+const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
+
+const ask = askHere(new Client());
 const open = new Map<number, AbortController>();
 const tell = (said: FromLine): void => self.postMessage(said);
 
@@ -23,10 +29,15 @@ async function answer(id: number, body: string): Promise<void> {
   const abort = new AbortController();
   open.set(id, abort);
   try {
-    const { events, ...head } = await ask(body, abort.signal);
-    tell({ id, head });
-    for await (const event of events) tell({ id, event });
-    tell({ id, ended: true });
+    const { pieces, ...begun } = await ask(body, abort.signal);
+    let head: Head | null = begun;
+    let last = false;
+    for await (const events of pieces) {
+      last ||= events.some((e) => LAST.has(e.event));
+      tell({ id, head, events, last });
+      head = null;
+    }
+    if (!last) tell({ id, head, events: [], last: true });
   } catch (e) {
     if (!abort.signal.aborted) tell({ id, failed: String(e) });
   } finally {

@@ -2,7 +2,10 @@
 import type { GenerateEvent } from './types';
 import { expanded } from './compact';
 
-export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenerator<GenerateEvent> {
+/** What came together: events that end in the same piece of a body. */
+export type Together = readonly GenerateEvent[];
+
+export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenerator<Together> {
   const reader = body.getReader();
   const decoder = new TextDecoder();
   let rest = '';
@@ -10,15 +13,12 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
     for (;;) {
       const { done, value } = await reader.read();
       rest += done ? decoder.decode() : decoder.decode(value, { stream: true });
-      let end: number;
-      while ((end = rest.indexOf('\n')) >= 0) {
-        const line = rest.slice(0, end).trim();
-        rest = rest.slice(end + 1);
-        if (line) yield parse(line);
-      }
+      const lines = rest.split('\n');
+      rest = done ? '' : lines.pop()!;
+      const events = lines.map((line) => line.trim()).filter(Boolean);
+      if (events.length) yield events.map(parse);
       if (done) break;
     }
-    if (rest.trim()) yield parse(rest.trim());
   } finally {
     // Leaving the loop early must also stop the server's work.
     void reader.cancel().catch(() => undefined);
