@@ -1660,7 +1660,8 @@ export interface components {
             /**
              * Format: uint64
              * @description Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
-             *     leaves out none. An answer that is there as soon as that needs no drafts before it.
+             *     leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
+             *     `accepted`, which waits for it so long.
              * @default 0
              */
             draft_delay_ms?: number;

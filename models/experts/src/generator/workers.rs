@@ -29,8 +29,18 @@ impl Workers {
 
     /// `f` of each item. With one thread, or one item, the caller's thread does it all.
     pub(super) fn map<T: Sync, R: Send>(&self, items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+        self.map_many(2, items, f)
+    }
+
+    /// The same for small work: fewer items than `many` are sooner done than handed over.
+    pub(super) fn map_many<T: Sync, R: Send>(
+        &self,
+        many: usize,
+        items: &[T],
+        f: impl Fn(&T) -> R + Sync + Send,
+    ) -> Vec<R> {
         match self.pool() {
-            Some(pool) if items.len() > 1 => pool.install(|| items.par_iter().map(f).collect()),
+            Some(pool) if items.len() >= many => pool.install(|| items.par_iter().map(f).collect()),
             _ => items.iter().map(f).collect(),
         }
     }

@@ -5,6 +5,7 @@ use super::standing::Standing;
 use super::targets::due;
 use crate::generator::KnownMap;
 use crate::generator::workers::Workers;
+use crate::planning::MODES;
 use crate::request::Request;
 use scene::judge::{About, Judge, Other, by_weight};
 use scene::score::Actor;
@@ -13,6 +14,9 @@ use scene::{Agent, Future, STEP_S, Sample, Vec2};
 /// Whoever stays farther than this from all futures can meet none of them, metres: a long vehicle's half and as
 /// much for the near miss.
 const AWAY_M: f64 = 25.0;
+
+/// So many futures are judged by several threads: more than one road user has.
+const MANY: usize = MODES + 1;
 
 /// Writes down what is said about each future of a sample: what is wrong with it, how it stands to the others, and
 /// what it does.
@@ -36,7 +40,7 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
         .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
         .map(|actor| judge.other(actor))
         .collect();
-    let found = workers.map(&futures, |&(i, future)| {
+    let found = workers.map_many(MANY, &futures, |&(i, future)| {
         let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
         let due_s = (request.start_step as isize + due(request, i)) as f64 * STEP_S;
         actor.goal.time_s = actor.goal.time_s.or(Some(due_s));
