@@ -59,6 +59,15 @@ async function released(e) {
   return car;
 }
 
+/** The clock of the page, which stands still, goes on by a second: what was on its way is there. */
+async function later(e) {
+  await e.page.evaluate(() => {
+    const now = performance.now();
+    performance.now = () => now + 1000;
+  });
+  await e.frames(3);
+}
+
 /** A scene that begins with nobody on the map of the crossing. */
 async function nobody(e) {
   const { json, bytes } = await emptyScene(e);
@@ -172,6 +181,7 @@ export const STATES = [
       await released(e);
       await e.letGo();
       await e.key('e');
+      await later(e);
     },
   ],
   [
@@ -180,6 +190,7 @@ export const STATES = [
       await released(e);
       await e.key('o');
       for (let i = 0; i < 30; i++) await e.key('.');
+      await later(e);
     },
   ],
   [

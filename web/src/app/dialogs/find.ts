@@ -33,7 +33,7 @@ const SCENES = TEXTS.scenes;
 
 export function find(c: Context, typed: string): Entry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
-  if (!words.length) return [...actions(c, []), ...recent(c)].slice(0, MOST);
+  if (!words.length) return [...inOrder(actions(c, [])), ...recent(c)].slice(0, MOST);
   const found = [
     ...cases(c, typed),
     ...actions(c, words),
@@ -69,12 +69,21 @@ function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
   );
 }
 
+/** What one begins with first, then what one goes on with; what is for the selected one stands before all of it. */
+const ORDER: readonly Group[] = ['place', 'time', 'scene', 'variants', 'rounds', 'goal', 'look', 'edit', 'everything'];
+
+function inOrder(entries: readonly Entry[]): Entry[] {
+  const titles = ORDER.map((group) => GROUP_TITLES[group]);
+  const rank = (e: Entry): number => titles.indexOf(e.group);
+  return [...entries].sort((p, q) => Number(p.off) - Number(q.off) || rank(p) - rank(q));
+}
+
 function actions(c: Context, words: readonly string[]): Entry[] {
   const agent = c.editor.agent.peek();
   const out: Entry[] = [];
   for (const a of ACTIONS) {
     const moves = a.group === 'move';
-    if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves)) continue;
+    if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves) || a.onOffer?.(c) === false) continue;
     const said = moves ? a.label : `${a.label} ${HELPS[a.help]}`;
     if (words.length && !fit(said, words)) continue;
     const can = possible(c, a);

@@ -1,6 +1,7 @@
 // Where seconds and speeds lie in the plot.
 import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/units';
 import { motionOf } from '../../model/changes';
+import type { TrafficEvent } from '../../model/events';
 import type { Motion } from '../../model/motion';
 import { untracked } from '@preact/signals';
 import type { Agent } from '../../model/scene';
@@ -63,11 +64,21 @@ export interface Line {
   readonly motion: Motion;
 }
 
-/** A line each: of those in a case that is looked at, else of several that are selected. */
-export function severalShown({ editor }: Context): Line[] {
+/** The event that is looked at; null where somebody is selected, whose speed is asked for then. */
+export const eventShown = ({ editor }: Context): TrafficEvent | null =>
+  editor.selected.peek().length ? null : editor.selectedEvent.peek();
+
+/** A line each: of those in a case or an event that is looked at, else of several that are selected. */
+export function severalShown(c: Context): Line[] {
+  const { editor } = c;
   const b = editor.beside.peek();
   const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);
   if (b && inCase) return inCase.map((agent) => ({ agent, motion: motionOf(b.scene, b.set, agent) }));
+  const event = eventShown(c);
+  if (event) {
+    const who = [event.a, event.b].flatMap((a) => editor.scene.peek()?.agents.get(a?.id ?? '') ?? []);
+    return untracked(() => who.map((agent) => ({ agent, motion: editor.motionFor(agent) })));
+  }
   return editor.selected.peek().length > 1 && !editor.dragging.peek()
     ? untracked(() =>
         editor.chosenOnes.slice(0, MOST_LINES).map((agent) => ({ agent, motion: editor.motionFor(agent) })),

@@ -8,7 +8,7 @@ import { toUnit } from '../../model/units';
 import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
-import { severalShown, X0, type Axes, type Line } from './axes';
+import { eventShown, severalShown, X0, type Axes, type Line } from './axes';
 import { TEXTS } from '../../texts/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
@@ -16,15 +16,20 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const { editor } = c;
   const several = severalShown(c);
   const meeting = editor.beside.peek()?.meeting;
+  const event = eventShown(c);
+  const few = !!meeting || !!event;
   const agent = meeting ? null : editor.agent.peek();
   const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
+  const who = several.map((l) => l.agent.name).join(TEXTS.and);
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
     : meeting
-      ? TEXTS.inCase(several.map((l) => l.agent.name).join(TEXTS.and), meeting.called)
-      : several.length
-        ? TEXTS.selectedOneLine(several.length)
-        : '';
+      ? TEXTS.inCase(who, meeting.called)
+      : event
+        ? ` · ${several[0]?.agent.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
+        : several.length
+          ? TEXTS.selectedOneLine(several.length)
+          : '';
   const drawn = agent
     ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
     : several.map((l) => l.motion);
@@ -33,7 +38,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
       {agent ? (
         <AgentCurves axes={a} agent={agent} />
       ) : several.length ? (
-        <SeveralCurves axes={a} all={several} strong={!!meeting} />
+        <SeveralCurves axes={a} all={several} strong={few} />
       ) : (
         <Hint axes={a} />
       )}
@@ -56,7 +61,7 @@ function titleAt(a: Axes, motions: readonly Motion[]): number {
   return room(below) > room(above) ? below : above;
 }
 
-/** One thin line each; thick for the one under the pointer, and for the few in a case. */
+/** One thin line each; thick for the one under the pointer, and for the few in a case or an event. */
 function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]; strong: boolean }) {
   const { editor } = useApp();
   const hovered = editor.hover.peek();
