@@ -51,9 +51,28 @@ async function fits(e, where) {
       .map(([el, r]) => `${el.getAttribute('aria-label') ?? el.textContent} ${r.width}×${r.height}`);
     const wide =
       document.documentElement.scrollWidth > innerWidth ? [`page is ${document.documentElement.scrollWidth} wide`] : [];
-    return [...small, ...wide];
+    const out = [...document.querySelectorAll('.flyout, .dlg, .menu, .drawer, .strip, .hint, .toast, .panel')]
+      .map((el) => [el, el.getBoundingClientRect()])
+      .filter(([, r]) => r.width && (r.left < -0.5 || r.right > innerWidth + 0.5))
+      .map(([el, r]) => `${el.className} from ${r.left} to ${r.right}`);
+    return [...small, ...wide, ...out];
   }, LEAST_PX);
   assert.deepEqual(wrong, [], where);
+}
+
+/** By its button, or in the menu that has it where there is no room for one. */
+async function press(e, id) {
+  const button = e.page.locator(`.top [data-action="${id}"]:visible`);
+  if (await button.count()) return button.first().tap();
+  for (const menu of ['file', 'more']) {
+    const name = e.page.locator(`[data-menu="${menu}"]:visible`);
+    if (!(await name.count())) continue;
+    await name.tap();
+    const item = e.page.locator(`.menu [data-action="${id}"]`);
+    if (await item.count()) return item.tap();
+    await name.tap();
+  }
+  throw new Error(`nothing to press for ${id}`);
 }
 
 journeys('fingers', (stage) => {
@@ -264,6 +283,13 @@ journeys('fingers', (stage) => {
         await button.tap();
         await fits(e, `menu ${menu}`);
         await button.tap();
+      }
+      for (const id of ['share', 'export']) {
+        await press(e, id);
+        await e.page.waitForSelector(`.flyout.${id}`);
+        await fits(e, id);
+        await e.picture(`${name}-${id}`);
+        await e.key('Escape');
       }
       if (device !== 'phone') return;
       for (const id of ['variants', 'users']) {

@@ -36,7 +36,7 @@ export function Flyout({ label, under, class: className, children }: FlyoutProps
       role="dialog"
       aria-label={label}
       tabIndex={-1}
-      style={{ right: `${right}px` }}
+      style={{ '--under': `${right}px` }}
       onKeyDown={(e) => {
         if (e.key !== 'Escape') return;
         e.stopPropagation();
