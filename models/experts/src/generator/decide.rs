@@ -281,12 +281,11 @@ impl Window<'_> {
             tuning: &self.tuning().choice,
         };
         let mut options = options(actor, candidates, &yardstick);
-        let all: Vec<usize> = (0..candidates.len()).collect();
-        let burdens = self.workers().map(&all, |&o| {
-            if self.answerers.are_met_by(&options[o].boxes) { self.burden(i, &candidates[o]) } else { 0.0 }
-        });
-        for (option, burden) in options.iter_mut().zip(burdens) {
-            option.cost += burden;
+        let meets = |&o: &usize| self.answerers.are_met_by(&options[o].boxes);
+        let met: Vec<usize> = (0..candidates.len()).filter(meets).collect();
+        let burdens = self.workers().map(&met, |&o| self.burden(i, &candidates[o]));
+        for (o, burden) in met.into_iter().zip(burdens) {
+            options[o].cost += burden;
         }
         options
     }

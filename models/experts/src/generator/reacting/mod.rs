@@ -35,6 +35,9 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+/// So many road users are looked at by several threads.
+const MANY: usize = 96;
+
 /// Whose word a kept motion is. Two of one kind do not mind each other: how near they come is how it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keeps {
@@ -112,7 +115,7 @@ impl<'g> Answerers<'g> {
         let mut order: Vec<usize> = (0..world.scene.agents.len()).filter(|i| !acting.contains(i)).collect();
         // The order of road users in the scene must not show.
         order.sort_by(|a, b| world.scene.agents[*a].id.cmp(&world.scene.agents[*b].id));
-        let roles = workers.map(&order, |&index| role(world, request, cast, index));
+        let roles = workers.map_many(MANY, &order, |&index| role(world, request, cast, index));
         let stop_lines = world.stop_lines.clone();
         let mut out = Self { start_step: world.step, stop_lines, ..Self::none(tuning) };
         for role in roles.into_iter().flatten() {
