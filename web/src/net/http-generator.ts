@@ -30,7 +30,7 @@ export interface Patience {
 /** `lost` is longer than the time between two signs of life in a stream. */
 const PATIENCE: Omit<Patience, 'alive'> = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
 
-/** What can be seen first is taken to be on its way a little later than the quickest of so many last ones was heard of. */
+/** The first that can be seen is on its way, it is taken, a little after the quickest of so many last ones came. */
 const SURELY = { of: 8, times: 1.25, more_ms: 2 };
 
 /** A server that is only busy says so within this time. */
@@ -95,7 +95,7 @@ export class HttpGenerator implements Generator {
     void this.run(ask);
   }
 
-  /** Must the first that can be seen have left the server? Never twice in a row on a guess: something is to be drawn. */
+  /** Must something to be seen have left the server? Never twice in a row on a guess: something is to be drawn. */
   private isAnswered(r: Running): boolean {
     if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
     return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
