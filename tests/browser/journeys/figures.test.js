@@ -10,6 +10,8 @@ import { out } from '../support/where.js';
 
 const MOVES = 60;
 const RELEASES = 5;
+/** The first of an answer that can be seen. */
+const seen = (answer) => answer.events().find((e) => ['initial', 'step', 'final'].includes(e.event));
 
 journeys('figures', (stage) => {
   it('measures a drag and its release', { timeout: 90_000 }, async () => {
@@ -32,7 +34,7 @@ journeys('figures', (stage) => {
     const asked = e.wire
       .since(mark)
       .filter((a) => a.body.react === false)
-      .map((a) => ({ sent: a.sent * 1000, draft: a.event('initial')?.at * 1000 || null }));
+      .map((a) => ({ sent: a.sent * 1000, draft: seen(a)?.at * 1000 || null }));
     const moves = drag.moves.slice(-MOVES).map((at) => {
       const draft = asked.find((a) => a.sent >= at && a.draft)?.draft ?? null;
       return { at, draft, shown: draft && drag.shownAfter(draft) };
