@@ -317,13 +317,13 @@ describe('a drag that is answered in time, and heard of late', () => {
     };
   }
 
-  /** Eight questions, each heard of after 8 ms. */
-  async function warm(s: ReturnType<typeof scripted>) {
+  /** Eight questions, each heard of after so many ms, by a draft or by its answer. */
+  async function warm(s: ReturnType<typeof scripted>, ms = 8, heard: 'draft' | 'final' = 'draft') {
     for (let i = 0; i < 8; i++) {
       s.g.ask(ask(true, i).ask);
       await s.quiet();
-      s.pass(8);
-      await s.draft(i);
+      s.pass(ms);
+      await s[heard](i);
     }
   }
 
@@ -347,12 +347,7 @@ describe('a drag that is answered in time, and heard of late', () => {
 
   it('passes answers that come without drafts in the same way', async () => {
     const s = scripted();
-    for (let i = 0; i < 8; i++) {
-      s.g.ask(ask(true, i).ask);
-      await s.quiet();
-      s.pass(8);
-      await s.final(i);
-    }
+    await warm(s, 8, 'final');
     const [a, b] = [ask(true, 20), ask(true, 21)];
     s.g.ask(a.ask);
     await s.quiet();
@@ -404,12 +399,7 @@ describe('a drag that is answered in time, and heard of late', () => {
 
   it('waits where the server is slower than the hand', async () => {
     const s = scripted();
-    for (let i = 0; i < 8; i++) {
-      s.g.ask(ask(true, i).ask);
-      await s.quiet();
-      s.pass(40);
-      await s.draft(i);
-    }
+    await warm(s, 40);
     s.g.ask(ask(true, 20).ask);
     await s.quiet();
     s.pass(16);

@@ -33,7 +33,7 @@ const SCENES = TEXTS.scenes;
 
 export function find(c: Context, typed: string): Entry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
-  if (!words.length) return [...inOrder(actions(c, [])), ...recent(c)].slice(0, MOST);
+  if (!words.length) return [...actions(c, []), ...recent(c)].slice(0, MOST);
   const found = [
     ...cases(c, typed),
     ...actions(c, words),
@@ -72,12 +72,6 @@ function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
 /** What one begins with first, then what one goes on with; what is for the selected one stands before all of it. */
 const ORDER: readonly Group[] = ['place', 'time', 'scene', 'variants', 'rounds', 'goal', 'look', 'edit', 'everything'];
 
-function inOrder(entries: readonly Entry[]): Entry[] {
-  const titles = ORDER.map((group) => GROUP_TITLES[group]);
-  const rank = (e: Entry): number => titles.indexOf(e.group);
-  return [...entries].sort((p, q) => Number(p.off) - Number(q.off) || rank(p) - rank(q));
-}
-
 function actions(c: Context, words: readonly string[]): Entry[] {
   const agent = c.editor.agent.peek();
   const out: Entry[] = [];
@@ -98,11 +92,9 @@ function actions(c: Context, words: readonly string[]): Entry[] {
       run: () => perform(c, a.id),
     });
   }
-  const forAgent = (e: Entry): boolean => agent !== null && e.group === TEXTS.for(agent.name);
-  return out.sort(
-    (p, q) =>
-      Number(p.off) - Number(q.off) || Number(forAgent(q)) - Number(forAgent(p)) || p.group.localeCompare(q.group),
-  );
+  const titles = ORDER.map((group) => GROUP_TITLES[group]);
+  const rank = (e: Entry): number => titles.indexOf(e.group);
+  return out.sort((p, q) => Number(p.off) - Number(q.off) || rank(p) - rank(q));
 }
 
 const possibleEntry = { keys: [], off: false } as const;

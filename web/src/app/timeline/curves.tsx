@@ -20,13 +20,12 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const few = !!meeting || !!event;
   const agent = meeting ? null : editor.agent.peek();
   const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
-  const who = several.map((l) => l.agent.name).join(TEXTS.and);
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
     : meeting
-      ? TEXTS.inCase(who, meeting.called)
+      ? TEXTS.inCase(several.map((l) => l.agent.name).join(TEXTS.and), meeting.called)
       : event
-        ? ` · ${several[0]?.agent.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
+        ? ` · ${event.a.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
         : several.length
           ? TEXTS.selectedOneLine(several.length)
           : '';
