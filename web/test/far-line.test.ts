@@ -15,7 +15,8 @@ const BODY = JSON.stringify({
 });
 
 /** What the worker sees as its global object. */
-const inside: { onmessage?: (e: { data: ToLine }) => void; postMessage?: (m: FromLine) => void } = {};
+const inside: { onmessage?: (e: { data: ToLine }) => void; postMessage?: (m: FromLine) => void; location?: unknown } =
+  {};
 let made: FakeWorker[] = [];
 
 /** Messages are copied and arrive later, as between threads. */
@@ -44,7 +45,10 @@ beforeEach(async () => {
   asked.mockReset();
   server = await startStandIn({ port: 0, delay: 5 });
   vi.stubGlobal('Worker', FakeWorker);
+  inside.location = { href: server.url };
   vi.stubGlobal('self', inside);
+  // The stand-in answers requests alone.
+  vi.stubGlobal('WebSocket', undefined);
   // The worker asks the server that its script came from.
   vi.stubGlobal('fetch', (path: string, init?: RequestInit) => {
     asked(init?.signal);

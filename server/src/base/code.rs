@@ -70,6 +70,7 @@ codes! {
     CannotRepresent "cannot-represent" 422 "Format cannot hold this" "The format has no place for something that the scene cannot do without.";
     PickleRefused "pickle-refused" 422 "Pickle refused" "The pickle asks for something beside numbers, texts, lists and arrays. Nothing that a pickle names is ever called.";
     LicenceRefused "licence-refused" 422 "Licence refused" "This server was started with --refuse-nc and the source is for non-commercial use only.";
+    UpgradeRequired "upgrade-required" 426 "WebSocket expected" "This address is a WebSocket's: its handshake (RFC 6455) is needed.";
     PreconditionRequired "precondition-required" 428 "Precondition needed" "Send If-Match with the ETag last read (or If-None-Match: * to create), so that no change is lost.";
     HeadersTooLarge "headers-too-large" 431 "Headers too large" "The request has more than `limit` header fields or bytes.";
     Internal "internal" 500 "Defect of the server" "A defect of the program. The log has more under the request id.";

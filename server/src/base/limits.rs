@@ -55,6 +55,8 @@ limits! {
     import_read_s = 120, "time for an upload";
     body_grace_s = 5, "time before a body must come at least at `body_rate`";
     body_rate = 10_000, "bytes a second, on average, that a body must come at";
+    line_bytes = 1 << 20, "one question over an open line";
+    line_questions = 8, "questions of an open line at the same time; the next one waits to be heard";
     connections = 256, "open connections; the longest idle one makes room";
     clients = 1_024, "clients whose revisions are remembered";
     client_idle_s = 600, "time after which a client is forgotten";

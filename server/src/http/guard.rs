@@ -135,7 +135,9 @@ fn check_host(guard: &Guard, request: &Request) -> Result<(), Problem> {
 
 fn check_origin(guard: &Guard, request: &Request) -> Result<(), Problem> {
     let headers = request.headers();
-    let reads = matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS);
+    // Browsers open lines to other sites without asking first, and let any page read what comes.
+    let reads = matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS)
+        && !headers.contains_key(header::UPGRADE);
     let origins: Vec<&str> =
         headers.get_all(header::ORIGIN).iter().map(|o| o.to_str().unwrap_or_default()).collect();
     let origin_ok = origins.iter().all(|o| guard.origin_allowed(o));

@@ -6,6 +6,7 @@ pub mod coding;
 pub mod embed;
 pub mod extract;
 pub mod guard;
+pub mod line;
 pub mod net;
 pub mod observe;
 mod owner;

@@ -11,13 +11,14 @@ use crate::base::limits::Limits;
 use axum::Router;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use std::convert::Infallible;
 use std::future::Future;
 use std::pin::{Pin, pin};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Notify, watch};
+use tokio::sync::{Notify, mpsc, watch};
 
 /// Heads up to this size reach our own check, which answers with a problem document.
 const HEAD_BUFFER: usize = 128 << 10;
@@ -117,7 +118,7 @@ impl Table {
 }
 
 /// Counts a request of a connection while it runs.
-struct Busy(Arc<Place>);
+pub struct Busy(Arc<Place>);
 
 impl Busy {
     fn new(place: &Arc<Place>) -> Self {
@@ -131,6 +132,36 @@ impl Drop for Busy {
         *lock(&self.0.idle_since) = Instant::now();
         *lock(&self.0.asked) = None;
         self.0.socket.requests.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// What a request is given that wants to make a line of its connection (`super::line`).
+#[derive(Clone)]
+pub struct Carrier {
+    router: Router,
+    connection: Connection,
+    place: Arc<Place>,
+    closing: watch::Receiver<bool>,
+    /// Bounds.
+    pub limits: Arc<Limits>,
+    /// How long a reader may leave something waiting.
+    pub patience: Duration,
+    /// The connection is in use until all of these are gone.
+    _in_use: mpsc::Sender<Infallible>,
+}
+
+impl Carrier {
+    /// Answers a request as one that came by this connection, which is busy until what comes with the reply is gone.
+    pub async fn ask(&self, mut request: axum::extract::Request) -> (axum::response::Response, Busy) {
+        let busy = Busy::new(&self.place);
+        request.extensions_mut().insert(self.connection);
+        let Ok(reply) = tower::ServiceExt::oneshot(self.router.clone(), request).await;
+        (reply, busy)
+    }
+
+    /// When the server is asked to end.
+    pub async fn closes(&mut self) {
+        let _ = self.closing.wait_for(|closing| *closing).await;
     }
 }
 
@@ -174,7 +205,7 @@ pub async fn serve(
         let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
         let limits = Arc::clone(&limits);
         tokio::spawn(async move {
-            connection(router, &place, closed, &limits).await;
+            connection(router, &place, closed, &limits, stalled).await;
             table.leave(place.number);
         });
     }
@@ -188,13 +219,33 @@ pub async fn serve(
     }
 }
 
-async fn connection(router: Router, place: &Arc<Place>, mut closed: watch::Receiver<bool>, limits: &Limits) {
+async fn connection(
+    router: Router,
+    place: &Arc<Place>,
+    mut closed: watch::Receiver<bool>,
+    limits: &Arc<Limits>,
+    patience: Duration,
+) {
     let socket = &place.socket;
     let counted = Arc::clone(place);
     let ends = socket.stream().peer_addr().ok().zip(socket.stream().local_addr().ok());
     let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
+    let connection = Connection { number: place.number, strangers };
+    let (held, mut in_use) = mpsc::channel(1);
+    let carrier = Carrier {
+        router: router.clone(),
+        connection,
+        place: Arc::clone(place),
+        closing: closed.clone(),
+        limits: Arc::clone(limits),
+        patience,
+        _in_use: held,
+    };
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
-        request.extensions_mut().insert(Connection { number: counted.number, strangers });
+        request.extensions_mut().insert(connection);
+        if request.headers().contains_key(hyper::header::UPGRADE) {
+            request.extensions_mut().insert(carrier.clone());
+        }
         let busy = Busy::new(&counted);
         let place = Arc::clone(&counted);
         let request = request.map(|body| axum::body::Body::new(Arriving { body, place }));
@@ -207,14 +258,14 @@ async fn connection(router: Router, place: &Arc<Place>, mut closed: watch::Recei
         .max_headers(HEAD_FIELDS)
         .max_buf_size(HEAD_BUFFER);
     let wire = TokioIo::new(Wire(Arc::clone(socket)));
-    let mut served = http.serve_connection(wire, TowerToHyperService::new(service));
+    let mut served = http.serve_connection(wire, TowerToHyperService::new(service)).with_upgrades();
     let mut draining = false;
     loop {
         tokio::select! {
             result = &mut served => {
-                let Err(error) = result else { return };
+                let Err(error) = result else { break };
                 tracing::debug!(%error, "connection ended");
-                let unread = served.into_parts().read_buf;
+                let unread = served.into_parts().map(|parts| parts.read_buf).unwrap_or_default();
                 let Some(problem) = wire::refusal(socket, &error, limits, &unread) else { return };
                 let since = *lock(&place.idle_since);
                 wire::refuse(socket, observe::unread(problem, since.elapsed().as_secs_f64())).await;
@@ -226,6 +277,12 @@ async fn connection(router: Router, place: &Arc<Place>, mut closed: watch::Recei
                 Pin::new(&mut served).graceful_shutdown();
             }
         }
+    }
+    // A line may have been made of it.
+    drop(served);
+    tokio::select! {
+        _ = in_use.recv() => {}
+        () = place.close.notified() => socket.end(),
     }
 }
 

@@ -15,10 +15,15 @@ use crate::generation::{self, Task};
 use crate::http::accept::Form;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
+use crate::http::line;
+use crate::http::net::Carrier;
 use crate::scenes::bytes_of;
 use crate::work::Caller;
+use axum::Extension;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::{FromRequest, Request, State};
-use axum::http::HeaderValue;
+use axum::http::{HeaderMap, HeaderValue, header};
 use axum::response::Response;
 use experts::React;
 use experts::request::{DEFAULTS, ShownLast};
@@ -314,6 +319,30 @@ pub async fn generate(
         reply.headers_mut().insert("dragtraffic-scene", name);
     }
     Ok(reply)
+}
+
+refusals!(NoLine: CHANGES, UpgradeRequired);
+
+/// A WebSocket for many generations, one after the other or at the same time, at a third of what requests of their
+/// own cost a browser. Each text message asks, `{"ask": 1, "body": {..}}` with the body of a `POST` and a number of
+/// the client's choice, or gives up: `{"end": 1}`. What is told of a question is a line `{"ask": 1, "status": 200}`,
+/// in the first message with `retry_after_s` and `scene` (the header `Dragtraffic-Scene`) where the reply would have
+/// them, in the last one with `"last": true`; after it come lines as a `POST` streams them as NDJSON, or the problem.
+#[utoipa::path(get, path = "/v1/generate", operation_id = "openLine", tag = "generate",
+    responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
+pub async fn line(
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+    carrier: Option<Extension<Carrier>>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let (Ok(upgrade), Some(Extension(carrier))) = (upgrade, carrier) else {
+        let upgrade = (header::UPGRADE, HeaderValue::from_static("websocket"));
+        let mut problem =
+            Problem::new(Code::UpgradeRequired, "A generation is asked for by POST, or over a WebSocket.");
+        problem.headers.push(upgrade);
+        return Err(problem);
+    };
+    Ok(line::open(upgrade, carrier, "/v1/generate", &headers))
 }
 
 impl GenerateRequest {

@@ -43,7 +43,7 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(maps::read))
         .routes(routes!(layouts::make))
         .routes(routes!(layouts::templates))
-        .routes(routes!(generate::generate))
+        .routes(routes!(generate::generate, generate::line))
         .routes(routes!(jobs::cancel))
         .routes(routes!(place::place))
         .routes(routes!(score::score))

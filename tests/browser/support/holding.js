@@ -15,10 +15,13 @@ export class Holding {
       const headers = { ...asked.headers, host: program.host };
       // The program refuses pages of another origin than its own.
       delete headers.origin;
+      // A line that stays open is not one question after the other.
+      delete headers.upgrade;
       // Where a packed event ends nobody sees.
       delete headers['accept-encoding'];
       const { hostname, port } = program;
-      const whole = !asked.url.startsWith('/v1/generate') || h.lets-- > 0;
+      const question = asked.method === 'POST' && asked.url.startsWith('/v1/generate');
+      const whole = !question || h.lets-- > 0;
       const on = request({ hostname, port, path: asked.url, method: asked.method, headers }, (answer) => {
         reply.writeHead(answer.statusCode, answer.headers);
         if (whole) answer.pipe(reply);

@@ -190,7 +190,49 @@ export class Wire {
         a.read = true;
       }
     });
+    this.#overLines(thread);
     return thread.send('Network.enable', { maxPostDataSize: 1 << 24 });
+  }
+
+  /** The same for what is asked over an open line: a message each, and pieces of answers by the number of it. */
+  #overLines(thread) {
+    const open = new Map();
+    thread.on('Network.webSocketFrameSent', ({ requestId, timestamp, response: { payloadData } }) => {
+      const said = JSON.parse(payloadData);
+      const id = `${requestId}/${said.ask ?? said.end}`;
+      if (said.body) {
+        const text = payloadData.slice(payloadData.indexOf('{', 1), -1);
+        const asked = new Asked(id, timestamp, text);
+        this.asked.push(asked);
+        open.set(id, asked);
+      } else if (open.has(id)) {
+        Object.assign(open.get(id), { ended: timestamp, read: true });
+        open.delete(id);
+      }
+    });
+    thread.on('Network.webSocketFrameReceived', ({ requestId, timestamp, response: { opcode, payloadData } }) => {
+      if (opcode !== 1) return;
+      this.bytes += Buffer.byteLength(payloadData);
+      const end = payloadData.indexOf('\n');
+      const told = JSON.parse(payloadData.slice(0, end));
+      const id = `${requestId}/${told.ask}`;
+      const asked = open.get(id);
+      if (!asked) return;
+      if (told.status) asked.status = told.status;
+      const piece = Buffer.from(payloadData.slice(end + 1));
+      if (piece.length) asked.chunks.push({ at: timestamp, bytes: piece.length });
+      if (this.#listening !== 'times') asked.tail.push(piece);
+      if (!told.last) return;
+      Object.assign(asked, { ended: timestamp, read: true });
+      open.delete(id);
+    });
+    thread.on('Network.webSocketClosed', ({ requestId, timestamp }) => {
+      for (const [id, asked] of open)
+        if (id.startsWith(`${requestId}/`)) {
+          Object.assign(asked, { ended: timestamp, read: true });
+          open.delete(id);
+        }
+    });
   }
 
   /** Those asked since a mark taken with `asked.length`. */

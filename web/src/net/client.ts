@@ -25,14 +25,14 @@ export class Refused extends Error {
   }
 }
 
-export async function problemOf(reply: Response): Promise<Problem> {
-  const fallback: Problem = {
-    code: `http-${reply.status}`,
-    title: reply.statusText || 'Refused',
-    status: reply.status,
-  };
+export const problemOf = async (reply: Response): Promise<Problem> =>
+  problemIn(await reply.text().catch(() => ''), reply.status, reply.statusText);
+
+/** What a refusal says, where it says anything. */
+export function problemIn(text: string, status: number, title = ''): Problem {
+  const fallback: Problem = { code: `http-${status}`, title: title || 'Refused', status };
   try {
-    const body = (await reply.json()) as Partial<Problem>;
+    const body = JSON.parse(text) as Partial<Problem>;
     return body && typeof body === 'object' ? { ...fallback, ...body } : fallback;
   } catch {
     return fallback;

@@ -1,7 +1,8 @@
 // Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over. What came together goes
 // in one message: each costs the page a task, sixty times a second.
 import { Client } from './client';
-import { askHere, type Head } from './line';
+import type { Head } from './line';
+import { connection, OpenLine } from './open-line';
 import type { Together } from './stream';
 import type { GenerateEvent } from './types';
 
@@ -16,7 +17,7 @@ type Failed = { readonly failed: string };
 /** Nothing follows these. */
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
-const ask = askHere(new Client());
+const line = new OpenLine(new Client(), () => connection(self.location.href));
 const open = new Map<number, AbortController>();
 const tell = (said: FromLine): void => self.postMessage(said);
 
@@ -29,7 +30,7 @@ async function answer(id: number, body: string): Promise<void> {
   const abort = new AbortController();
   open.set(id, abort);
   try {
-    const { pieces, ...begun } = await ask(body, abort.signal);
+    const { pieces, ...begun } = await line.ask(body, abort.signal);
     let head: Head | null = begun;
     let last = false;
     for await (const events of pieces) {

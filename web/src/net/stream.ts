@@ -13,16 +13,22 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
     for (;;) {
       const { done, value } = await reader.read();
       rest += done ? decoder.decode() : decoder.decode(value, { stream: true });
-      const lines = rest.split('\n');
-      rest = done ? '' : lines.pop()!;
-      const events = lines.map((line) => line.trim()).filter(Boolean);
-      if (events.length) yield events.map(parse);
+      const end = done ? rest.length : rest.lastIndexOf('\n') + 1;
+      const events = eventsOf(rest.slice(0, end));
+      rest = rest.slice(end);
+      if (events.length) yield events;
       if (done) break;
     }
   } finally {
     // Leaving the loop early must also stop the server's work.
     void reader.cancel().catch(() => undefined);
   }
+}
+
+/** The events of whole lines. */
+export function eventsOf(text: string): Together {
+  const lines = text.split('\n').map((line) => line.trim());
+  return lines.filter(Boolean).map(parse);
 }
 
 type Sent = Parameters<typeof expanded>[0];

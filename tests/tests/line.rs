@@ -1,0 +1,320 @@
+//! Generation over an open line: the answers of requests, several at once, and who may open one.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
+
+use dragtraffic_tests::scenes::generate;
+use dragtraffic_tests::{Request, Server};
+use serde_json::{Value, json};
+use std::net::TcpStream;
+use std::os::unix::fs::PermissionsExt;
+use std::time::{Duration, Instant};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::error::ProtocolError;
+use tungstenite::protocol::frame::coding::CloseCode;
+use tungstenite::{Error, Message, WebSocket};
+
+/// Longer than any answer takes here.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A client of a line.
+struct Line(WebSocket<TcpStream>);
+
+/// What was told of a question in one message.
+#[derive(Debug)]
+struct Told {
+    head: Value,
+    lines: Vec<Value>,
+}
+
+impl Told {
+    fn of(text: &str) -> Self {
+        let mut lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
+        Self { head: lines.next().unwrap(), lines: lines.collect() }
+    }
+
+    fn is_last(&self) -> bool {
+        self.head["last"] == json!(true)
+    }
+}
+
+impl Line {
+    fn to(server: &Server) -> Self {
+        Self::with(server, &[]).unwrap_or_else(|status| panic!("refused with {status}"))
+    }
+
+    /// With further headers; the status where it is refused.
+    fn with(server: &Server, headers: &[(&'static str, &str)]) -> Result<Self, u16> {
+        let stream = TcpStream::connect(server.address).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let mut request = format!("ws://{}/v1/generate", server.address).into_client_request().unwrap();
+        for (name, value) in headers {
+            request.headers_mut().insert(*name, value.parse().unwrap());
+        }
+        match tungstenite::client(request, stream) {
+            Ok((line, _)) => Ok(Self(line)),
+            Err(tungstenite::HandshakeError::Failure(Error::Http(reply))) => Err(reply.status().as_u16()),
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    fn say(&mut self, text: impl Into<String>) {
+        self.0.send(Message::text(text.into())).unwrap();
+    }
+
+    fn ask(&mut self, number: u64, body: &Value) {
+        self.say(json!({"ask": number, "body": body}).to_string());
+    }
+
+    fn hear(&mut self) -> Told {
+        loop {
+            match self.0.read().unwrap() {
+                Message::Text(text) => return Told::of(&text),
+                Message::Ping(_) => {}
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+
+    /// Everything about one question, which is the only one.
+    fn answer(&mut self, number: u64) -> (Value, Vec<Value>) {
+        let Told { head, mut lines } = self.hear();
+        let mut last = head["last"] == json!(true);
+        while !last {
+            let told = self.hear();
+            assert_eq!(told.head["ask"], json!(number));
+            assert!(told.head.get("status").is_none(), "the head is told once");
+            last = told.is_last();
+            lines.extend(told.lines);
+        }
+        (head, lines)
+    }
+
+    /// How the server ends it.
+    fn end(&mut self) -> (CloseCode, String) {
+        loop {
+            match self.0.read() {
+                Ok(Message::Close(Some(frame))) => return (frame.code, frame.reason.to_string()),
+                Ok(Message::Ping(_) | Message::Text(_)) => {}
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+/// Works for a long time.
+fn long() -> Value {
+    let mut body = generate(24);
+    body["agents"] = json!("all");
+    body["steps"] = json!(100);
+    body["samples"] = json!(16);
+    body
+}
+
+/// Waits until a number that the server counts is as it should be.
+fn until(server: &Server, metric: &str, fits: impl Fn(f64) -> bool) {
+    let began = Instant::now();
+    while !fits(server.metric(metric).unwrap()) {
+        assert!(began.elapsed() < PATIENCE, "{metric}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+const GIVEN_UP: &str = "dragtraffic_generates_total{outcome=\"cancelled\"}";
+
+#[test]
+fn answers_are_those_of_requests() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = generate(4);
+    body["hold"] = json!(true);
+    let asked = Request::new("POST", "/v1/generate").header("accept", "application/x-ndjson").json(&body);
+    let asked = server.send(&asked).unwrap();
+    let expected: Vec<Value> = asked.text().lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let mut line = Line::to(&server);
+    for number in [7, 3] {
+        line.ask(number, &body);
+        let (head, events) = line.answer(number);
+        assert_eq!(head["status"], json!(200));
+        assert!(head["scene"].as_str().unwrap().starts_with("held:"), "{head}");
+        let names = |events: &[Value]| events.iter().map(|e| e["event"].clone()).collect::<Vec<_>>();
+        assert_eq!(names(&events), names(&expected));
+        assert_eq!(events.last().unwrap()["samples"], expected.last().unwrap()["samples"]);
+    }
+    // What would come in one piece by a request comes in one message.
+    body["draft_delay_ms"] = json!(1000);
+    line.ask(4, &body);
+    let told = line.hear();
+    assert!(told.is_last(), "{:?}", told.head);
+    assert_eq!(told.lines.len(), 2, "accepted and final");
+    assert!(server.metric("dragtraffic_http_requests_total").unwrap() >= 5.0, "each is counted as a request");
+}
+
+#[test]
+fn questions_do_not_wait_for_each_other_and_can_be_given_up() {
+    let server = Server::start(&["--limit", "running=2"]).unwrap();
+    let mut line = Line::to(&server);
+    line.ask(1, &long());
+    line.ask(2, &generate(1));
+    let mut told = line.hear();
+    while told.head["ask"] != json!(2) || !told.is_last() {
+        assert!(!told.is_last(), "the long one is over first: {:?}", told.head);
+        told = line.hear();
+    }
+    line.say(r#"{"end": 1}"#);
+    until(&server, GIVEN_UP, |count| count == 1.0);
+    // Its number is free again.
+    line.ask(1, &generate(1));
+    while told.head["ask"] != json!(1) || !told.is_last() {
+        told = line.hear();
+    }
+    // Who leaves gives up what is open.
+    line.ask(5, &long());
+    line.hear();
+    drop(line);
+    until(&server, GIVEN_UP, |count| count == 2.0);
+}
+
+#[test]
+fn more_at_once_than_allowed_wait_to_be_heard() {
+    let server = Server::start(&["--limit", "line_questions=1"]).unwrap();
+    let mut line = Line::to(&server);
+    for number in 1..=4 {
+        line.ask(number, &generate(2));
+    }
+    let mut over = Vec::new();
+    while over.len() < 4 {
+        let told = line.hear();
+        if told.is_last() {
+            over.push(told.head["ask"].as_u64().unwrap());
+        }
+    }
+    assert_eq!(over, [1, 2, 3, 4]);
+}
+
+#[test]
+fn a_refusal_is_told_and_the_line_goes_on() {
+    let server = Server::start(&[]).unwrap();
+    let mut line = Line::to(&server);
+    for (body, status, code) in [
+        (json!({"scene_id": "nowhere"}), 404, "not-found"),
+        (json!({"scene_id": "demo-crossing", "speed": 3}), 422, "invalid-field"),
+        (json!(7), 422, "invalid-field"),
+    ] {
+        line.ask(1, &body);
+        let (head, problem) = line.answer(1);
+        assert_eq!(head["status"], json!(status), "{body}");
+        assert_eq!((problem.len(), &problem[0]["code"]), (1, &json!(code)), "{body}");
+    }
+    line.ask(1, &generate(1));
+    assert_eq!(line.answer(1).0["status"], json!(200));
+}
+
+#[test]
+fn what_cannot_be_understood_ends_the_line() {
+    let server = Server::start(&["--limit", "line_bytes=30000"]).unwrap();
+    let mut body = generate(1);
+    body["steps"] = json!(100);
+    let twice = json!({"ask": 1, "body": body}).to_string();
+    for said in [
+        vec!["hello".to_owned()],
+        vec!["{}".to_owned()],
+        vec![r#"{"ask": 1}"#.to_owned()],
+        vec![r#"{"ask": -1, "body": {}}"#.to_owned()],
+        vec![r#"{"ask": 1, "body": {}, "end": 1}"#.to_owned()],
+        vec![r#"{"ask": 1, "body": {}, "more": 1}"#.to_owned()],
+        vec![twice.clone(), twice],
+    ] {
+        let mut line = Line::to(&server);
+        said.iter().for_each(|text| line.say(text.clone()));
+        let (code, reason) = line.end();
+        assert_eq!(code, CloseCode::Policy, "{reason}");
+        assert!(!reason.is_empty());
+    }
+    let mut line = Line::to(&server);
+    line.0.send(Message::binary(vec![1, 2, 3])).unwrap();
+    assert_eq!(line.end().0, CloseCode::Unsupported);
+    let mut line = Line::to(&server);
+    line.ask(1, &json!("x".repeat(30_001)));
+    let (code, reason) = line.end();
+    assert!(code == CloseCode::Protocol && reason.contains("too long"), "{reason}");
+    assert_eq!(server.get("/healthz").unwrap().status, 200);
+}
+
+#[test]
+fn only_own_pages_open_one() {
+    let server = Server::start(&[]).unwrap();
+    let own = format!("http://{}", server.address);
+    assert!(Line::with(&server, &[("origin", own.as_str()), ("sec-fetch-site", "same-origin")]).is_ok());
+    for headers in [
+        [("origin", "http://evil.example"), ("sec-fetch-site", "cross-site")],
+        [("origin", "http://evil.example"), ("x-request-id", "no-metadata")],
+        [("origin", "null"), ("x-request-id", "of-a-frame")],
+        [("host", "evil.example"), ("x-request-id", "rebound")],
+    ] {
+        let refused = Line::with(&server, &headers).err();
+        assert!(matches!(refused, Some(403 | 421)), "{headers:?}: {refused:?}");
+    }
+    let plain = server.get("/v1/generate").unwrap();
+    assert_eq!((plain.status, plain.code().as_str()), (426, "upgrade-required"));
+    assert_eq!(plain.header("upgrade"), "websocket");
+}
+
+#[test]
+fn a_token_is_needed_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("token");
+    std::fs::write(&file, "a-token-of-sufficient-length-0123456789\n").unwrap();
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o600)).unwrap();
+    let server = Server::start(&["--token-file", file.to_str().unwrap()]).unwrap();
+    assert_eq!(Line::with(&server, &[]).err(), Some(401));
+    let bearer = "Bearer a-token-of-sufficient-length-0123456789";
+    let mut line = Line::with(&server, &[("authorization", bearer)]).unwrap();
+    line.ask(1, &generate(1));
+    assert_eq!(line.answer(1).0["status"], json!(200));
+}
+
+#[test]
+fn an_idle_line_makes_room_and_a_busy_one_does_not() {
+    let server = Server::start(&["--limit", "connections=2"]).unwrap();
+    let mut idle = Line::to(&server);
+    let mut busy = Line::to(&server);
+    busy.ask(1, &long());
+    assert!(!busy.hear().is_last());
+    assert_eq!(server.get("/healthz").unwrap().status, 200, "there is room for a third");
+    let idle = idle.0.read().unwrap_err();
+    assert!(matches!(idle, Error::Protocol(ProtocolError::ResetWithoutClosingHandshake)), "{idle}");
+    busy.say(r#"{"end": 1}"#);
+    busy.ask(2, &generate(1));
+    let mut told = busy.hear();
+    while told.head["ask"] != json!(2) || !told.is_last() {
+        told = busy.hear();
+    }
+}
+
+#[test]
+fn a_server_that_ends_answers_first() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let mut line = Line::to(&server);
+    let mut body = long();
+    body["samples"] = json!(1);
+    line.ask(1, &body);
+    assert!(!line.hear().is_last());
+    let stopped = std::thread::spawn(move || server.stop().unwrap());
+    let (_, events) = line.answer(1);
+    assert_eq!(events.last().unwrap()["event"], json!("final"));
+    assert_eq!(line.end().0, CloseCode::Away);
+    assert_eq!(stopped.join().unwrap().0, Some(0));
+}
+
+#[test]
+fn who_takes_nothing_is_let_go() {
+    let server = Server::start(&["--limit", "stalled_s=1", "--limit", "heartbeat_s=1"]).unwrap();
+    let mut line = Line::to(&server);
+    let mut body = long();
+    body["stream_modes"] = json!("all");
+    for number in 1..=4 {
+        line.ask(number, &body);
+    }
+    until(&server, GIVEN_UP, |count| count >= 1.0);
+    drop(line);
+}
