@@ -37,6 +37,8 @@ export interface Opening {
   readonly client: Client;
   readonly ui: Ui;
   readonly form: Form;
+  /** The place of the bar on top. */
+  readonly bar: HTMLElement;
 }
 
 export interface Context extends Opening {

@@ -24,6 +24,7 @@ import { LANGUAGE } from '../texts/language';
 import { followForm, insetBesideSheet } from './frame';
 import { lookAtOpened, lookWhereItWas } from './look';
 import { sayIncomplete } from './incomplete';
+import { outlineOfBar, place } from './outline';
 import { reportCrashes, waitForServer } from './watching';
 
 const FIRST_SCENE = 'demo-crossing';
@@ -54,7 +55,8 @@ function makeOpening(): Opening {
   main.setAttribute('aria-busy', 'true');
   const stage = new Stage(main);
   const picture = new Picture(stage, editor);
-  return { ui, form, client, editor, scenes, file, journal, saving, library, stage, picture };
+  const bar = place(outlineOfBar(form.small.peek()));
+  return { ui, form, client, editor, scenes, file, journal, saving, library, stage, picture, bar };
 }
 
 /** What one part does when another changes. */
@@ -111,7 +113,7 @@ async function openFirst(o: Opening, desk: Promise<Context>): Promise<void> {
 }
 
 const opening = makeOpening();
-document.getElementById('app')!.append(opening.stage.element);
+document.getElementById('app')!.append(opening.bar, opening.stage.element);
 connect(opening);
 reportCrashes(opening);
 const desk = import('./desk').then(

@@ -9,27 +9,20 @@ import { Dialogs } from './dialogs/dialogs';
 import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { fetchRest, Later } from './later';
+import { place } from './outline';
 import { AppProvider, useApp } from './parts/app-context';
 import { Sheet } from './sheet/sheet';
 import { Timeline } from './timeline/timeline';
 import { TopBar } from './topbar';
 
-/** A place for components that takes no part in the layout. */
-function place(): HTMLElement {
-  const el = document.createElement('div');
-  el.className = 'swap';
-  return el;
-}
-
 /** Puts the page around and over the stage's element. */
 export function drawPage(c: Context): void {
   const picture = c.stage.element;
-  const [top, over, below] = [place(), place(), place()];
-  picture.before(top);
+  const [over, below] = [place(), place()];
   picture.append(over);
   picture.after(below);
   const draw = (what: ComponentChild, into: HTMLElement) => render(<AppProvider value={c}>{what}</AppProvider>, into);
-  draw(<TopBar />, top);
+  draw(<TopBar />, c.bar);
   draw(<OverPicture />, over);
   draw(<Around />, below);
   fetchRest();
