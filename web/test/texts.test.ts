@@ -1,12 +1,13 @@
 // Tables of texts: all have their German, which says the same values; how numbers are told, and who gets what language.
 import { describe, expect, it } from 'vitest';
-import { german } from '../src/texts/german';
+import { readFileSync } from 'node:fs';
+import { german, refused } from '../src/texts/german';
 import { inSentence, languageFor, LANGUAGE, plural } from '../src/texts/language';
 import { marked } from '../src/texts/marked';
 import { table, type Word, type Words } from '../src/texts/table';
 
 const modules = import.meta.glob<Record<string, unknown>>('../src/texts/*.ts', { eager: true });
-const NO_TABLES = ['language', 'table', 'german', 'german-heard', 'german-plural', 'marked'];
+const NO_TABLES = ['language', 'table', 'german', 'german-heard', 'german-plural', 'german-refused', 'marked'];
 const areas = new Map<string, Words>();
 for (const [path, module] of Object.entries(modules)) {
   const name = /([\w-]+)\.ts$/.exec(path)![1];
@@ -45,6 +46,15 @@ describe('texts', () => {
       if (taken[0] !== taken[1] || values[0] !== values[1]) differ.push(`${key}: ${values.join(' / ')}`);
     }
     expect(differ).toEqual([]);
+  });
+
+  it('say every refusal of the server in German', () => {
+    const document = JSON.parse(readFileSync('../assets/openapi.json', 'utf8')) as {
+      components: { schemas: { Problem: { properties: { code: { enum: string[] } } } } };
+    };
+    const codes = document.components.schemas.Problem.properties.code.enum;
+    expect(codes.length).toBeGreaterThan(40);
+    expect(Object.keys(refused).sort()).toEqual([...codes].sort());
   });
 
   it('takes the language of the browser where it is there, and any that is chosen', () => {

@@ -2,6 +2,7 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/json';
 import { Refused, type Beside, type Client } from '../net/client';
+import { faultOf, inWords } from '../net/refusal';
 import type { ImportReply, Problem } from '../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from './editor';
@@ -227,9 +228,8 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
   const notes = [...new Set(reply.scenes.flatMap((s) => s.warnings.map((w) => w.detail)))];
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
   if (!skipped.length) return { file, kind, ok: true, scenes, notes };
-  const { detail } = skipped[0].problem;
   const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);
-  return { file, kind, ok: true, scenes, wrong: `${share}: ${detail}` };
+  return { file, kind, ok: true, scenes, wrong: `${share}: ${inWords(skipped[0].problem)}` };
 }
 
 type Explanation = Pick<FileVerdict, 'wrong' | 'where' | 'todo' | 'details'>;
@@ -238,21 +238,33 @@ function explain(file: string, p: Problem | undefined): Explanation {
   if (!p) return { wrong: TEXTS.thereIsNoScene, todo: READABLE };
   const first = p.errors?.[0];
   const where = [file, first?.pointer, p.offset !== undefined ? TEXTS.byte(p.offset) : ''].filter(Boolean).join(', ');
-  return { wrong: inWords(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
+  return { wrong: wrongWith(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
 }
 
+/** What a reader of JSON says of a fault. */
+const JSON_FAULTS: readonly (readonly [RegExp, keyof typeof TEXTS.jsonFaults])[] = [
+  [/: EOF while parsing/, 'end'],
+  [/: expected (value|ident)/, 'value'],
+  [/: trailing comma/, 'comma'],
+  [/: trailing characters/, 'after'],
+  [/: key must be a string/, 'name'],
+  [/: expected /, 'between'],
+  [/: (invalid number|number out of range)/, 'number'],
+  [/: (control character|invalid escape|invalid unicode|lone leading surrogate|unexpected end of hex)/, 'text'],
+];
+
 /** What the server says, as people would. */
-function inWords(file: string, p: Problem): string {
-  const said = p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title;
+function wrongWith(file: string, p: Problem): string {
+  const said = faultOf(p);
   // A file of a kind that is known is called what it is.
   if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return TEXTS.isNotAScene(file);
   const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
   if (points) return points[1] === '1' ? TEXTS.itHasOnlyOne(points[2]) : TEXTS.itHasPointsAnd(points[1], points[2]);
   const many = /^\d+ agents; at most (\d+)$/.exec(said);
   if (many) return TEXTS.thisSceneHas(many[1]);
-  if (p.code === 'malformed-json')
-    return TEXTS.theTextBreaks(said.replace(/^line \d+, column \d+: /, '').replaceAll('`', '”'));
-  return said;
+  const fault = p.code === 'malformed-json' && JSON_FAULTS.find(([sentence]) => sentence.test(said));
+  if (fault) return TEXTS.isNoJson(TEXTS.jsonFaults[fault[1]]);
+  return inWords(p);
 }
 
 function whatToDo(code: Problem['code']): string {

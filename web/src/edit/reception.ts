@@ -17,6 +17,7 @@ import { findChanges } from '../model/changes';
 import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/scene';
 import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
+import { inWords } from '../net/refusal';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
 import { FrozenNames } from './frozen-names';
@@ -323,8 +324,7 @@ export class Reception {
         ? TEXTS.aValueIsOutside(figure(first.min), figure(first.max))
         : null;
     // The server says more, but in English.
-    const said = LANGUAGE === 'en' ? (first?.detail ?? range) : (range ?? first?.detail);
-    const words = said ?? p.detail ?? p.title;
+    const words = LANGUAGE !== 'en' && range ? range : inWords(p);
     this.editor.answers.foresee(null);
     this.editor.answers.report({ kind: 'refused', words });
     this.editor.notices.say(words);

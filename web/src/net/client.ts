@@ -1,5 +1,6 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
+import { inWords } from './refusal';
 import type {
   ImportReply,
   MapReply,
@@ -21,7 +22,7 @@ export class Refused extends Error {
     readonly status: number,
     readonly problem: Problem,
   ) {
-    super(problem.detail ?? problem.title);
+    super(inWords(problem, problem.detail ?? problem.title));
   }
 }
 

@@ -1,6 +1,7 @@
 // German, a file for each table. It comes as a script of its own and imports nothing from elsewhere but types: the tables
 // wait for it.
 export { heard } from './german-heard';
+export { refused } from './german-refused';
 import type { Words } from './table';
 
 const files = import.meta.glob<{ readonly german: Words }>('./german/*.ts', { eager: true });

@@ -56,16 +56,18 @@ export const inSentence = (title: string): string =>
 interface Change {
   area(area: string, english: Words): Words;
   heard(words: string): string;
+  /** What the server refuses, by its code; `undefined` where that is not known. */
+  refused(code: string): string | undefined;
 }
 
 async function changeOf(): Promise<Change | null> {
   if (chosen === MARKED) {
     const { marked } = await import('./marked');
-    return { area: marked, heard: (words) => words };
+    return { area: marked, heard: (words) => words, refused: () => undefined };
   }
   if (LANGUAGE === 'en') return null;
-  const { german, heard } = await import('./german');
-  return { area: (area) => german[area], heard };
+  const { german, heard, refused } = await import('./german');
+  return { area: (area) => german[area], heard, refused: (code) => refused[code] };
 }
 
 export const change = await changeOf();

@@ -23,6 +23,7 @@ import { LETTERS } from '../../model/futures';
 import { canMove, nameIn } from '../../model/scene';
 import { takeDealt, type Command } from '../../model/commands';
 import type { Generator } from '../../net/generator';
+import { inWords } from '../../net/refusal';
 import type { FinalEvent } from '../../net/types';
 import type { Editor } from '../editor';
 import type { Questions, Wanted } from '../question';
@@ -255,7 +256,7 @@ export class Rounds {
       // Half-drawn cards are nothing to be judged.
       draft: () => undefined,
       final: (e) => this.#deal(text, a, asked, e),
-      refused: (p) => deck.fail(p.errors?.[0]?.detail ?? p.detail ?? p.title),
+      refused: (p) => deck.fail(inWords(p)),
       away: () => deck.fail(NO_ANSWER),
     });
     this.generator.ask(question);
