@@ -2,7 +2,8 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/json';
 import { Refused, type Beside, type Client } from '../net/client';
-import { faultOf, inWords } from '../net/refusal';
+import { faultOf } from '../net/problem';
+import { inWords } from '../net/refusal';
 import type { ImportReply, Problem } from '../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from './editor';

@@ -1,5 +1,6 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
+import { problemOf } from './problem';
 import { inWords } from './refusal';
 import type {
   ImportReply,
@@ -23,20 +24,6 @@ export class Refused extends Error {
     readonly problem: Problem,
   ) {
     super(inWords(problem, problem.detail ?? problem.title));
-  }
-}
-
-export const problemOf = async (reply: Response): Promise<Problem> =>
-  problemIn(await reply.text().catch(() => ''), reply.status, reply.statusText);
-
-/** What a refusal says, where it says anything. */
-export function problemIn(text: string, status: number, title = ''): Problem {
-  const fallback: Problem = { code: `http-${status}`, title: title || 'Refused', status };
-  try {
-    const body = JSON.parse(text) as Partial<Problem>;
-    return body && typeof body === 'object' ? { ...fallback, ...body } : fallback;
-  } catch {
-    return fallback;
   }
 }
 

@@ -1,5 +1,6 @@
 // One question to the generator and what comes back: a refusal, or events one after the other.
-import { problemOf, type Client } from './client';
+import { problemOf } from './problem';
+import type { Client } from './client';
 import { readEvents, type Together } from './stream';
 import type { GenerateEvent, Problem } from './types';
 
@@ -18,14 +19,17 @@ export interface Answer extends Head {
   readonly events: AsyncIterable<GenerateEvent>;
 }
 
+/** Sends a request. */
+export type Sender = Pick<Client, 'send'>;
+
 /** Puts a question, given as the body of its request. A signal that aborts fails what is on its way. */
 export type Line = (body: string, signal: AbortSignal) => Promise<Answer>;
 
 async function* none(): AsyncGenerator<Together> {}
 
 /** The line of the thread that it is made in. */
-export function lineHere(client: Client): Line {
-  const ask = askHere(client);
+export function lineHere(sender: Sender): Line {
+  const ask = askHere(sender);
   return async (body, signal) => {
     const { pieces, ...head } = await ask(body, signal);
     return { ...head, events: oneByOne(pieces) };
@@ -37,9 +41,9 @@ async function* oneByOne(pieces: AsyncIterable<Together>): AsyncGenerator<Genera
 }
 
 /** The same, with what came together in one. */
-export function askHere(client: Client) {
+export function askHere(sender: Sender) {
   return async (body: string, signal: AbortSignal): Promise<Head & { pieces: AsyncIterable<Together> }> => {
-    const reply = await client.send('/v1/generate', {
+    const reply = await sender.send('/v1/generate', {
       method: 'POST',
       body,
       signal,

@@ -1,6 +1,5 @@
 // Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over. What came together goes
 // in one message: each costs the page a task, sixty times a second.
-import { Client } from './client';
 import type { Head } from './line';
 import { connection, OpenLine } from './open-line';
 import type { Together } from './stream';
@@ -17,7 +16,7 @@ type Failed = { readonly failed: string };
 /** Nothing follows these. */
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
-const line = new OpenLine(new Client(), () => connection(self.location.href));
+const line = new OpenLine({ send: (path, init) => fetch(path, init) }, () => connection(self.location.href));
 const open = new Map<number, AbortController>();
 const tell = (said: FromLine): void => self.postMessage(said);
 

@@ -1,7 +1,7 @@
 // Questions over a connection that stays open: a request of its own costs the browser three times the work, sixty
 // times a second. Where there is no such connection, or none yet, questions go as requests.
-import { problemIn, type Client } from './client';
-import { askHere, type Head } from './line';
+import { askHere, type Head, type Sender } from './line';
+import { problemIn } from './problem';
 import { Questions } from './questions';
 import { eventsOf, type Together } from './stream';
 
@@ -36,11 +36,11 @@ export class OpenLine {
 
   /** The connection is opened at once, before anybody asks. */
   constructor(
-    client: Client,
+    sender: Sender,
     private readonly connect: () => WebSocket | null,
     private readonly now = () => performance.now(),
   ) {
-    this.#request = askHere(client);
+    this.#request = askHere(sender);
     this.#connected();
   }
 

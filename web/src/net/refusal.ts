@@ -1,9 +1,7 @@
 // What a refusal says to people.
 import { change } from '../texts/language';
+import { faultOf } from './problem';
 import type { Problem } from './types';
-
-/** The first fault found, in the server's own words. */
-export const faultOf = (p: Problem): string => p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title ?? p.code;
 
 /** A sentence of the server in the language of the page: where it is not known there, what its code stands for. */
 export function inWords(p: Problem, sentence = faultOf(p)): string {
