@@ -61,7 +61,10 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const ground = await picture();
     scene();
     await expect.poll(async () => differing(d.page, ground, await picture())).toBeGreaterThan(0.1);
-    expect(await d.page.locator('header.top').count()).toBe(0);
+    const bar = d.page.locator('header.top');
+    expect(await bar.innerText()).toBe('DragTraffic');
+    expect(await bar.getByRole('button').count()).toBe(0);
+    const barBox = await bar.boundingBox();
     const early = await picture();
     tools();
     await d.ready();
@@ -69,6 +72,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     expect(await differing(d.page, early, await picture())).toBeLessThan(0.01);
     expect(await d.page.locator('main.stage').boundingBox()).toEqual(box);
+    expect(await bar.count()).toBe(1);
+    expect(await bar.boundingBox()).toEqual(barBox);
   });
 
   it('says that a part did not load, and fetches it when asked again', async () => {
