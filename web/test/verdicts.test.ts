@@ -87,7 +87,7 @@ describe('verdicts', () => {
     expect(word(fault('collision', { with: '2' }))).toBe('hits Car 2');
     expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
     expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('close call with Cyclist 14');
-    expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6 m/s²');
+    expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
     expect(word(fault('goal_missed', { extent: 14.2 }))).toBe('14 m short');
     expect(['over_median', 'off_road', 'wrong_way', 'red_light'].map((k) => word(fault(k as never)))).toEqual([
       'over the median',

@@ -36,9 +36,9 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'off_road':
       return TEXTS.offTheRoad;
     case 'harsh_braking':
-      return f.extent === null ? TEXTS.brakesHard : TEXTS.brakes(acceleration(f.extent, 0));
+      return f.extent === null ? TEXTS.brakesHard : TEXTS.brakes(acceleration(f.extent));
     case 'harsh_steering':
-      return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent, 0));
+      return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent));
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
       return f.extent === null || f.extent > GAP_M
