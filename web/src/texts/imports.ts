@@ -85,6 +85,7 @@ export const TEXTS = table('imports', {
   driveway: 'driveway',
   signal: 'signal',
   mendItOrWithout: (names: string) => `Mend it and drop the file again, or import it without ${names}.`,
+  showAll: (n: number) => `Show all ${n}`,
   whatIsWrong: 'What is wrong',
   where: 'Where',
   whatToDo: 'What to do',

@@ -391,6 +391,23 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.page.inputValue('.title input')).toBe('Mine');
   });
 
+  it('reports on many files in a few rows, what is wrong among them, and on all when asked', async () => {
+    d = await (await Driver.open(browser)).ready();
+    const scenes = Array.from({ length: 15 }, (_, i) => ({
+      name: `mine-${i}.json`,
+      mimeType: 'application/json',
+      buffer: Buffer.from(JSON.stringify(buildCrossing(`x${i}`, `Mine ${i}`).scene)),
+    }));
+    const wrong = { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') };
+    await d.page.setInputFiles('input[type="file"]', [...scenes, wrong]);
+    await d.page.waitForSelector('.dlg.import .filepart');
+    expect(await d.page.locator('.filepart').count()).toBe(12);
+    expect(await d.page.locator('.filepart').last().innerText()).toContain('notes.pdf');
+    await d.page.getByRole('button', { name: 'Show all 16' }).click();
+    expect(await d.page.locator('.filepart').count()).toBe(16);
+    expect(await d.page.getByRole('button', { name: /Show all/ }).count()).toBe(0);
+  });
+
   it('saves own scenes after every step and offers both versions on a conflict', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.key('Control+s');

@@ -8,12 +8,31 @@ import { Modal } from '../parts/modal';
 import { Columns } from './columns';
 import { TEXTS } from '../../texts/imports';
 
+/** More rows than these are shown when they are asked for. */
+const MOST_ROWS = 12;
+
+/** Rows in their order, up to so many; those that somebody has to look at before the others. */
+function firstOf<T>(rows: readonly T[], matters: (row: T) => boolean = () => false): readonly T[] {
+  const kept = new Set([...rows.filter(matters), ...rows.filter((r) => !matters(r))].slice(0, MOST_ROWS));
+  return rows.filter((r) => kept.has(r));
+}
+
+function ShowAll({ of, shown, show }: { of: number; shown: number; show: () => void }) {
+  return of > shown ? (
+    <button type="button" class="btn all" onClick={show}>
+      {TEXTS.showAll(of)}
+    </button>
+  ) : null;
+}
+
 export function ImportReport() {
   const { importing } = useApp();
   const verdicts = importing.verdicts.value ?? [];
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
   const wrong = bad.some((v) => !v.columns);
+  const all = useSignal(false);
+  const shown = all.value ? verdicts : firstOf(verdicts, (v) => !v.ok);
   return (
     <Modal label={TEXTS.import} class="import" close={close}>
       <div class="dhead">
@@ -23,9 +42,10 @@ export function ImportReport() {
         <h2>{titleOf(verdicts)}</h2>
       </div>
       <div class="body">
-        {verdicts.map((v, i) => (
-          <FileRow key={i} verdict={v} open={bad.length === 1} />
+        {shown.map((v) => (
+          <FileRow key={verdicts.indexOf(v)} verdict={v} open={bad.length === 1} />
         ))}
+        <ShowAll of={verdicts.length} shown={shown.length} show={() => (all.value = true)} />
       </div>
       <Foot bad={bad} allBad={bad.length === verdicts.length} close={close} />
     </Modal>
@@ -206,13 +226,15 @@ function Excerpt({ of }: { of: NonNullable<FileVerdict['excerpt']> }) {
 
 function ImportedScenes({ verdict }: { verdict: FileVerdict }) {
   const { importing, library } = useApp();
+  const all = useSignal(false);
+  const shown = all.value ? verdict.scenes : firstOf(verdict.scenes);
   const open = (id: string) => {
     importing.close();
     void library.open(id);
   };
   return (
     <>
-      {verdict.scenes.map((s) => (
+      {shown.map((s) => (
         <div key={s.id} class="filerow">
           <button type="button" class="btn" onClick={() => open(s.id)}>
             {s.name}
@@ -220,6 +242,7 @@ function ImportedScenes({ verdict }: { verdict: FileVerdict }) {
           {s.count ? <small class="mut">{TEXTS.roadUsers(s.count)}</small> : null}
         </div>
       ))}
+      <ShowAll of={verdict.scenes.length} shown={shown.length} show={() => (all.value = true)} />
     </>
   );
 }

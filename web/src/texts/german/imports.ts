@@ -87,6 +87,7 @@ export const german: Said<typeof TEXTS> = {
   driveway: 'Zufahrt',
   signal: 'Ampel',
   mendItOrWithout: (names) => `Sie ausbessern und neu hineinziehen, oder ohne ${names} öffnen.`,
+  showAll: (n) => `Alle ${n} zeigen`,
   whatIsWrong: 'Fehler',
   where: 'Wo',
   whatToDo: 'Was zu tun ist',
