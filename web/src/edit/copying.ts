@@ -100,7 +100,7 @@ export function sayLocked(editor: Editor): void {
   const locked = all.filter((a) => a.locked).length;
   if (!locked) return;
   const some = locked < all.length;
-  editor.notices.show({ text: some ? TEXTS.lockedStay2(locked) : lockedWords(locked) });
+  editor.notices.show({ text: some ? TEXTS.onlyLockedStay(locked) : lockedWords(locked) });
 }
 
 /** Those of the selected that may be moved; says so where some of them are locked. */

@@ -53,7 +53,7 @@ export async function download(c: Source, format: string): Promise<void> {
   }
 }
 
-export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : TEXTS.theServerIsNotAnswering2);
+export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : TEXTS.theServerIsNotThere);
 
 export function save(editor: Editor, file: ExportedFile): void {
   saveAll(editor, [file]);

@@ -73,7 +73,10 @@ export class Importing {
   async files(files: readonly File[]): Promise<void> {
     const { notices } = this.editor;
     const verdicts: FileVerdict[] = [];
-    notices.show({ text: TEXTS.reading(files.length === 1 ? files[0].name : TEXTS.files2(files.length)) }, READING_MS);
+    notices.show(
+      { text: TEXTS.reading(files.length === 1 ? files[0].name : TEXTS.countFiles(files.length)) },
+      READING_MS,
+    );
     for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
     await this.list.refresh().catch(() => undefined);
     notices.hide();
@@ -134,7 +137,7 @@ export class Importing {
   async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
     try {
       const v = verdictOf(name, await this.client.importFile(name, file, beside));
-      return without.length && v.ok ? { ...v, wrong: TEXTS.without2(without.join(', ')) } : v;
+      return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
       return this.#refused(name, file, e.problem, without);

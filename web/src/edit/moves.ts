@@ -39,7 +39,7 @@ function logEnd(a: Agent): Pose | null {
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
-const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.heading2, speed: TEXTS.speed2 } as const;
+const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.headingWithin, speed: TEXTS.speedWithin } as const;
 
 /** That a field of somebody, or of several, is fixed now, or free. */
 export function fixedWords(part: Part, field: Field, who: string, fixed: boolean): string {
@@ -65,7 +65,7 @@ export function withField(a: Agent, part: Part, patch: Partial<GoalSpec>, fold =
         : 'speed' in patch
           ? `${part === 'goal' ? TEXTS.goalSpeed : TEXTS.speed}`
           : TEXTS.goalTime;
-  const done = 'pos' in patch ? TEXTS.moved2 : TEXTS.changed;
+  const done = 'pos' in patch ? TEXTS.movedWord : TEXTS.changed;
   const c =
     part === 'goal'
       ? setGoal(a, { ...a.goal, ...patch })

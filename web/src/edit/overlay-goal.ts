@@ -151,7 +151,7 @@ export class GoalOverlay {
     const [x, y] = v.to(nearest.x, nearest.y);
     const start = startPose(a);
     const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
-    tag(g, this.labels, [x, y], far ? TEXTS.nearestReachable(metres(far.gets, 0)) : TEXTS.nearestReachable2, {
+    tag(g, this.labels, [x, y], far ? TEXTS.nearestReachable(metres(far.gets, 0)) : TEXTS.nearestReachableOnly, {
       tries: [
         [34, -26],
         [-170, -26],

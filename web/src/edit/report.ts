@@ -22,7 +22,7 @@ export function outcome(
   if (step.several && n > 0) return TEXTS.othersChanged(n, step.name);
   if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
   if (n === 0) return `${step.name}.${hit || (hits.length ? '' : TEXTS.nobodyElseHad)}`;
-  return TEXTS.othersChanged2(n, step.name, hit);
+  return TEXTS.othersChangedAndHit(n, step.name, hit);
 }
 
 /** The same with who changed first and how. */

@@ -76,7 +76,7 @@ export class SceneCare {
   /** A copy of any scene; the open one is copied as it is on screen. */
   async duplicate(id: string): Promise<void> {
     if (id === this.editor.scene.peek()?.id) return this.saveCopy();
-    const name = this.#freeName(TEXTS.copy2(this.list.find(id)?.name ?? TEXTS.scene));
+    const name = this.#freeName(TEXTS.copyOf(this.list.find(id)?.name ?? TEXTS.scene));
     try {
       const { id: copy } = await this.client.duplicate(id, name);
       await this.list.refresh().catch(() => undefined);

@@ -159,7 +159,7 @@ function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, hea
             : hit.lane.type === 'bus_lane'
               ? TEXTS.busLane
               : TEXTS.lane;
-  return junction ? TEXTS.bound(what, way) : TEXTS.bound2(way, what);
+  return junction ? TEXTS.bound(what, way) : TEXTS.wayBound(way, what);
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {

@@ -39,7 +39,7 @@ export const sentenceOf = (what: What, a: string, b: string | null): string => S
 /** `0.3 m at 3.6 s` */
 export function momentWords({ what }: Sought, m: Moment): string {
   const at = TEXTS.at(seconds(m.time));
-  if (what === 'collision') return m.found ? TEXTS.collision2(at) : `${metres(m.value, 1)} ${at}`;
+  if (what === 'collision') return m.found ? TEXTS.collisionAt(at) : `${metres(m.value, 1)} ${at}`;
   if (what === 'first') return m.value >= 0 ? TEXTS.sAhead(num(m.value, 1), at) : TEXTS.sBehind(num(-m.value, 1), at);
   if (what === 'red') return m.found ? TEXTS.atRed(at) : TEXTS.fromARedLight(metres(m.value, 1), at);
   const { unit } = KINDS[what];

@@ -292,7 +292,7 @@ function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
   const turn = wrapAngle(q.heading - p.heading);
   if (turn > 0.35) return TEXTS.turningLeft;
   if (turn < -0.35) return TEXTS.turningRight;
-  return q.speed < p.speed - 2 ? TEXTS.braking2 : TEXTS.straightOn;
+  return q.speed < p.speed - 2 ? TEXTS.brakingWithin : TEXTS.straightOn;
 }
 
 /** Those that count: what is in the log does not. */

@@ -140,8 +140,8 @@ export const againstWords = (a: Answer): string =>
       ? TEXTS.ofRoundWasKept(a.letter, a.round, a.name)
       : TEXTS.ofRoundWasRejected(a.letter, a.round, a.name)
     : a.verdict === 'keep'
-      ? TEXTS.ofRoundWasKept2(a.letter, a.round)
-      : TEXTS.ofRoundWasRejected2(a.letter, a.round);
+      ? TEXTS.unnamedWasKept(a.letter, a.round)
+      : TEXTS.unnamedWasRejected(a.letter, a.round);
 
 // -------------------------------------------------------------- why
 
@@ -216,7 +216,7 @@ export function wishes(id: string | null, cards: readonly Features[], nameOf: Na
 
 /** Whom it lets go first, where several could be meant. */
 const firstWords = (w: Wish, nameOf: NameOf): string | null =>
-  w.trait === 'first' && w.wants === 'more' ? TEXTS.before2(called(nameOf, w.who), called(nameOf, w.with)) : null;
+  w.trait === 'first' && w.wants === 'more' ? TEXTS.calledBefore(called(nameOf, w.who), called(nameOf, w.with)) : null;
 
 export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string => {
   const key = a.why && wishKey(a.why);

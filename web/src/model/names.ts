@@ -145,7 +145,7 @@ class NameList {
         named.every(
           (j) => !ends(j, ` ${word}`) || (end === word && ends(j, TEXTS.aBit(word)) ? beyond(j) < 0 : beyond(j) > 0),
         );
-      if ([TEXTS.aBit2(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
+      if ([TEXTS.aBitFirst(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
       if (t.short && this.#give(i, c, t.short[by > 0 ? 0 : 1])) return true;
     }
     return false;
@@ -362,7 +362,7 @@ function extremesOf({ values, least, more, less }: Trait, all: readonly number[]
 const SCALE: Readonly<Record<number, readonly string[]>> = {
   1: ['', ''],
   2: ['', '', TEXTS.much],
-  3: ['', TEXTS.aBit3, '', TEXTS.much],
+  3: ['', TEXTS.aBitPrefix, '', TEXTS.much],
 };
 
 /** More and less of a trait than the first has, level by level. */

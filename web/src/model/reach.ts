@@ -113,7 +113,7 @@ export function localReach(
       speed: speedFor(l, t, along),
       title: TEXTS.tooFarFor(seconds(t)),
       words:
-        (onLanes ? TEXTS.theGoalIsAway(metres(along, 0)) : TEXTS.theGoalIsAway2(metres(along, 0))) +
+        (onLanes ? TEXTS.theGoalIsAway(metres(along, 0)) : TEXTS.theGoalIsAwayStraight(metres(along, 0))) +
         TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), who, metres(max, 0)),
     };
   }

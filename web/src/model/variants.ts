@@ -121,7 +121,7 @@ export function replaceVariants(scene: Scene, fresh: readonly VariantState[]): C
   for (const v of stay) states[v.id] = scene.variantStates[v.id];
   come.forEach((v, i) => (states[v.id] = fresh[i]));
   const n = come.length;
-  return put(TEXTS.variantsMade2(n), [...stay, ...come], states);
+  return put(TEXTS.oneVariantMade(n), [...stay, ...come], states);
 }
 
 /** The number of the next one: larger than any before it. */

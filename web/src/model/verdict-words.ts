@@ -47,7 +47,7 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'via_missed':
       return f.extent === null ? TEXTS.pastTheVia : TEXTS.fromTheVia(metres(f.extent, 1));
     case 'goal_missed':
-      return f.extent === null ? TEXTS.short2 : TEXTS.short(metres(f.extent));
+      return f.extent === null ? TEXTS.shortWord : TEXTS.short(metres(f.extent));
   }
 }
 
@@ -163,12 +163,12 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
   switch (worst.kind) {
     case 'collision': {
       const whom = somebody(worst, said.who.nameOf);
-      return group(`hit:${worst.with}`, TEXTS.hit(whom), TEXTS.hits2(whom));
+      return group(`hit:${worst.with}`, TEXTS.hit(whom), TEXTS.hitsWhom(whom));
     }
     case 'red_light':
-      return group(worst.kind, TEXTS.throughRed2(drive), TEXTS.throughRed3(drives));
+      return group(worst.kind, TEXTS.driveThroughRed(drive), TEXTS.drivesThroughRed(drives));
     case 'wrong_way':
-      return group(worst.kind, TEXTS.theWrongWay2(drive), TEXTS.theWrongWay3(drives));
+      return group(worst.kind, TEXTS.driveTheWrongWay(drive), TEXTS.drivesTheWrongWay(drives));
     case 'over_median': {
       const over = it ? TEXTS.overIt : TEXTS.overTheMedian;
       return group(worst.kind, `${drive} ${over}`, `${drives} ${over}`);
@@ -227,7 +227,7 @@ export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): 
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;
-  const is = TEXTS.isShown2(LETTERS[shown]);
+  const is = TEXTS.isShownOnly(LETTERS[shown]);
   if (!old) return TEXTS.theOneBefore(is);
   const likelier = now.probability > old.probability;
   const plain = likelier ? TEXTS.itIsLikelier(is, LETTERS[was]) : TEXTS.itWasInTheDrag(is, LETTERS[was]);
@@ -237,7 +237,7 @@ export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameO
 const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
   collision: placeWord,
   rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
-  near: (f, nameOf) => TEXTS.nearlyHits2(somebody(f, nameOf)),
+  near: (f, nameOf) => TEXTS.nearlyHitsSomebody(somebody(f, nameOf)),
   short: (f, nameOf) => TEXTS.ends(placeWord(f, nameOf)),
   ok: () => '',
 };

@@ -21,7 +21,7 @@ export const TEXTS = table('access', {
   roadUsers: (count: number) => `Road users, ${count}`,
   arrowsWalkThe: 'Arrows walk the list.',
   tabGoesToThe: 'Tab goes to the next one, F6 to the next part of the page.',
-  roadUsers2: 'Road users',
+  roadUsersTitle: 'Road users',
   whoIsListed: 'Who is listed',
   kind: 'Kind',
   nobodyIsLike: 'Nobody is like that.',

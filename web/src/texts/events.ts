@@ -33,7 +33,7 @@ export const TEXTS = table('events', {
   straightOn: 'straight on',
   noCollisions: 'No collisions, no near misses',
   standing: 'standing',
-  braking2: 'braking',
+  brakingWithin: 'braking',
   collisions: (n: number) => plural(n, { one: `${n} collision`, other: `${n} collisions` }),
   rulesBroken: (n: number) => plural(n, { one: `${n} rule broken`, other: `${n} rules broken` }),
   nearMisses: (n: number) => plural(n, { one: `${n} near miss`, other: `${n} near misses` }),

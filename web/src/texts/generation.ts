@@ -23,7 +23,7 @@ export const TEXTS = table('generation', {
   othersChanged: (n: number, step: string) =>
     plural(n, { one: `${step}. ${n} other changed.`, other: `${step}. ${n} others changed.` }),
   nobodyElseHad: ' Nobody else had to change.',
-  othersChanged2: (n: number, step: string, hit: string) =>
+  othersChangedAndHit: (n: number, step: string, hit: string) =>
     plural(n, { one: `${step}. ${n} other changed.${hit}`, other: `${step}. ${n} others changed.${hit}` }),
   collisionAnd: (name: string, name2: string, time: string) => `Collision, ${name} and ${name2}, ${time} seconds.`,
   asBefore: 'as before',

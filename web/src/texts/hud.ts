@@ -77,7 +77,7 @@ export const TEXTS = table('hud', {
   thisTakesLonger: (ms: string, keep: string) => `This takes longer than usual (${ms} s).${keep}`,
   generatorAway: (n: number) =>
     plural(n, { one: `Generator away · ${n} change waiting`, other: `Generator away · ${n} changes waiting` }),
-  generatorAway2: 'Generator away',
+  generatorAwayOnly: 'Generator away',
   showingFutures: 'Showing futures to the nearest reachable point',
   six: 'Six',
   futures: (it: number | string) => (it === 1 ? 'One future' : `${it} futures`),
@@ -90,7 +90,7 @@ export const TEXTS = table('hud', {
   done: 'Done',
   zoom: 'Zoom',
   sketchNotWorked: 'Sketch, not worked out yet',
-  done2: 'done',
+  doneWithin: 'done',
   makingVariants: (done: number, of: number) => `Making variants: ${done} of ${of}`,
   searching: (tried: number, of: number, found: number) => `Searching: ${tried} of ${of} · ${found} found`,
   halfMetres: 'half metres',

@@ -32,7 +32,7 @@ export const TEXTS = table('imports', {
   scenes: (n: number) => `${n} scenes`,
   roadUsers: (count: number) => `${count} road users`,
   whichColumnIs: 'which column is what?',
-  inPart2: 'in part',
+  inPartTag: 'in part',
   notAScene: 'not a scene',
   importWithout: (without: string) => `Import without ${without}`,
   tryAgain: 'Try again',

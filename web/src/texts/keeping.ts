@@ -25,7 +25,7 @@ export const TEXTS = table('keeping', {
   savedAsItSaves: (name: string) => `Saved as “${name}”. It saves itself from now on.`,
   notSaved: 'Not saved',
   scene: 'Scene',
-  copy2: (name: string) => `${name}, copy`,
+  copyOf: (name: string) => `${name}, copy`,
   open: 'Open',
   copiedAs: (name: string) => `Copied as “${name}”.`,
   notCopied: 'Not copied',
@@ -37,7 +37,7 @@ export const TEXTS = table('keeping', {
   notBroughtBack: 'Not brought back',
   theServerIsNotAnswering: 'the server is not answering. What is here is kept on this computer.',
   notExported: (whyNot: string) => `Not exported: ${whyNot}`,
-  theServerIsNotAnswering2: 'the server is not answering.',
+  theServerIsNotThere: 'the server is not answering.',
   files: (count: number) => `${count} files`,
   savedWithout: (n: number, what: string) =>
     plural(n, { one: `${what} saved, without ${n} thing.`, other: `${what} saved, without ${n} things.` }),

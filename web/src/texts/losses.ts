@@ -74,7 +74,7 @@ export const TEXTS = table('losses', {
   nothingIsCut: 'nothing is cut, but some readers take no more than a recording',
   notInTheFile: 'not in the file',
   theRoad: 'the road',
-  trafficLights2: 'traffic lights',
+  trafficLightsWithin: 'traffic lights',
   sAt10StepsASecond: (duration: string) => `${duration} s at 10 steps a second`,
   flags: (n: number) => plural(n, { one: `${n} flag`, other: `${n} flags` }),
   notes: (n: number) => plural(n, { one: `${n} note`, other: `${n} notes` }),

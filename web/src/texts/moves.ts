@@ -5,7 +5,8 @@ export const TEXTS = table('moves', {
   lockedStay: (stay: number) => plural(stay, { one: ` ${stay} locked stays.`, other: ` ${stay} locked stay.` }),
   allAreLocked: (n: number) =>
     plural(n, { one: 'Locked. Ctrl L unlocks.', other: `All ${n} are locked. Ctrl L unlocks.` }),
-  lockedStay2: (locked: number) => plural(locked, { one: `${locked} locked stays.`, other: `${locked} locked stay.` }),
+  onlyLockedStay: (locked: number) =>
+    plural(locked, { one: `${locked} locked stays.`, other: `${locked} locked stay.` }),
   future: (letter: string) => `future ${letter}`,
   letStartSlower: (name: string) => `Let ${name} start slower`,
   goal: 'Goal',
@@ -57,9 +58,9 @@ export const TEXTS = table('moves', {
   byTheRoad: (letter: string) => `By the road: ${letter}`,
   it: (words: string) => `It ${words}`,
   position: 'position',
-  heading2: 'heading',
-  speed2: 'speed',
-  moved2: 'moved',
+  headingWithin: 'heading',
+  speedWithin: 'speed',
+  movedWord: 'moved',
   changed: 'changed',
   locked: 'locked',
   unlocked: 'unlocked',

@@ -13,7 +13,7 @@ export const TEXTS = table('page', {
   halfOpen: 'half open',
   fullyOpen: 'fully open',
   panel: (word: string) => `Panel, ${word}`,
-  panel2: 'Panel',
+  panelTitle: 'Panel',
   example: 'Example',
   saved: 'Saved',
   saving: 'Saving …',

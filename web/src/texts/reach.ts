@@ -14,7 +14,7 @@ export const TEXTS = table('reach', {
   thisPerson: 'this person',
   tooFarFor: (t: string) => `Too far for ${t}`,
   theGoalIsAway: (along: string) => `The goal is ${along} away along the lane. `,
-  theGoalIsAway2: (along: string) => `The goal is ${along} away. `,
+  theGoalIsAwayStraight: (along: string) => `The goal is ${along} away. `,
   inFromGetsAt: (t: string, v: string, who: string, max: string) => `In ${t} from ${v} ${who} gets ${max} at most.`,
   cannotStopThat: 'Cannot stop that soon',
   fromItNeedsThe: (v: string, min: string, along: string) => `From ${v} it needs ${min}, the goal is ${along} away.`,

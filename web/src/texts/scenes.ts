@@ -18,7 +18,7 @@ export const TEXTS = table('scenes', {
   roadUsers: (n: number) => `${n} road users`,
   nobodyYet: 'nobody yet',
   or: 'or ',
-  recorded2: 'recorded',
+  recordedWithin: 'recorded',
   example: 'example',
   own: 'own',
 });

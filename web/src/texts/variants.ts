@@ -38,7 +38,7 @@ export const TEXTS = table('variants', {
   waitsLess: 'waits less',
   goesFaster: 'goes faster',
   goesSlower: 'goes slower',
-  variantsMade2: (n: number) => plural(n, { one: 'A variant made', other: `${n} variants made` }),
+  oneVariantMade: (n: number) => plural(n, { one: 'A variant made', other: `${n} variants made` }),
   kept: 'kept',
   meets: 'meets',
   stops: 'stops',

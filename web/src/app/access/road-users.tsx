@@ -78,7 +78,7 @@ function Head({ filter }: { filter: { value: Filter } }) {
   return (
     <>
       <h2>
-        {TEXTS.roadUsers2}
+        {TEXTS.roadUsersTitle}
         <span class="grow" />
         <IconButton id="users" icon="x" size={16} />
       </h2>

@@ -83,7 +83,7 @@ function Sentence({ cases, sought }: Of) {
         </select>
       </p>
       <p>
-        <span>{sought.what === 'first' ? '' : two ? TEXTS.between : TEXTS.of2}</span>
+        <span>{sought.what === 'first' ? '' : two ? TEXTS.between : TEXTS.ofWord}</span>
         <b class="who">{nameOf(sought.who)}</b>
         {two || sought.other !== null ? (
           <>
@@ -259,7 +259,7 @@ function Found({ cases, sought }: Of) {
   return (
     <section class="sect last" aria-label={TEXTS.casesThatWere}>
       <h3>
-        {TEXTS.found2}
+        {TEXTS.foundTitle}
         <small>{ORDER[sought.what] ?? TEXTS.closestFirst}</small>
       </h3>
       <div class="cases" ref={list} onKeyDown={walk}>

@@ -132,7 +132,7 @@ function FileRow({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) 
         ) : v.columns ? (
           <span class="tag near">{TEXTS.whichColumnIs}</span>
         ) : v.without ? (
-          <span class="tag near">{TEXTS.inPart2}</span>
+          <span class="tag near">{TEXTS.inPartTag}</span>
         ) : (
           <span class="tag collision">{TEXTS.notAScene}</span>
         )}

@@ -129,10 +129,10 @@ const PLACING: Record<Spread, readonly (readonly [string, string])[]> = {
     ['[', TEXTS.turnLeft],
     [']', TEXTS.turnRight],
     ['Alt', TEXTS.noSnapping],
-    ['Esc', TEXTS.done2],
+    ['Esc', TEXTS.doneWithin],
   ],
-  line: [['Esc', TEXTS.done2]],
-  area: [['Esc', TEXTS.done2]],
+  line: [['Esc', TEXTS.doneWithin]],
+  area: [['Esc', TEXTS.doneWithin]],
 };
 const PLACING_WORDS: Record<Spread, string> = {
   one: TEXTS.clickToPlace,

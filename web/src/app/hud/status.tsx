@@ -104,7 +104,7 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
       return { dot: 'collision', text: s.words };
     case 'away': {
       const n = editor.away.value?.waiting ?? 0;
-      return { dot: 'near', text: n ? TEXTS.generatorAway(n) : TEXTS.generatorAway2 };
+      return { dot: 'near', text: n ? TEXTS.generatorAway(n) : TEXTS.generatorAwayOnly };
     }
     case 'settled':
       return settledLine(c, s.ms, s.adapted);

@@ -159,7 +159,7 @@ const about = (free: boolean, v: number | null | undefined, text: (v: number) =>
 function PoseRows(props: PartProps) {
   return (
     <>
-      <Row label={TEXTS.position} end={<FixedPill {...props} field="pos" label={TEXTS.position2} />}>
+      <Row label={TEXTS.position} end={<FixedPill {...props} field="pos" label={TEXTS.positionWithin} />}>
         <Coordinate {...props} axis={0} />
         <Coordinate {...props} axis={1} />
       </Row>
@@ -187,7 +187,7 @@ function FixedPill({ agent, part, field, label }: PartProps & { field: Field; la
       onClick={toggle}
     >
       <Icon name="lock" size={11} />
-      {fixed ? TEXTS.fixed2 : TEXTS.free}
+      {fixed ? TEXTS.isFixed : TEXTS.free}
     </button>
   );
 }
@@ -235,7 +235,7 @@ function HeadingRow(props: PartProps) {
     },
   };
   return (
-    <Row label={TEXTS.heading} scrub={field} end={<FixedPill {...props} field="heading" label={TEXTS.heading2} />}>
+    <Row label={TEXTS.heading} scrub={field} end={<FixedPill {...props} field="heading" label={TEXTS.headingWithin} />}>
       <NumberField
         {...field}
         label={TEXTS.headingInDegrees(word)}
@@ -267,10 +267,10 @@ function SpeedRow(props: PartProps) {
     range: () => [0, toUnit(topSpeed(agent.value), unit())] as const,
   };
   return (
-    <Row label={TEXTS.speed} scrub={field} end={<FixedPill {...props} field="speed" label={TEXTS.speed2} />}>
+    <Row label={TEXTS.speed} scrub={field} end={<FixedPill {...props} field="speed" label={TEXTS.speedWithin} />}>
       <NumberField
         {...field}
-        label={TEXTS.speed3(word)}
+        label={TEXTS.speedOf(word)}
         unit={unit}
         quantity={unit}
         field={`${props.part}-speed`}

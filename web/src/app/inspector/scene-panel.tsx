@@ -88,7 +88,7 @@ function About({ scene }: { scene: Scene }) {
         </section>
       ) : null}
       <section class="sect">
-        <h3>{TEXTS.others2}</h3>
+        <h3>{TEXTS.othersTitle}</h3>
         <Segments label={TEXTS.whatTheOthers} items={OTHERS} />
         <p class="note">{others}</p>
       </section>

@@ -38,7 +38,7 @@ function figures(e: Editor): (readonly [string, string])[] {
     [TEXTS.collisionsPer, num(hits / Math.max(1, all.length), 2)],
     [TEXTS.leastTimeToCollision, minTtc === null ? TEXTS.noneOnTheWay : `${num(minTtc, 1)} s`],
     ...(pet == null ? [] : [[TEXTS.leastGapInTime, `${num(pet, 1)} s`] as const]),
-    ...(goals.length ? [[TEXTS.goalsReached, TEXTS.of2(reached, goals.length)] as const] : []),
+    ...(goals.length ? [[TEXTS.goalsReached, TEXTS.countOf(reached, goals.length)] as const] : []),
     ...(furthest > 0 ? [[TEXTS.furthestFrom, metres(furthest, 1)] as const] : []),
   ];
 }

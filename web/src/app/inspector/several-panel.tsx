@@ -230,9 +230,9 @@ const DOES: readonly (readonly [string, string])[] = [
   ['does-still', TEXTS.holdStill],
 ];
 const DO: Record<Others, readonly [string, string]> = {
-  react: [TEXTS.reacts, TEXTS.react2],
+  react: [TEXTS.reacts, TEXTS.reactWithin],
   log: [TEXTS.replaysItsLog, TEXTS.replayTheirLog],
-  still: [TEXTS.holdsStill, TEXTS.holdStill2],
+  still: [TEXTS.holdsStill, TEXTS.holdStillWithin],
 };
 
 function Rule({ all }: { all: Live }) {

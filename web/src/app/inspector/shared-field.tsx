@@ -161,7 +161,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     const texts = new Set(values.value.map((v) => shared.text(v, all)));
     return texts.size === 1 && values.value.length === all.length ? [...texts][0] : null;
   });
-  const text = useComputed(() => common.value ?? (values.value.length ? TEXTS.mixed2 : TEXTS.free2));
+  const text = useComputed(() => common.value ?? (values.value.length ? TEXTS.mixedWord : TEXTS.freeWithin));
   const unit = useComputed(() => shared.unit(those.value));
   /** From the least to the greatest, or how many have one at all. */
   const span = useComputed(() => {
@@ -169,7 +169,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     if (common.value !== null || !v.length) return unit.value;
     const low = shared.text(Math.min(...v), those.value),
       high = shared.text(Math.max(...v), those.value);
-    return low === high ? TEXTS.at2(v.length, low, unit.value) : TEXTS.to(low, high, unit.value);
+    return low === high ? TEXTS.countAt(v.length, low, unit.value) : TEXTS.to(low, high, unit.value);
   });
 
   const show = () => {

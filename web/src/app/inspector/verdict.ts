@@ -190,6 +190,6 @@ function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Ver
   const all = !bad.length && misses.length > 1;
   const title = all
     ? TEXTS.goalReachedIn(misses.length === 6 ? TEXTS.six : misses.length)
-    : TEXTS.goalReachedIn2(letters(good));
+    : TEXTS.goalReachedInSome(letters(good));
   return { kind: 'ok', icon: 'check', title, words };
 }

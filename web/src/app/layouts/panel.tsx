@@ -192,9 +192,9 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
   );
   const priority = layouts.parameters.value?.control === 'priority';
   return (
-    <section class="sect" aria-label={TEXTS.arm2(name)}>
+    <section class="sect" aria-label={TEXTS.armNamed(name)}>
       <h3>
-        {TEXTS.arm2(name)}
+        {TEXTS.armNamed(name)}
         <span class="grow" />
         <ActionButton id="arm-previous" iconOnly icon="prev" size={14} />
         <small>{TEXTS.of(index + 1, arms.length)}</small>
@@ -306,7 +306,7 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
                 key={turn}
                 type="button"
                 aria-pressed={there(lane, turn)}
-                aria-label={TEXTS.lane2(lane + 1, TURN_WORDS[turn])}
+                aria-label={TEXTS.laneTurning(lane + 1, TURN_WORDS[turn])}
                 class={there(lane, turn) ? 'on' : ''}
                 onClick={() => toggle(lane, turn)}
               >

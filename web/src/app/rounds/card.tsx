@@ -163,7 +163,7 @@ function Why({ hand, index }: { hand: Hand; index: number }) {
         e.currentTarget.blur();
       }}
     >
-      <option value="">{said?.verdict === 'keep' ? TEXTS.whyAllInAll : TEXTS.why2}</option>
+      <option value="">{said?.verdict === 'keep' ? TEXTS.whyAllInAll : TEXTS.whyAsked}</option>
       {all.map((w) => (
         <option key={w.key} value={w.key}>
           {w.words}

@@ -126,7 +126,7 @@ function WishRow({ wished, subject }: Of & { wished: Wished }) {
         <Icon name="x" size={13} />
       </button>
       {learned ? (
-        <span class="bar" role="img" aria-label={TEXTS.strength2(percent(learned.strength))}>
+        <span class="bar" role="img" aria-label={TEXTS.strengthIs(percent(learned.strength))}>
           <i style={{ width: percent(learned.strength) }} />
         </span>
       ) : null}

@@ -34,7 +34,7 @@ export default function RoundStrip() {
   return (
     <section
       class={`strip rounds ${asking ? 'asking' : ''}`}
-      aria-label={TEXTS.round2}
+      aria-label={TEXTS.roundTitle}
       data-group="rounds"
       aria-busy={asking}
     >
@@ -77,9 +77,9 @@ function Title() {
   const what = subject?.id === null ? TEXTS.waysTheScene(many) : TEXTS.futuresOf(many, subject?.name ?? '');
   return (
     <>
-      <h2>{TEXTS.round3(round)}</h2>
+      <h2>{TEXTS.roundOpened(round)}</h2>
       <Segments label={TEXTS.whoseRounds} items={WHOSE} />
-      <span class="dots" role="img" aria-label={TEXTS.round3(round)}>
+      <span class="dots" role="img" aria-label={TEXTS.roundOpened(round)}>
         {Array.from({ length: all }, (_, i) => (
           <i key={i} class={i + 1 < round ? 'done' : i + 1 === round ? 'now' : ''} />
         ))}
@@ -95,9 +95,9 @@ function Counts() {
   const of = (v: string | undefined) => said.filter((s) => s?.verdict === v).length;
   return (
     <span class="counts">
-      <em class="tag ok">{TEXTS.kept2(of('keep'))}</em>
-      <em class="tag no">{TEXTS.rejected2(of('reject'))}</em>
-      <em class="tag">{TEXTS.open2(of(undefined))}</em>
+      <em class="tag ok">{TEXTS.countKept(of('keep'))}</em>
+      <em class="tag no">{TEXTS.countRejected(of('reject'))}</em>
+      <em class="tag">{TEXTS.countOpen(of(undefined))}</em>
     </span>
   );
 }
@@ -158,7 +158,7 @@ function Learnt() {
             <button
               type="button"
               aria-label={TEXTS.forget(w.words)}
-              title={TEXTS.forget2}
+              title={TEXTS.forgetTitle}
               onClick={() => rounds.forget(w)}
             >
               <Icon name="x" size={11} />

@@ -180,6 +180,6 @@ function NewName({ item }: { item: SceneListItem }) {
 /** `29 road users · example` */
 export function about(s: SceneListItem): string {
   const n = countAll(s.counts);
-  const kind = s.source && isRecorded(s.source) ? TEXTS.recorded2 : s.readonly ? TEXTS.example : TEXTS.own;
+  const kind = s.source && isRecorded(s.source) ? TEXTS.recordedWithin : s.readonly ? TEXTS.example : TEXTS.own;
   return [n ? TEXTS.roadUsers(n) : TEXTS.nobodyYet, kind].join(' · ');
 }

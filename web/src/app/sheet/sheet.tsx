@@ -49,7 +49,7 @@ export function Sheet() {
   return (
     <section
       class="sheet"
-      aria-label={TEXTS.panel2}
+      aria-label={TEXTS.panelTitle}
       data-height={form.height}
       data-held={useComputed(() => (inHand.value === null ? null : ''))}
       style={useComputed(() => `height: ${px.value}px`)}

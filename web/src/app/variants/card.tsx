@@ -42,7 +42,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
   const verdict = verdictOf(card);
   const words = verdict.fact
     ? TEXTS.variant(id, card.name, verdict.word, verdict.fact)
-    : TEXTS.variant2(id, card.name, verdict.word);
+    : TEXTS.variantUnread(id, card.name, verdict.word);
   return (
     <article
       class={`vcard ${shown ? 'on' : ''} ${side ? 'side' : ''} ${card.scene ? '' : 'gone'}`}

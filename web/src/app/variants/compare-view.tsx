@@ -95,7 +95,7 @@ function Pane({ now }: { now: Compared }) {
     <section
       ref={el}
       class="pane"
-      aria-label={TEXTS.variant3(now.right.id, now.right.name)}
+      aria-label={TEXTS.variantNamed(now.right.id, now.right.name)}
       onPointerDown={(e) => e.currentTarget.setPointerCapture(e.pointerId)}
       onPointerMove={(e) => {
         if (!e.buttons) return;

@@ -60,7 +60,7 @@ export default function Strip() {
           ))}
         </div>
         <ActionButton id="compare-variants" size={16}>
-          {TEXTS.compare2}
+          {TEXTS.compareTwo}
         </ActionButton>
         <ActionButton id="export-variants" class="line" icon="">
           {TEXTS.exportAll}

@@ -244,7 +244,7 @@ export class Cases {
       this.#found.value = Object.freeze(next);
       this.#progress.value = { ...this.#progress.peek(), found: this.#progress.peek().found + 1 };
     });
-    if (!same) this.editor.notices.say(TEXTS.case2(id, momentWords(sought, moment)));
+    if (!same) this.editor.notices.say(TEXTS.caseSaid(id, momentWords(sought, moment)));
   }
 
   #count(n: number, began: { ms: number; tried: number }): void {
@@ -377,7 +377,7 @@ const wayOf = (m: Motion): Vec[] =>
   Array.from({ length: Math.ceil(m.x.length / WAY_STEPS) }, (_, i): Vec => [m.x[i * WAY_STEPS], m.y[i * WAY_STEPS]]);
 
 const meetingOf = (c: Case, sought: Sought): NonNullable<Beside['meeting']> => ({
-  words: TEXTS.case3(c.id, momentWords(sought, c.moment)),
+  words: TEXTS.caseOnTag(c.id, momentWords(sought, c.moment)),
   at: c.moment.at,
   time: c.moment.time,
   who: c.moment.other === null ? [sought.who] : [sought.who, c.moment.other],

@@ -106,7 +106,7 @@ export function stays(losses: readonly Loss[], scene: Scene): string {
   const lost = new Set(losses.map((l) => l.what));
   const parts: readonly (readonly [kept: boolean, words: string])[] = [
     [!lost.has(TEXTS.road), TEXTS.theRoad],
-    [scene.signals.length > 0 && !lost.has(TEXTS.trafficLights), TEXTS.trafficLights2],
+    [scene.signals.length > 0 && !lost.has(TEXTS.trafficLights), TEXTS.trafficLightsWithin],
     [scene.agents.size > 0 && !lost.has(TEXTS.roadUsers), TEXTS.roadUserCount(scene.agents.size)],
   ];
   const kept = parts.filter(([is]) => is).map(([, words]) => words);

@@ -22,7 +22,7 @@ export const german: Said<typeof TEXTS> = {
   roadUsers: (count) => `Verkehrsteilnehmer, ${count}`,
   arrowsWalkThe: 'Pfeiltasten gehen durch die Liste.',
   tabGoesToThe: 'Tab geht zum nächsten, F6 zum nächsten Teil der Seite.',
-  roadUsers2: 'Verkehrsteilnehmer',
+  roadUsersTitle: 'Verkehrsteilnehmer',
   whoIsListed: 'Wer in der Liste steht',
   kind: 'Art',
   nobodyIsLike: 'So ist niemand.',

@@ -35,7 +35,7 @@ export const german: Said<typeof TEXTS> = {
   straightOn: 'geradeaus',
   noCollisions: 'Keine Zusammenstöße, keine Beinahe-Unfälle',
   standing: 'steht',
-  braking2: 'bremst',
+  brakingWithin: 'bremst',
   collisions: (n: number) => plural(n, { one: `${n} Zusammenstoß`, other: `${n} Zusammenstöße` }),
   rulesBroken: (n: number) => plural(n, { one: `${n} Regelverstoß`, other: `${n} Regelverstöße` }),
   nearMisses: (n: number) => plural(n, { one: `${n} Beinahe-Unfall`, other: `${n} Beinahe-Unfälle` }),

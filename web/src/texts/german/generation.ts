@@ -26,7 +26,7 @@ export const german: Said<typeof TEXTS> = {
   othersChanged: (n, step) =>
     plural(n, { one: `${step}. ${n} anderer änderte sich.`, other: `${step}. ${n} andere änderten sich.` }),
   nobodyElseHad: ' Sonst musste sich niemand ändern.',
-  othersChanged2: (n, step, hit) =>
+  othersChangedAndHit: (n, step, hit) =>
     plural(n, { one: `${step}. ${n} anderer änderte sich.${hit}`, other: `${step}. ${n} andere änderten sich.${hit}` }),
   collisionAnd: (name, name2, time) => `Zusammenstoß, ${name} und ${name2}, ${time} Sekunden.`,
   asBefore: 'wie zuvor',

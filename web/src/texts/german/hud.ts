@@ -81,7 +81,7 @@ export const german: Said<typeof TEXTS> = {
   thisTakesLonger: (s: string, keep: string) => `Das dauert länger als sonst (${s} s).${keep}`,
   generatorAway: (n: number) =>
     plural(n, { one: `Generator weg · ${n} Änderung wartet`, other: `Generator weg · ${n} Änderungen warten` }),
-  generatorAway2: 'Generator weg',
+  generatorAwayOnly: 'Generator weg',
   showingFutures: 'Zukünfte zum nächsten erreichbaren Punkt',
   six: 'Sechs',
   futures: (it) => (it === 1 ? 'Eine Zukunft' : `${it} Zukünfte`),
@@ -93,7 +93,7 @@ export const german: Said<typeof TEXTS> = {
   done: 'Fertig',
   zoom: 'Vergrößerung',
   sketchNotWorked: 'Skizze, noch nicht berechnet',
-  done2: 'fertig',
+  doneWithin: 'fertig',
   makingVariants: (done, of) => `Macht Varianten: ${done} von ${of}`,
   searching: (tried, of, found) => `Sucht: ${tried} von ${of} · ${found} gefunden`,
   halfMetres: 'halbe Meter',

@@ -34,7 +34,7 @@ export const german: Said<typeof TEXTS> = {
   scenes: (n) => `${n} Szenen`,
   roadUsers: (count) => `${count} Verkehrsteilnehmer`,
   whichColumnIs: 'welche Spalte ist was?',
-  inPart2: 'teilweise',
+  inPartTag: 'teilweise',
   notAScene: 'keine Szene',
   importWithout: (without) => `Ohne ${without} öffnen`,
   tryAgain: 'Noch einmal',

@@ -31,7 +31,7 @@ export const german: Said<typeof TEXTS> = {
   savedAsItSaves: (name: string) => `Gesichert als „${name}“. Sie sichert sich ab jetzt selbst.`,
   notSaved: 'Nicht gesichert',
   scene: 'Szene',
-  copy2: (name: string) => `${name}, Kopie`,
+  copyOf: (name: string) => `${name}, Kopie`,
   open: 'Öffnen',
   copiedAs: (name: string) => `Kopiert als „${name}“.`,
   notCopied: 'Nicht kopiert',
@@ -43,7 +43,7 @@ export const german: Said<typeof TEXTS> = {
   notBroughtBack: 'Nicht zurückgeholt',
   theServerIsNotAnswering: 'der Server antwortet nicht. Was hier ist, ist auf diesem Rechner gesichert.',
   notExported: (whyNot) => `Nicht exportiert: ${whyNot}`,
-  theServerIsNotAnswering2: 'der Server antwortet nicht.',
+  theServerIsNotThere: 'der Server antwortet nicht.',
   files: (count) => `${count} Dateien`,
   savedWithout: (n, what) =>
     plural(n, { one: `${what} gesichert, mit ${n} Verlust.`, other: `${what} gesichert, mit ${n} Verlusten.` }),

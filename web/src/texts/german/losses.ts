@@ -76,7 +76,7 @@ export const german: Said<typeof TEXTS> = {
   nothingIsCut: 'nichts wird gekürzt, doch manche Leser nehmen nicht mehr als eine Aufzeichnung',
   notInTheFile: 'nicht in der Datei',
   theRoad: 'die Straße',
-  trafficLights2: 'Ampeln',
+  trafficLightsWithin: 'Ampeln',
   sAt10StepsASecond: (duration) => `${duration} s mit 10 Schritten je Sekunde`,
   flags: (n) => plural(n, { one: `${n} gesetzte Fahne`, other: `${n} gesetzte Fahnen` }),
   notes: (n) => plural(n, { one: `${n} Notiz`, other: `${n} Notizen` }),

@@ -7,7 +7,7 @@ export const german: Said<typeof TEXTS> = {
   lockedStay: (stay) => plural(stay, { one: ` ${stay} gesperrter bleibt.`, other: ` ${stay} gesperrte bleiben.` }),
   allAreLocked: (n) =>
     plural(n, { one: 'Gesperrt. Strg L entsperrt.', other: `Alle ${n} sind gesperrt. Strg L entsperrt.` }),
-  lockedStay2: (locked) =>
+  onlyLockedStay: (locked) =>
     plural(locked, { one: `${locked} gesperrter bleibt.`, other: `${locked} gesperrte bleiben.` }),
   future: (letter) => `Zukunft ${letter}`,
   letStartSlower: (name) => `${name} langsamer starten`,
@@ -60,9 +60,9 @@ export const german: Said<typeof TEXTS> = {
   byTheRoad: (letter) => `Über die Straße: ${letter}`,
   it: (words) => `${words.charAt(0).toUpperCase()}${words.slice(1)}`,
   position: 'Ort',
-  heading2: 'Richtung',
-  speed2: 'Tempo',
-  moved2: 'verschoben',
+  headingWithin: 'Richtung',
+  speedWithin: 'Tempo',
+  movedWord: 'verschoben',
   changed: 'geändert',
   locked: 'gesperrt',
   unlocked: 'entsperrt',

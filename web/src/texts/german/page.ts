@@ -14,7 +14,7 @@ export const german: Said<typeof TEXTS> = {
   halfOpen: 'halb offen',
   fullyOpen: 'ganz offen',
   panel: (word: string) => `Tafel, ${word}`,
-  panel2: 'Tafel',
+  panelTitle: 'Tafel',
   example: 'Beispiel',
   saved: 'Gesichert',
   saving: 'Sichert …',

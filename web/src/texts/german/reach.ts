@@ -15,7 +15,7 @@ export const german: Said<typeof TEXTS> = {
   thisPerson: 'dieser Mensch',
   tooFarFor: (t: string) => `Zu weit für ${t}`,
   theGoalIsAway: (along) => `Das Ziel ist die Spur entlang ${along} entfernt. `,
-  theGoalIsAway2: (along: string) => `Das Ziel ist ${along} entfernt. `,
+  theGoalIsAwayStraight: (along: string) => `Das Ziel ist ${along} entfernt. `,
   inFromGetsAt: (t, v, who, max) => `In ${t} kommt ${who} aus ${v} höchstens ${max} weit.`,
   cannotStopThat: 'Anhalten geht so bald nicht',
   fromItNeedsThe: (v, min, along) => `Aus ${v} braucht es ${min}, das Ziel ist ${along} entfernt.`,

@@ -19,7 +19,7 @@ export const german: Said<typeof TEXTS> = {
   roadUsers: (n: number) => `${n} Teilnehmer`,
   nobodyYet: 'noch niemand',
   or: 'oder ',
-  recorded2: 'Aufnahme',
+  recordedWithin: 'Aufnahme',
   example: 'Beispiel',
   own: 'eigene',
 };

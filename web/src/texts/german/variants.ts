@@ -40,7 +40,7 @@ export const german: Said<typeof TEXTS> = {
   waitsLess: 'wartet weniger',
   goesFaster: 'ist schneller',
   goesSlower: 'ist langsamer',
-  variantsMade2: (n) => plural(n, { one: 'Eine Variante gemacht', other: `${n} Varianten gemacht` }),
+  oneVariantMade: (n) => plural(n, { one: 'Eine Variante gemacht', other: `${n} Varianten gemacht` }),
   kept: 'behalten',
   meets: 'trifft',
   stops: 'hält',
