@@ -35,8 +35,8 @@ journeys('figures', (stage) => {
       .since(mark)
       .filter((a) => a.body.react === false)
       .map((a) => ({ sent: a.sent * 1000, draft: seen(a)?.at * 1000 || null }));
-    const moves = drag.moves.slice(-MOVES).map((at) => {
-      const draft = asked.find((a) => a.sent >= at && a.draft)?.draft ?? null;
+    const moves = drag.moves.slice(-MOVES).map(({ at, known }) => {
+      const draft = asked.find((a) => a.sent >= known && a.draft)?.draft ?? null;
       return { at, draft, shown: draft && drag.shownAfter(draft) };
     });
     const shown = moves.filter((m) => m.shown);

@@ -74,16 +74,16 @@ export async function answered(browser, e, from, to, moves) {
     .filter((a) => a.chunks.length)
     .map((a) => ({ sent: a.sent * 1000, came: a.chunks[0].at * 1000 }));
   const answersTo = (times) =>
-    times.flatMap((at) => {
-      const draft = drafts.find((d) => d.sent >= at);
+    times.flatMap(({ at, known }) => {
+      const draft = drafts.find((d) => d.sent >= known);
       const seen = draft && trace.shownOnceTold(draft.came);
       return seen
-        ? [{ came: draft.came - draft.sent, asked: draft.sent - at, drawn: seen - draft.came, all: seen - at }]
+        ? [{ came: draft.came - draft.sent, asked: draft.sent - known, drawn: seen - draft.came, all: seen - at }]
         : [];
     });
   const shown = answersTo(trace.moves);
   return {
-    hand: spread(answersTo(hand).map((m) => m.all)),
+    hand: spread(answersTo(hand.map((at) => ({ at, known: at }))).map((m) => m.all)),
     shown: spread(shown.map((m) => m.all)),
     asked: spread(shown.map((m) => m.asked)),
     came: spread(shown.map((m) => m.came)),

@@ -49,7 +49,10 @@ class Trace {
         .map((v) => v.ts / 1000)
         .sort((a, b) => a - b);
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
-    this.moves = dispatched('pointermove');
+    // A page may have heard of a move ahead of the frame in which it is told.
+    const ahead = dispatched('pointerrawupdate');
+    const told = dispatched('pointermove');
+    this.moves = told.map((at, i) => ({ at, known: ahead.findLast((t) => t <= at && t > (told[i - 1] ?? 0)) ?? at }));
     // Other tabs are in the trace, too.
     const page = events.find((v) => v.name === 'EventDispatch' && /^pointer/.test(v.args.data?.type));
     const on = (thread) => (v) => v.tid === thread?.tid && v.pid === thread?.pid;

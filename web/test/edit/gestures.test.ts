@@ -148,6 +148,58 @@ describe('dragging a handle', () => {
     expect([p.state, p.editor.drag.peek()]).toEqual(['pinching', null]);
   });
 
+  it('asks ahead of the frame, once, and not again for the same place', () => {
+    const from = take();
+    p.move({ x: from.x + 50, y: from.y });
+    const asked = p.previewed.length;
+    const there = { x: from.x + 60, y: from.y };
+    p.ahead(there);
+    expect(p.previewed).toHaveLength(asked + 1);
+    const goal = p.editor.agent.peek()!.goal.pos;
+    p.move(there);
+    expect(p.previewed).toHaveLength(asked + 1);
+    expect(p.editor.agent.peek()!.goal.pos).toEqual(goal);
+  });
+
+  it('asks no more often than pictures come: what comes between is shown, and asked a little later', () => {
+    const from = take();
+    p.move({ x: from.x + 50, y: from.y });
+    const asked = p.previewed.length;
+    const x = () => p.editor.agent.peek()!.goal.pos![0];
+    p.now += 12;
+    p.ahead({ x: from.x + 60, y: from.y });
+    const first = x();
+    p.now += 8;
+    p.ahead({ x: from.x + 64, y: from.y });
+    expect([x(), p.previewed.length]).toEqual([first, asked + 1]);
+    p.now -= 15;
+    p.move({ x: from.x + 70, y: from.y });
+    const second = x();
+    expect([second > first, p.previewed.length]).toEqual([true, asked + 1]);
+    p.now += 4;
+    p.ahead({ x: from.x + 80, y: from.y });
+    expect([x() > second, p.previewed.length]).toEqual([true, asked + 2]);
+    p.now -= 10;
+    p.move({ x: from.x + 90, y: from.y });
+    expect(p.previewed).toHaveLength(asked + 2);
+    // The hand has come to rest.
+    p.frame();
+    expect(p.previewed).toHaveLength(asked + 3);
+    p.frame();
+    expect(p.previewed).toHaveLength(asked + 3);
+    p.up({ x: from.x + 90, y: from.y });
+    expect(p.editor.undoName.peek()).not.toBeNull();
+  });
+
+  it('is not told ahead before it is held, nor with two fingers', () => {
+    p.ahead({ x: 300, y: 300 });
+    expect(p.previewed).toEqual([]);
+    const from = take();
+    p.down({ x: 500, y: 400 }, { id: 2 });
+    p.ahead({ x: from.x + 60, y: from.y });
+    expect(p.previewed).toEqual([]);
+  });
+
   it('answers to modifier keys at once', () => {
     const from = take();
     expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(false);

@@ -27,6 +27,8 @@ export class Pointer {
   /** How many fingers were tapped at once. */
   readonly taps: number[] = [];
   /** What menus were asked for. */
+  /** Milliseconds. */
+  now = 0;
   readonly menus: string[] = [];
   readonly chart: Chart;
 
@@ -50,6 +52,7 @@ export class Pointer {
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
       calm: () => this.calm,
+      now: () => this.now,
       ticks: () => this.ticked++,
       menu: (_, on, future) => this.menus.push(future === null ? on : `${on} ${future}`),
       tapped: (fingers) => this.taps.push(fingers),
@@ -68,6 +71,17 @@ export class Pointer {
   /** Moves, and lets a frame pass. */
   move(p: Point, { id = 1, ...mods }: Partial<Modifiers> & { id?: number } = {}): void {
     this.chart.move(id, p, { ...PLAIN, ...mods }, true);
+    this.frame();
+  }
+
+  /** Moves ahead of the frame. */
+  ahead(p: Point, { id = 1, ...mods }: Partial<Modifiers> & { id?: number } = {}): void {
+    this.chart.moveAhead(id, p, { ...PLAIN, ...mods });
+  }
+
+  /** Lets a frame pass. */
+  frame(): void {
+    this.now += 16;
     this.chart.frame(0.016);
   }
 

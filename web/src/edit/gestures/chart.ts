@@ -38,8 +38,13 @@ export interface State {
   leave?(): void;
   /** The first button or finger went down. */
   down?(p: PointerDown): void;
-  /** The pointer moved: called once a frame with the newest place in `chart.at`. */
-  move?(): void;
+  /**
+   * The pointer moved: called once a frame with the newest place in `chart.at`. Who asks the generator for each place
+   * does so when `asks` is set.
+   */
+  move?(asks?: boolean): void;
+  /** Is it told of a move before the next frame comes? So what it asks is under way the sooner. */
+  readonly hurries?: boolean;
   /** One of several fingers moved; called at once. */
   moveFinger?(from: Point, to: Point, other: Point): void;
   up?(timeStamp: number): void;
@@ -80,6 +85,8 @@ export interface ChartParts {
   agentsAt(p: Point): string[];
   /** Is motion to be kept small? */
   calm(): boolean;
+  /** A clock, milliseconds. */
+  now(): number;
   /** A menu is asked for at a place of the picture. */
   menu(at: Point, on: MenuOn, future: number | null): void;
   /** So many fingers were tapped at once: two, or three. */
@@ -88,6 +95,9 @@ export interface ChartParts {
   ticks(): void;
   tool(name: ToolName): Tool;
 }
+
+/** A hand that tells of itself once a frame is asked about each time, one that does so more often, once a frame. */
+const BETWEEN_QUESTIONS_MS = 12;
 
 export class Chart {
   /** The newest place of the pointer, in pixels of the picture. */
@@ -104,6 +114,12 @@ export class Chart {
   readonly #tap = new FingerTap();
   #state: State;
   #moved = false;
+  /** What the state was told ahead of the next frame. */
+  #ahead: { readonly at: Point; readonly modifiers: Modifiers } | null = null;
+  /** When a state that hurries asked last. */
+  #askedAt = -Infinity;
+  /** The newest place was not asked about. */
+  #owes = false;
 
   constructor(readonly parts: ChartParts) {
     this.surface = parts.surface;
@@ -125,6 +141,9 @@ export class Chart {
   go(next: State): void {
     this.#state.leave?.();
     this.#state = next;
+    this.#ahead = null;
+    this.#owes = false;
+    this.#askedAt = -Infinity;
     next.enter?.();
   }
 
@@ -176,11 +195,37 @@ export class Chart {
     if (from) this.#fingers.set(id, p);
     this.at = p;
     this.modifiers = modifiers;
+    if (this.#ahead && isSame(this.#ahead, { at: p, modifiers })) return;
     if (!overPicture && this.#state.outside) {
       this.#state.outside();
       return;
     }
     this.again();
+  }
+
+  /** The same before the frame in which the page hears of it, unless there was a question just now. */
+  moveAhead(id: number, p: Point, modifiers: Modifiers): void {
+    if (!this.#state.hurries || this.#fingers.size !== 1 || !this.#fingers.has(id) || !this.#mayAsk) return;
+    this.#fingers.set(id, p);
+    this.#tap.move(id, p);
+    this.at = p;
+    this.modifiers = modifiers;
+    this.#ahead = { at: p, modifiers };
+    this.#moved = false;
+    this.#tell();
+    this.surface.invalidate();
+  }
+
+  /** More questions than pictures would only take the time that the pictures need. */
+  get #mayAsk(): boolean {
+    return this.parts.now() - this.#askedAt >= BETWEEN_QUESTIONS_MS;
+  }
+
+  #tell(): void {
+    const asks = this.#mayAsk;
+    if (asks) this.#askedAt = this.parts.now();
+    this.#owes = !asks;
+    this.#state.move?.(asks);
   }
 
   /** The pointer's place is to be worked off with the next frame. */
@@ -211,9 +256,12 @@ export class Chart {
 
   frame(seconds: number): void {
     if (this.#state.frame?.(seconds)) this.#moved = true;
-    if (!this.#moved) return;
+    this.#ahead = null;
+    if (!this.#moved && !this.#owes) return;
     this.#moved = false;
-    this.#state.move?.();
+    this.#tell();
+    // Without a frame no time passes.
+    if (this.#owes) this.surface.invalidate();
   }
 
   /** A wheel or a double click moved the picture. */
@@ -237,3 +285,10 @@ export class Chart {
     return done;
   }
 }
+
+const isSame = (a: { at: Point; modifiers: Modifiers }, b: { at: Point; modifiers: Modifiers }): boolean =>
+  a.at.x === b.at.x &&
+  a.at.y === b.at.y &&
+  a.modifiers.alt === b.modifiers.alt &&
+  a.modifiers.shift === b.modifiers.shift &&
+  a.modifiers.ctrl === b.modifiers.ctrl;

@@ -39,6 +39,7 @@ export class DraggingHandle implements State {
   readonly name = 'dragging handle';
   readonly followsView = true;
   readonly followsModifiers = true;
+  readonly hurries = true;
   #command: Command | null = null;
   /** Where and for how long a finger has rested at a kerb. */
   #rest: { readonly at: Point; seconds: number } | null = null;
@@ -63,13 +64,13 @@ export class DraggingHandle implements State {
   }
 
   /** The page follows a step as a whole: the lane under the pointer, the document, the question. */
-  move(): void {
+  move(asks = true): void {
     const { chart } = this;
     const wasHeld = this.what.held;
     batch(() => {
       this.#command = this.what.to(chart.at, chart.modifiers, this.press);
       chart.editor.previewDrag(this.#command);
-      chart.previews.preview(this.what.agent.id);
+      if (asks) chart.previews.preview(this.what.agent.id);
     });
     if (this.press.touch) chart.surface.magnify(this.#inHand());
     if (this.press.touch && this.what.held && !wasHeld) chart.parts.ticks();

@@ -51,6 +51,7 @@ export class Gestures {
       hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
       agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
       calm: () => calm.matches,
+      now: () => performance.now(),
       ticks: () => {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);
@@ -80,10 +81,12 @@ export class Gestures {
       chart.move(e.pointerId, this.#place(e), modifiersOf(e), this.#onPicture(e));
     });
     el.addEventListener('pointerup', (e) => {
+      this.#letGo();
       chart.up(e.pointerId, this.#place(e), e.timeStamp);
       this.#held = null;
     });
     el.addEventListener('pointercancel', (e) => {
+      this.#letGo();
       chart.lost(e.pointerId);
       this.#held = null;
     });
@@ -102,6 +105,16 @@ export class Gestures {
     el.addEventListener('dblclick', (e) => this.#doubleClick(e));
     addEventListener('keydown', (e) => this.#key(e, true));
     addEventListener('keyup', (e) => this.#key(e, false));
+  }
+
+  /** The hand as it moves, ahead of the frame in which the page is told: heard while something is held alone. */
+  readonly #hurry = (e: Event): void => {
+    const p = e as PointerEvent;
+    if (this.#held) this.chart.moveAhead(p.pointerId, this.#place(p), modifiersOf(p));
+  };
+
+  #letGo(): void {
+    this.stage.element.removeEventListener('pointerrawupdate', this.#hurry);
   }
 
   /** Called by the stage before it paints. */
@@ -149,6 +162,7 @@ export class Gestures {
       // The pointer may be gone already.
     }
     this.#asked = false;
+    this.stage.element.addEventListener('pointerrawupdate', this.#hurry);
     this.#held = this.stage.element.getBoundingClientRect();
     this.chart.down({
       id: e.pointerId,
