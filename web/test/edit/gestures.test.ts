@@ -205,7 +205,7 @@ describe('dragging a handle', () => {
     expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(false);
     p.move({ x: from.x + 50, y: from.y });
     expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(true);
-    p.chart.frame(0.016);
+    p.frame(0.016);
     expect(p.previewed).toHaveLength(2);
   });
 

@@ -52,7 +52,6 @@ export class Pointer {
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
       calm: () => this.calm,
-      now: () => this.now,
       ticks: () => this.ticked++,
       menu: (_, on, future) => this.menus.push(future === null ? on : `${on} ${future}`),
       tapped: (fingers) => this.taps.push(fingers),
@@ -76,13 +75,13 @@ export class Pointer {
 
   /** Moves ahead of the frame. */
   ahead(p: Point, { id = 1, ...mods }: Partial<Modifiers> & { id?: number } = {}): void {
-    this.chart.moveAhead(id, p, { ...PLAIN, ...mods });
+    this.chart.moveAhead(id, p, { ...PLAIN, ...mods }, this.now);
   }
 
   /** Lets a frame pass. */
-  frame(): void {
-    this.now += 16;
-    this.chart.frame(0.016);
+  frame(seconds = 0.016): void {
+    this.now += seconds * 1000;
+    this.chart.frame(seconds, this.now);
   }
 
   up(p: Point, { id = 1, timeStamp = 0 } = {}): void {

@@ -158,7 +158,7 @@ describe('a flag at a kerb', () => {
     expect(p.ticked).toBe(1);
     expect(p.editor.drag.peek()!.lag!.touch).toBe(true);
     const rest = (frames: number) => {
-      for (let i = 0; i < frames; i++) p.chart.frame(0.05);
+      for (let i = 0; i < frames; i++) p.frame(0.05);
     };
     rest(5);
     // A finger that goes on has not rested.

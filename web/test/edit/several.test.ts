@@ -372,7 +372,7 @@ describe('menus', () => {
     p.up(at);
     p.hit = { kind: 'agent', id: '3', pile: ['3'] };
     p.down(at, { touch: true });
-    for (let i = 0; i < 40; i++) p.chart.frame(0.016);
+    for (let i = 0; i < 40; i++) p.frame(0.016);
     expect(p.state).toBe('asked');
     p.up(at);
     expect(p.state).toBe('idle');

@@ -85,8 +85,6 @@ export interface ChartParts {
   agentsAt(p: Point): string[];
   /** Is motion to be kept small? */
   calm(): boolean;
-  /** A clock, milliseconds. */
-  now(): number;
   /** A menu is asked for at a place of the picture. */
   menu(at: Point, on: MenuOn, future: number | null): void;
   /** So many fingers were tapped at once: two, or three. */
@@ -116,7 +114,7 @@ export class Chart {
   #moved = false;
   /** What the state was told ahead of the next frame. */
   #ahead: { readonly at: Point; readonly modifiers: Modifiers } | null = null;
-  /** When a state that hurries asked last. */
+  /** When a state that hurries asked last, milliseconds. */
   #askedAt = -Infinity;
   /** The newest place was not asked about. */
   #owes = false;
@@ -204,26 +202,26 @@ export class Chart {
   }
 
   /** The same before the frame in which the page hears of it, unless there was a question just now. */
-  moveAhead(id: number, p: Point, modifiers: Modifiers): void {
-    if (!this.#state.hurries || this.#fingers.size !== 1 || !this.#fingers.has(id) || !this.#mayAsk) return;
+  moveAhead(id: number, p: Point, modifiers: Modifiers, now: number): void {
+    if (!this.#state.hurries || this.#fingers.size !== 1 || !this.#fingers.has(id) || !this.#mayAsk(now)) return;
     this.#fingers.set(id, p);
     this.#tap.move(id, p);
     this.at = p;
     this.modifiers = modifiers;
     this.#ahead = { at: p, modifiers };
     this.#moved = false;
-    this.#tell();
+    this.#tell(now);
     this.surface.invalidate();
   }
 
   /** More questions than pictures would only take the time that the pictures need. */
-  get #mayAsk(): boolean {
-    return this.parts.now() - this.#askedAt >= BETWEEN_QUESTIONS_MS;
+  #mayAsk(now: number): boolean {
+    return !this.#state.hurries || now - this.#askedAt >= BETWEEN_QUESTIONS_MS;
   }
 
-  #tell(): void {
-    const asks = this.#mayAsk;
-    if (asks) this.#askedAt = this.parts.now();
+  #tell(now: number): void {
+    const asks = this.#mayAsk(now);
+    if (asks) this.#askedAt = now;
     this.#owes = !asks;
     this.#state.move?.(asks);
   }
@@ -254,12 +252,13 @@ export class Chart {
     this.#state.outside?.();
   }
 
-  frame(seconds: number): void {
+  /** `now`: when the frame began, milliseconds, by the clock of the page's events. */
+  frame(seconds: number, now: number): void {
     if (this.#state.frame?.(seconds)) this.#moved = true;
     this.#ahead = null;
     if (!this.#moved && !this.#owes) return;
     this.#moved = false;
-    this.#tell();
+    this.#tell(now);
     // Without a frame no time passes.
     if (this.#owes) this.surface.invalidate();
   }

@@ -51,7 +51,6 @@ export class Gestures {
       hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
       agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
       calm: () => calm.matches,
-      now: () => performance.now(),
       ticks: () => {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);
@@ -110,7 +109,7 @@ export class Gestures {
   /** The hand as it moves, ahead of the frame in which the page is told: heard while something is held alone. */
   readonly #hurry = (e: Event): void => {
     const p = e as PointerEvent;
-    if (this.#held) this.chart.moveAhead(p.pointerId, this.#place(p), modifiersOf(p));
+    if (this.#held) this.chart.moveAhead(p.pointerId, this.#place(p), modifiersOf(p), p.timeStamp);
   };
 
   #letGo(): void {
@@ -121,7 +120,7 @@ export class Gestures {
   frame(now: number): void {
     const seconds = this.#lastFrame ? Math.min(0.05, (now - this.#lastFrame) / 1000) : 0.016;
     this.#lastFrame = now;
-    this.chart.frame(seconds);
+    this.chart.frame(seconds, now);
   }
 
   /** How often the picture was taken hold of with Space held. */
