@@ -47,7 +47,7 @@ export class Holding {
 async function withDrafts(asked) {
   const pieces = [];
   for await (const piece of asked) pieces.push(piece);
-  return String(Buffer.concat(pieces)).replace(/"draft_delay_ms":\d/, '"draft_delay_ms":0');
+  return String(Buffer.concat(pieces)).replace(/"draft_delay_ms":\d+/, '"draft_delay_ms":0');
 }
 
 /** That it was accepted, and the first draft. */
