@@ -11,7 +11,7 @@ use crate::http::observe::Gate;
 use crate::routes::router;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
-use crate::work::Pool;
+use crate::work::{self, Lane, Pool};
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -138,6 +138,8 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
 fn start_background(app: &App) -> std::io::Result<()> {
     let warmed = app.clone();
     let warm_up = move || {
+        // The generator's own threads start here.
+        work::give_way(Lane::Quick);
         warmed.generator.warm_up();
         warmed.warm.store(true, Ordering::Relaxed);
         tracing::info!("experts are warm");

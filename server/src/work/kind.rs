@@ -22,6 +22,17 @@ impl Lane {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Quick, Self::Patient, Self::Background, Self::Document];
 
+    /// How far its threads leave the cores to others, as nice(2) counts. What people wait for does so a little, for
+    /// whoever draws the answers on the same machine: late pictures hold up answers too. What takes long, or what
+    /// nobody waits for, gets a tenth of what that gets.
+    pub fn nice(self) -> i32 {
+        match self {
+            Self::Document => 0,
+            Self::Quick => 5,
+            Self::Patient | Self::Background => 15,
+        }
+    }
+
     /// Label of metrics.
     pub fn name(self) -> &'static str {
         match self {

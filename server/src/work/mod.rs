@@ -42,12 +42,14 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The calling thread, and those that it starts, leave the cores to others where they are short: it gets a tenth of
-/// what they do. On Linux alone: elsewhere this would be said of the whole process.
-fn give_way() {
+/// The calling thread, and those that it starts, leave the cores to others as the work of a lane does (nice(2)). On
+/// Linux alone: elsewhere this would be said of the whole process.
+pub fn give_way(lane: Lane) {
     #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
     // Where that is not allowed it works as the others do.
-    let _ = rustix::process::nice(10);
+    let _ = rustix::process::nice(lane.nice());
+    #[cfg(not(all(target_os = "linux", not(feature = "shuttle"))))]
+    let _ = lane.nice();
 }
 
 /// Shared by handlers and workers.
@@ -72,10 +74,13 @@ impl Pool {
             stopped: AtomicBool::new(false),
         });
         for number in 0..limits.workers() {
-            pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Quick, Lane::Document]))?;
+            pool.spawn(format!("worker-{number}"), |pool| {
+                give_way(Lane::Quick);
+                pool.work(&[Lane::Quick, Lane::Document]);
+            })?;
             for lane in [Lane::Patient, Lane::Background] {
                 pool.spawn(format!("{}-{number}", lane.name()), move |pool| {
-                    give_way();
+                    give_way(lane);
                     pool.work(&[lane]);
                 })?;
             }
