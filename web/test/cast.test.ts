@@ -16,13 +16,15 @@ import { crossing, crossingJson } from './helpers';
 /** A number of runs that the environment may raise. */
 const RUNS = Number(process.env.SEQUENCES ?? 300);
 
-const metres = fc.double({ min: -150, max: 150, noNaN: true });
+/** Numbers as a file has them: of zeros it knows one. */
+const number = (min: number, max: number) => fc.double({ min, max, noNaN: true }).map((v) => v + 0);
+const metres = number(-150, 150);
 const kind = fc.constantFrom(...PLACED_KINDS);
 const pose = fc.record({
   x: metres,
   y: metres,
-  heading: fc.double({ min: -3, max: 3, noNaN: true }),
-  speed: fc.double({ min: 0, max: 6, noNaN: true }),
+  heading: number(-3, 3),
+  speed: number(0, 6),
 });
 const comer = fc.tuple(kind, pose).map(([k, p]) => newcomer(k, PRESETS[k][0], p));
 const does = fc.constantFrom('react', 'log', 'still' as const);
@@ -43,7 +45,7 @@ const makers: fc.Arbitrary<Make> = fc.oneof(
       (_, all) =>
         several.turnAll(all, a, own ? null : several.middleOf(all), true),
   ),
-  fc.double({ min: 0.1, max: 3, noNaN: true }).map(
+  number(0.1, 3).map(
     (k): Make =>
       (_, all) =>
         several.spreadAll(all, k, 1 / k, several.middleOf(all)),
@@ -57,7 +59,7 @@ const makers: fc.Arbitrary<Make> = fc.oneof(
     .tuple(
       fc.constantFrom('start', 'goal' as const),
       fc.constantFrom('heading', 'speed', 'time', 'length', 'width' as const),
-      fc.double({ min: 1, max: 9, noNaN: true }),
+      number(1, 9),
     )
     .map(
       ([part, field, v]): Make =>
