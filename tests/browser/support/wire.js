@@ -197,6 +197,10 @@ export class Wire {
   /** The same for what is asked over an open line: a message each, and pieces of answers by the number of it. */
   #overLines(thread) {
     const open = new Map();
+    const end = (id, timestamp) => {
+      Object.assign(open.get(id), { ended: timestamp, read: true });
+      open.delete(id);
+    };
     thread.on('Network.webSocketFrameSent', ({ requestId, timestamp, response: { payloadData } }) => {
       const said = JSON.parse(payloadData);
       const id = `${requestId}/${said.ask ?? said.end}`;
@@ -205,33 +209,24 @@ export class Wire {
         const asked = new Asked(id, timestamp, text);
         this.asked.push(asked);
         open.set(id, asked);
-      } else if (open.has(id)) {
-        Object.assign(open.get(id), { ended: timestamp, read: true });
-        open.delete(id);
-      }
+      } else if (open.has(id)) end(id, timestamp);
     });
     thread.on('Network.webSocketFrameReceived', ({ requestId, timestamp, response: { opcode, payloadData } }) => {
       if (opcode !== 1) return;
       this.bytes += Buffer.byteLength(payloadData);
-      const end = payloadData.indexOf('\n');
-      const told = JSON.parse(payloadData.slice(0, end));
+      const line = payloadData.indexOf('\n');
+      const told = JSON.parse(payloadData.slice(0, line));
       const id = `${requestId}/${told.ask}`;
       const asked = open.get(id);
       if (!asked) return;
       if (told.status) asked.status = told.status;
-      const piece = Buffer.from(payloadData.slice(end + 1));
+      const piece = Buffer.from(payloadData.slice(line + 1));
       if (piece.length) asked.chunks.push({ at: timestamp, bytes: piece.length });
       if (this.#listening !== 'times') asked.tail.push(piece);
-      if (!told.last) return;
-      Object.assign(asked, { ended: timestamp, read: true });
-      open.delete(id);
+      if (told.last) end(id, timestamp);
     });
     thread.on('Network.webSocketClosed', ({ requestId, timestamp }) => {
-      for (const [id, asked] of open)
-        if (id.startsWith(`${requestId}/`)) {
-          Object.assign(asked, { ended: timestamp, read: true });
-          open.delete(id);
-        }
+      for (const id of open.keys()) if (id.startsWith(`${requestId}/`)) end(id, timestamp);
     });
   }
 

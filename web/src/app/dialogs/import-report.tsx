@@ -1,5 +1,5 @@
 // What became of the files that were brought in: one row a file, what is wrong with it below, and the way on.
-import { Fragment } from 'preact';
+import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { useApp } from '../parts/app-context';
@@ -11,18 +11,28 @@ import { TEXTS } from '../../texts/imports';
 /** More rows than these are shown when they are asked for. */
 const MOST_ROWS = 12;
 
-/** Rows in their order, up to so many; those that somebody has to look at before the others. */
-function firstOf<T>(rows: readonly T[], matters: (row: T) => boolean = () => false): readonly T[] {
-  const kept = new Set([...rows.filter(matters), ...rows.filter((r) => !matters(r))].slice(0, MOST_ROWS));
-  return rows.filter((r) => kept.has(r));
+interface Rows<T> {
+  readonly of: readonly T[];
+  /** Those that somebody has to look at are shown before the others. */
+  readonly matters?: (row: T) => boolean;
+  readonly row: (row: T) => ComponentChild;
 }
 
-function ShowAll({ of, shown, show }: { of: number; shown: number; show: () => void }) {
-  return of > shown ? (
-    <button type="button" class="btn all" onClick={show}>
-      {TEXTS.showAll(of)}
-    </button>
-  ) : null;
+/** Rows in their order, few of them until all are asked for. */
+function Few<T>({ of, matters = () => false, row }: Rows<T>) {
+  const all = useSignal(false);
+  const first = [...of.filter(matters), ...of.filter((r) => !matters(r))].slice(0, MOST_ROWS);
+  const shown = all.value ? of : of.filter((r) => first.includes(r));
+  return (
+    <>
+      {shown.map(row)}
+      {of.length > shown.length ? (
+        <button type="button" class="btn all" onClick={() => (all.value = true)}>
+          {TEXTS.showAll(of.length)}
+        </button>
+      ) : null}
+    </>
+  );
 }
 
 export function ImportReport() {
@@ -31,8 +41,6 @@ export function ImportReport() {
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
   const wrong = bad.some((v) => !v.columns);
-  const all = useSignal(false);
-  const shown = all.value ? verdicts : firstOf(verdicts, (v) => !v.ok);
   return (
     <Modal label={TEXTS.import} class="import" close={close}>
       <div class="dhead">
@@ -42,10 +50,11 @@ export function ImportReport() {
         <h2>{titleOf(verdicts)}</h2>
       </div>
       <div class="body">
-        {shown.map((v) => (
-          <FileRow key={verdicts.indexOf(v)} verdict={v} open={bad.length === 1} />
-        ))}
-        <ShowAll of={verdicts.length} shown={shown.length} show={() => (all.value = true)} />
+        <Few
+          of={verdicts}
+          matters={(v) => !v.ok}
+          row={(v) => <FileRow key={verdicts.indexOf(v)} verdict={v} open={bad.length === 1} />}
+        />
       </div>
       <Foot bad={bad} allBad={bad.length === verdicts.length} close={close} />
     </Modal>
@@ -226,23 +235,21 @@ function Excerpt({ of }: { of: NonNullable<FileVerdict['excerpt']> }) {
 
 function ImportedScenes({ verdict }: { verdict: FileVerdict }) {
   const { importing, library } = useApp();
-  const all = useSignal(false);
-  const shown = all.value ? verdict.scenes : firstOf(verdict.scenes);
   const open = (id: string) => {
     importing.close();
     void library.open(id);
   };
   return (
-    <>
-      {shown.map((s) => (
+    <Few
+      of={verdict.scenes}
+      row={(s) => (
         <div key={s.id} class="filerow">
           <button type="button" class="btn" onClick={() => open(s.id)}>
             {s.name}
           </button>
           {s.count ? <small class="mut">{TEXTS.roadUsers(s.count)}</small> : null}
         </div>
-      ))}
-      <ShowAll of={verdict.scenes.length} shown={shown.length} show={() => (all.value = true)} />
-    </>
+      )}
+    />
   );
 }

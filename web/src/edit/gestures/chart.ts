@@ -112,8 +112,8 @@ export class Chart {
   readonly #tap = new FingerTap();
   #state: State;
   #moved = false;
-  /** What the state was told ahead of the next frame. */
-  #ahead: { readonly at: Point; readonly modifiers: Modifiers } | null = null;
+  /** The state was told of the newest place ahead of the next frame. */
+  #ahead = false;
   /** When a state that hurries asked last, milliseconds. */
   #askedAt = -Infinity;
   /** The newest place was not asked about. */
@@ -139,7 +139,7 @@ export class Chart {
   go(next: State): void {
     this.#state.leave?.();
     this.#state = next;
-    this.#ahead = null;
+    this.#ahead = false;
     this.#owes = false;
     this.#askedAt = -Infinity;
     next.enter?.();
@@ -191,9 +191,9 @@ export class Chart {
       return;
     }
     if (from) this.#fingers.set(id, p);
+    if (this.#ahead && isSamePlace(p, this.at) && isSameKeys(modifiers, this.modifiers)) return;
     this.at = p;
     this.modifiers = modifiers;
-    if (this.#ahead && isSame(this.#ahead, { at: p, modifiers })) return;
     if (!overPicture && this.#state.outside) {
       this.#state.outside();
       return;
@@ -208,7 +208,7 @@ export class Chart {
     this.#tap.move(id, p);
     this.at = p;
     this.modifiers = modifiers;
-    this.#ahead = { at: p, modifiers };
+    this.#ahead = true;
     this.#moved = false;
     this.#tell(now);
     this.surface.invalidate();
@@ -255,7 +255,7 @@ export class Chart {
   /** `now`: when the frame began, milliseconds, by the clock of the page's events. */
   frame(seconds: number, now: number): void {
     if (this.#state.frame?.(seconds)) this.#moved = true;
-    this.#ahead = null;
+    this.#ahead = false;
     if (!this.#moved && !this.#owes) return;
     this.#moved = false;
     this.#tell(now);
@@ -285,9 +285,5 @@ export class Chart {
   }
 }
 
-const isSame = (a: { at: Point; modifiers: Modifiers }, b: { at: Point; modifiers: Modifiers }): boolean =>
-  a.at.x === b.at.x &&
-  a.at.y === b.at.y &&
-  a.modifiers.alt === b.modifiers.alt &&
-  a.modifiers.shift === b.modifiers.shift &&
-  a.modifiers.ctrl === b.modifiers.ctrl;
+const isSamePlace = (a: Point, b: Point): boolean => a.x === b.x && a.y === b.y;
+const isSameKeys = (a: Modifiers, b: Modifiers): boolean => a.alt === b.alt && a.shift === b.shift && a.ctrl === b.ctrl;
