@@ -61,6 +61,7 @@ journeys('files and outages', (stage) => {
       steps: 6,
     });
     await e.until(() => /sketch/.test(document.querySelector('aside.insp').textContent));
+    await e.frames(2);
     assert.notDeepEqual(await e.goal(), during, 'the flag still follows the hand');
     await e.page.mouse.up();
     await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));

@@ -89,8 +89,8 @@ journeys('the first minute', (stage) => {
     const said = await e.listen('.bl .status');
     const mark = e.wire.asked.length;
     await e.drag(grip, [target[0] + 9, target[1] - 26], {
-      moves: 24,
-      then: (i) => (i === 16 ? e.picture('mid-drag') : null),
+      moves: 72,
+      then: (i) => (i === 48 ? e.picture('mid-drag') : null),
     });
     assert.match(await e.text('.helpbar'), /where they would wait/);
     await e.settled();
