@@ -104,6 +104,43 @@ pub(super) struct Field<'a> {
     pub(super) others: &'a [&'a Moving],
 }
 
+/// A step at which boxes are looked at, with somebody near.
+struct Moment<'a> {
+    /// The boxes of those who are within reach of the shifts.
+    near: Vec<&'a OrientedBox>,
+    /// One for each shift along the path.
+    unshifted: Vec<Unshifted>,
+}
+
+/// A place on the path.
+struct Unshifted {
+    position: Vec2,
+    left: Vec2,
+    /// With room to be met, and with room to be close.
+    grown: [OrientedBox; 2],
+}
+
+/// What counts as met and as close, metres between boxes.
+const ROOMS_M: [f64; 2] = [SPARE_M, CLOSE_M + SPARE_M];
+
+impl Moment<'_> {
+    /// Somebody comes so near at a shift, by the index of the room.
+    fn is_met(&self, shift: Shift, room: usize) -> bool {
+        let on = &self.unshifted[(shift.ahead + AHEADS) as usize];
+        let outline = on.grown[room].about(on.position + on.left * shift.aside_m());
+        self.near.iter().any(|b| meets(b, &outline))
+    }
+}
+
+/// Two boxes overlap.
+fn meets(b: &OrientedBox, outline: &OrientedBox) -> bool {
+    let reach = b.radius_m() + outline.radius_m();
+    (b.center() - outline.center()).norm_squared() < reach * reach && overlaps(outline, b, 0.0)
+}
+
+/// How far a shift leads at most, metres.
+const SHIFTED_M: f64 = AHEADS as f64 * AHEAD_M + ASIDES as f64 * ASIDE_M;
+
 /// A motion to be shifted.
 struct Course<'a> {
     plan: &'a AgentPlan,
@@ -177,23 +214,27 @@ impl<'a> Course<'a> {
         let vehicle = plan.present.agent_type == AgentType::Vehicle;
         let mut course = Self { plan, field, keeps_to_lanes: false, path, along_m, near: Vec::new() };
         course.keeps_to_lanes = vehicle && !course.is_off_lanes(plan.present.start.position());
-        course.near = field.others.iter().copied().filter(|o| course.may_meet(o)).collect();
+        course.near = course.who_may_be_met();
         Some(course)
     }
 
-    /// Somebody who is within reach of the shifts at some instant, and was not met at the start.
-    fn may_meet(&self, other: &Moving) -> bool {
+    /// Those who are within reach of the shifts at some instant, and were not met at the start.
+    fn who_may_be_met(&self) -> Vec<&'a Moving> {
         let own = self.outline(self.pose(0, Shift { ahead: 0, aside: 0 }));
-        if other.boxes.first().is_some_and(|b| b.as_ref().is_some_and(|b| overlaps(&own, b, 0.0))) {
-            return false;
-        }
-        let shifted_m = f64::from(AHEADS) * AHEAD_M + f64::from(ASIDES) * ASIDE_M;
-        (1..=HORIZON_STEPS).step_by(2).any(|step| {
-            let Some(Some(outline)) = other.boxes.get(step) else { return false };
-            let reach = shifted_m + outline.radius_m() + own.radius_m();
-            let at = self.path.extrapolate(self.along_m[step]).position;
-            (at - outline.center()).norm() < reach
-        })
+        let looked_at = (1..=HORIZON_STEPS).step_by(2);
+        let places: Vec<(usize, Vec2)> =
+            looked_at.map(|step| (step, self.path.extrapolate(self.along_m[step]).position)).collect();
+        let starts_in = |other: &Moving| {
+            other.boxes.first().is_some_and(|b| b.as_ref().is_some_and(|b| overlaps(&own, b, 0.0)))
+        };
+        let comes_near = |other: &Moving| {
+            places.iter().any(|(step, place)| {
+                let Some(Some(outline)) = other.boxes.get(*step) else { return false };
+                let reach = SHIFTED_M + outline.radius_m() + own.radius_m();
+                (place - outline.center()).norm() < reach
+            })
+        };
+        self.field.others.iter().copied().filter(|o| !starts_in(o) && comes_near(o)).collect()
     }
 
     fn pose(&self, step: usize, shift: Shift) -> Pose {
@@ -221,20 +262,37 @@ impl<'a> Course<'a> {
         let mut costs = vec![f64::INFINITY; SHIFTS];
         let step = instant * PER_INSTANT;
         let steps = ABOUT.map(|about| step.saturating_add_signed(about).min(HORIZON_STEPS));
+        let moments: Vec<Moment<'_>> = steps.into_iter().filter_map(|step| self.moment(step)).collect();
         let ground: Vec<f64> = (-ASIDES..=ASIDES).map(|aside| self.on_ground(step, aside)).collect();
         for shift in Shift::all().filter(|s| self.allows(instant, *s)) {
-            let near = |room_m: f64| {
-                let at = |step: usize| self.outline(self.pose(step, shift)).grown(room_m);
-                steps.into_iter().any(|step| self.is_met(step, &at(step)))
-            };
-            let met = match near(CLOSE_M + SPARE_M) {
-                true if near(SPARE_M) => MET,
+            let near = |room: usize| moments.iter().any(|moment| moment.is_met(shift, room));
+            let met = match near(1) {
+                true if near(0) => MET,
                 true => CLOSE,
                 false => 0.0,
             };
             costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
         }
         costs
+    }
+
+    /// What may be met at a step; `None` where nobody is near.
+    fn moment(&self, step: usize) -> Option<Moment<'a>> {
+        let own = self.outline(self.pose(step, Shift { ahead: 0, aside: 0 }));
+        let reach_m = SHIFTED_M + own.grown(ROOMS_M[1]).radius_m();
+        let within = |b: &OrientedBox| (b.center() - own.center()).norm() < reach_m + b.radius_m();
+        let boxes = self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref());
+        let near: Vec<&OrientedBox> = boxes.filter(|b| within(b)).collect();
+        if near.is_empty() {
+            return None;
+        }
+        let unshifted = |ahead: i32| {
+            let pose = self.pose(step, Shift { ahead, aside: 0 });
+            let outline = self.outline(pose);
+            let left = direction(pose.heading_rad + FRAC_PI_2);
+            Unshifted { position: pose.position, left, grown: ROOMS_M.map(|room_m| outline.grown(room_m)) }
+        };
+        Some(Moment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
     }
 
     /// What the ground so far aside costs.
@@ -280,11 +338,7 @@ impl<'a> Course<'a> {
 
     /// Somebody is in a box at a step.
     fn is_met(&self, step: usize, outline: &OrientedBox) -> bool {
-        let near = |b: &OrientedBox| {
-            let reach = b.radius_m() + outline.radius_m();
-            (b.center() - outline.center()).norm_squared() < reach * reach && overlaps(outline, b, 0.0)
-        };
-        self.near.iter().any(|o| o.boxes.get(step).is_some_and(|b| b.as_ref().is_some_and(near)))
+        self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref()).any(|b| meets(b, outline))
     }
 
     /// The cheapest shifts, one an instant; `None` where none at all are.

@@ -13,7 +13,9 @@ use crate::tuning::OverlapTuning;
 use scene::Vec2;
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
-use scene::geometry::overlap_energy::{Growth, MovingBox, absent, carried_back, carried_on, overlap_energy};
+use scene::geometry::overlap_energy::{
+    Bounds, Growth, MovingBox, OverlapEnergy, absent, carried_back, carried_on, overlap_energy,
+};
 use scene::motion::MotionState;
 
 /// Boxes farther apart than this do not matter to each other, metres.
@@ -27,18 +29,34 @@ pub(super) const ABSENT: [f32; 4] = [0.0; 4];
 
 /// Somebody as an obstacle.
 pub(super) struct Outline {
-    poses: Poses,
+    now: Course,
     /// Where it would be soon.
-    soon: Poses,
+    soon: Course,
     /// Half length and half width, metres.
     half: [f32; 2],
+}
+
+/// Poses, and what is about them.
+struct Course {
+    poses: Poses,
+    bounds: Bounds,
+}
+
+impl Course {
+    fn new(poses: Poses) -> Self {
+        Self { bounds: Bounds::of(&poses), poses }
+    }
 }
 
 impl Outline {
     /// Of somebody's box along these poses.
     pub(super) fn new(poses: Poses, who: &AgentAtStart, tuning: &OverlapTuning) -> Self {
+        Self::sized(poses, half_size(who), tuning)
+    }
+
+    fn sized(poses: Poses, half: [f32; 2], tuning: &OverlapTuning) -> Self {
         let soon = carried_on(&poses, tuning.soon_intervals as f32);
-        Self { soon, poses, half: half_size(who) }
+        Self { now: Course::new(poses), soon: Course::new(soon), half }
     }
 
     /// Of boxes at each step of a window, the start first; nobody is there where there is none.
@@ -50,8 +68,7 @@ impl Outline {
             .flatten()
             .next()
             .map_or([0.0; 2], |b| [b.half_length_m() as f32, b.half_width_m() as f32]);
-        let poses = std::array::from_fn(pose);
-        Self { soon: carried_on(&poses, tuning.soon_intervals as f32), poses, half }
+        Self::sized(std::array::from_fn(pose), half, tuning)
     }
 
     /// Whether two come near each other, now or soon.
@@ -63,7 +80,7 @@ impl Outline {
                 !far && !absent(a) && !absent(b)
             })
         };
-        close(&self.poses, &other.poses) || close(&self.soon, &other.soon)
+        close(&self.now.poses, &other.now.poses) || close(&self.soon.poses, &other.soon.poses)
     }
 }
 
@@ -117,8 +134,7 @@ impl SceneEnergy<'_> {
     ) -> (f32, [[f32; 2]; INSTANTS]) {
         let own = poses_of(places);
         let half = half_size(&actor.plan.present);
-        let obstacles = others.iter().map(|o| MovingBox { poses: &o.poses, half: o.half });
-        let found = overlap_energy(&own, half, obstacles, Growth::Square);
+        let found = energy_among(&own, half, others, |o| &o.now);
         let (mut energy, mut gradient) = (found.energy, found.gradient);
         let mut add = |weight: f32, more: f32, slope: [[f32; 2]; INSTANTS]| {
             energy += weight * more;
@@ -128,8 +144,7 @@ impl SceneEnergy<'_> {
         };
         if terms == Terms::All {
             let soon_intervals = self.tuning.soon_intervals as f32;
-            let obstacles = others.iter().map(|o| MovingBox { poses: &o.soon, half: o.half });
-            let soon = overlap_energy(&carried_on(&own, soon_intervals), half, obstacles, Growth::Square);
+            let soon = energy_among(&carried_on(&own, soon_intervals), half, others, |o| &o.soon);
             add(self.tuning.soon as f32, soon.energy, carried_back(&soon.gradient, soon_intervals));
             if actor.keeps_to_the_road {
                 let size = &actor.plan.present.size;
@@ -139,6 +154,19 @@ impl SceneEnergy<'_> {
         }
         (energy, gradient)
     }
+}
+
+/// The energy among those of many who come near at all.
+fn energy_among(
+    own: &Poses,
+    half: [f32; 2],
+    others: &[&Outline],
+    course: impl Fn(&Outline) -> &Course,
+) -> OverlapEnergy<INSTANTS> {
+    let bounds = Bounds::of(own);
+    let near = others.iter().filter(|o| bounds.may_touch(half, &course(o).bounds, o.half));
+    let obstacles = near.map(|o| MovingBox { poses: &course(o).poses, half: o.half });
+    overlap_energy(own, half, obstacles, Growth::Square)
 }
 
 /// What repels every mode of every actor: the refiner's input.

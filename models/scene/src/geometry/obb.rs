@@ -81,6 +81,11 @@ impl OrientedBox {
         Self::facing(self.center, half_m, self.heading_rad, self.forward)
     }
 
+    /// The same box about another centre, metres.
+    pub fn about(&self, center: Vec2) -> Self {
+        Self { center, ..*self }
+    }
+
     /// Corners counter-clockwise from the front left: front left, rear left, rear right, front right.
     pub fn corners(&self) -> [Vec2; 4] {
         let (along, across) = (self.forward * self.half_length_m, self.left() * self.half_width_m);

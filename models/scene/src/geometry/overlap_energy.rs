@@ -30,6 +30,38 @@ pub enum Growth {
     Linear,
 }
 
+/// The upright rectangle about the places of somebody who moves: least x and y, then most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds([f32; 4]);
+
+impl Bounds {
+    /// About the places where somebody is; nobody anywhere is far from all.
+    pub fn of<const N: usize>(poses: &Poses<N>) -> Self {
+        let mut all = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+        for pose in poses.iter().filter(|p| !absent(p)) {
+            for axis in 0..2 {
+                all[axis] = all[axis].min(pose[axis]);
+                all[axis + 2] = all[axis + 2].max(pose[axis]);
+            }
+        }
+        Self(all)
+    }
+
+    /// Two boxes of these half sizes may have an energy somewhere within these bounds: false only where
+    /// [`overlap_energy`] is zero.
+    pub fn may_touch(&self, half: [f32; 2], other: &Self, other_half: [f32; 2]) -> bool {
+        let reach = reach_of(half, other_half);
+        (0..2).all(|axis| {
+            self.0[axis] - other.0[axis + 2] <= reach && other.0[axis] - self.0[axis + 2] <= reach
+        })
+    }
+}
+
+/// Boxes whose centres are farther apart than this, along x or along y, are more than the margin apart.
+fn reach_of(half: [f32; 2], other: [f32; 2]) -> f32 {
+    MARGIN + half[0] + half[1] + other[0] + other[1]
+}
+
 /// Energy of a moving box, and its gradient to the centre's x and y at each instant.
 #[derive(Clone, Debug)]
 pub struct OverlapEnergy<const N: usize> {
@@ -48,7 +80,7 @@ pub fn overlap_energy<'a, const N: usize>(
 ) -> OverlapEnergy<N> {
     let mut result = OverlapEnergy { energy: 0.0, gradient: [[0.0; 2]; N] };
     for obstacle in obstacles {
-        let reach = MARGIN + half[0] + half[1] + obstacle.half[0] + obstacle.half[1];
+        let reach = reach_of(half, obstacle.half);
         for instant in 0..N {
             let (a, b) = (own[instant], obstacle.poses[instant]);
             let far = (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > reach;
@@ -186,6 +218,25 @@ mod tests {
         let on = carried_on(&poses, 3.0);
         assert_eq!(on[1], [8.0, 1.0, 1.0, 0.0]);
         assert!([0, 5, 6].iter().all(|i| absent(&on[*i])));
+    }
+
+    #[test]
+    fn bounds_leave_out_nobody_who_counts() {
+        let own: Poses<8> = std::array::from_fn(|i| [3.0 * i as f32, 0.0, 1.0, 0.0]);
+        let half = [2.2, 0.9];
+        let mut left_out = 0;
+        for (x, y) in (-60..60).flat_map(|x| (-20..20).map(move |y| (x as f32 * 0.7, y as f32 * 0.7))) {
+            let mut other: Poses<8> = std::array::from_fn(|i| [x, y + 0.3 * i as f32, 0.0, 1.0]);
+            other[3] = [0.0; 4];
+            let obstacle = MovingBox { poses: &other, half: [2.0, 1.0] };
+            let energy = overlap_energy(&own, half, [obstacle], Growth::Square).energy;
+            let near = Bounds::of(&own).may_touch(half, &Bounds::of(&other), [2.0, 1.0]);
+            assert!(near || energy == 0.0, "{x} {y}");
+            left_out += usize::from(!near);
+        }
+        assert!(left_out > 1000, "{left_out}");
+        let nobody = [[0.0; 4]; 8];
+        assert!(!Bounds::of(&own).may_touch(half, &Bounds::of(&nobody), [2.0, 1.0]));
     }
 
     #[test]
