@@ -208,8 +208,23 @@ describe('the easel', () => {
       painter.paint();
       return seen(picture.heard.calls);
     };
-    return { take, paint, write };
+    return { take, paint, write, picture };
   }
+
+  it('puts back no more than what the overlay covered', () => {
+    const { take, paint, picture } = easel();
+    take({ map: 'map', agents: 'cars', overlay: 'flag' });
+    paint();
+    take({ overlay: 'a flag elsewhere' });
+    paint();
+    const [[, , x, y, w, h, ...to]] = picture.heard.calls.filter(([name]) => name === 'drawImage') as [
+      [string, unknown, ...number[]],
+    ];
+    // The letters of a font of 10 px at the upper left.
+    expect([x, y, to]).toEqual([0, 0, [x, y, w, h]]);
+    expect(w).toBeLessThan(100);
+    expect(h).toBeLessThan(40);
+  });
 
   it('shows the layers in their order, whichever of them are new', () => {
     const { take, paint } = easel();

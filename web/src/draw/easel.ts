@@ -1,4 +1,5 @@
 // The canvas that is looked at, and what is on it: map, road users, overlay. Works in a worker and on the page alike.
+import type { Part } from './extent';
 import type { News } from './recording';
 import { Player, opaquePen, surface, type Canvas2D, type Surface } from './replay';
 
@@ -67,6 +68,8 @@ export class Easel {
   /** What lies below the overlay, for the frames in which only that changes; null until one of them comes. */
   #below: Surface | null = null;
   #belowIsOld = true;
+  /** What the overlay covers: only there anything else is seen without it. */
+  #covered: Part | null = null;
   /** What is to be painted next. */
   #next: Pick<Picture, 'size' | 'shift' | 'loupe'> | null = null;
   #layers: Partial<Record<LayerName, Layer>> = {};
@@ -102,9 +105,17 @@ export class Easel {
       this.#shift = shift;
       this.#belowIsOld = true;
       this.#paintBelow(this.#picture);
-    } else this.#picture.drawImage(this.#freshBelow(), 0, 0);
+    } else if (this.#covered) this.#uncover(this.#covered);
     this.#play(this.#picture, this.#overlay);
+    this.#covered = this.#overlay.player.extent(this.#overlay.ops, this.canvases.picture, size.dpr);
     if (loupe) this.#magnify(loupe, size.dpr);
+  }
+
+  /** The less is painted, the less the browser copies to the screen. */
+  #uncover({ left, top, right, bottom }: Part): void {
+    const w = right - left,
+      h = bottom - top;
+    if (w > 0 && h > 0) this.#picture.drawImage(this.#freshBelow(), left, top, w, h, left, top, w, h);
   }
 
   #freshBelow(): Surface {

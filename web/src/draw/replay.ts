@@ -1,4 +1,5 @@
 // Plays recordings on a 2D canvas, in a worker or on the page.
+import { Bounds, Extent, type Part } from './extent';
 import type { Pen } from './pen';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
@@ -15,9 +16,23 @@ export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
 /** The pen of a canvas that is covered whole, so that copying it is no blending. */
 export const opaquePen = (s: Surface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
 
+/** What of a canvas recordings need. */
+export interface Played extends Omit<
+  Pen,
+  'stroke' | 'fill' | 'strokeStyle' | 'fillStyle' | 'strokeShape' | 'fillShape' | 'stamp' | 'strokeTiles'
+> {
+  strokeStyle: string | CanvasGradient | CanvasPattern;
+  fillStyle: string | CanvasGradient | CanvasPattern;
+  stroke(path?: Path2D): void;
+  fill(path?: Path2D, rule?: CanvasFillRule): void;
+  drawImage(image: CanvasImageSource, x: number, y: number, w: number, h: number): void;
+  createPattern(image: CanvasImageSource, repetition: string): CanvasPattern | null;
+}
+
 export class Player {
   #texts: string[] = [];
   #shapes: Path2D[] = [];
+  readonly #bounds = new WeakMap<Path2D, Part>();
   #sprites: Surface[] = [];
 
   learn(news: News): void {
@@ -27,7 +42,11 @@ export class Player {
       this.#sprites = [];
     }
     this.#texts.push(...news.texts);
-    for (const { id, points, ends } of news.shapes) this.#shapes[id] = pathOf(points, ends);
+    for (const { id, points, ends } of news.shapes) {
+      const path = pathOf(points, ends);
+      this.#shapes[id] = path;
+      this.#bounds.set(path, boundsOf(points));
+    }
     for (const { id, width, height, ops } of news.sprites) {
       const s = surface(width, height);
       this.play(pen2d(s), ops);
@@ -35,7 +54,14 @@ export class Player {
     }
   }
 
-  play(g: Canvas2D, o: Float64Array): void {
+  /** The part of a canvas of a size, with so many pixels to each unit, that a recording paints on. */
+  extent(o: Float64Array, { width, height }: Surface, scale: number): Part {
+    const extent = new Extent(scale, (path) => this.#bounds.get(path) ?? new Bounds());
+    this.play(extent, o);
+    return extent.part(width, height);
+  }
+
+  play(g: Played, o: Float64Array): void {
     const texts = this.#texts;
     let i = 0;
     while (i < o.length) {
@@ -178,6 +204,12 @@ export function paintOn(g: Canvas2D, paint: (pen: Pen) => void): void {
   const player = new Player();
   player.learn(words.news());
   player.play(g, recording.take());
+}
+
+function boundsOf(points: Float64Array): Part {
+  const bounds = new Bounds();
+  for (let i = 0; i < points.length; i += 2) bounds.add(points[i], points[i + 1]);
+  return bounds;
 }
 
 function pathOf(points: Float64Array, ends: Int32Array): Path2D {
