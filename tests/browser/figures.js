@@ -12,7 +12,7 @@ import { answered, atRest, costs, edit, flagNow, held, takeFlag } from './suppor
 import { Program } from './support/program.js';
 import { missing, out, program as built, recordedFile } from './support/where.js';
 
-const MOVES = 120;
+const FRAMES = 120;
 const EDITS = 1000;
 const TABS = 12;
 const SIZES = { '1440x900': { width: 1440, height: 900 } };
@@ -23,7 +23,7 @@ const REACH = 0.35;
 const address = (program, id) => (id ? new URL(`?scene=${id}`, program.url).href : program.url);
 
 /** One drag that is listened to and one that is not, each on a page of its own. */
-async function ofScene(row, { browser, program }, id, { scale = 1, after = false, moves = MOVES } = {}) {
+async function ofScene(row, { browser, program }, id, { scale = 1, after = false, frames = FRAMES } = {}) {
   for (const listening of ['times', 'nothing']) {
     const e = await Editor.open(browser, address(program, id), {
       viewport: SIZES['1440x900'],
@@ -41,7 +41,7 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
         way.splice(0, 2, await flagNow(e), flag(0));
       }
       if (listening === 'times') {
-        const a = await answered(browser, e, ...way, moves);
+        const a = await answered(browser, e, ...way, frames);
         row('hand to futures p50', a.hand.p50);
         row('hand to futures p95', a.hand.p95);
         row('pointer to futures p50', a.shown.p50);
@@ -52,12 +52,12 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
         row('request bytes p95', a.request.p95);
         row('answer bytes p50', a.answer.p50);
       } else {
-        const c = await costs(browser, e, ...way, moves);
+        const c = await costs(browser, e, ...way, frames);
         row('frame p50', c.frame.p50);
         row('frame p95', c.frame.p95);
         row('draw to draw p95', c.drawn.p95);
-        row('page thread a move', c.page);
-        row('CPU of page and drawing a move', c.all);
+        row('page thread a frame', c.page);
+        row('CPU of page and drawing a frame', c.all);
         for (const [name, ms] of Object.entries(c.threads).slice(0, 5)) row(`  ${name}`, ms);
       }
     } finally {
@@ -111,12 +111,12 @@ const ROWS = {
       const flag = await takeFlag(e);
       await edit(e, 40);
       const before = await held(e);
-      const first = await costs(browser, e, await flagNow(e), flag(REACH), MOVES);
+      const first = await costs(browser, e, await flagNow(e), flag(REACH), FRAMES);
       await edit(e, EDITS);
       const after = await held(e);
-      const then = await costs(browser, e, await flagNow(e), flag(0), MOVES);
-      row('page thread a move, after 40 edits', first.page);
-      row(`page thread a move, after ${EDITS} edits`, then.page);
+      const then = await costs(browser, e, await flagNow(e), flag(0), FRAMES);
+      row('page thread a frame, after 40 edits', first.page);
+      row(`page thread a frame, after ${EDITS} edits`, then.page);
       row('frame p95, after 40 edits', first.frame.p95);
       row(`frame p95, after ${EDITS} edits`, then.frame.p95);
       row('heap MB, after 40 edits', before.heap / 1e6);

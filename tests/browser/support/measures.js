@@ -3,20 +3,22 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { carOnTheMove } from './casting.js';
 import { FRAMES_ALONE, spread, traced } from './trace.js';
 
-/** A hand that moves once a picture. */
-const PACE_MS = 1000 / 60;
+/** A mouse tells of its moves 125 times a second, the slowest of them: a screen has a new place for every frame. */
+const MOUSE_HZ = 125;
+const SCREEN_HZ = 60;
 /** Clock ticks of the kernel a second. */
 const TICKS = 100;
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Moves the mouse along a line at the pace of a hand, whatever the page makes of it; gives back when it did. */
-export async function sweep(e, from, to, moves) {
+/** Moves the mouse along a line for so many frames, whatever the page makes of it; gives back when it moved. */
+export async function sweep(e, from, to, frames) {
   const began = performance.now();
   const sent = [];
   const hand = [];
+  const moves = Math.round((frames * MOUSE_HZ) / SCREEN_HZ);
   for (let i = 1; i <= moves; i++) {
-    await wait(Math.max(0, began + i * PACE_MS - performance.now()));
+    await wait(Math.max(0, began + (i * 1000) / MOUSE_HZ - performance.now()));
     const at = { x: from[0] + ((to[0] - from[0]) * i) / moves, y: from[1] + ((to[1] - from[1]) * i) / moves };
     // The browser's clock is the system's.
     hand.push(Number(process.hrtime.bigint()) / 1e6);
@@ -49,22 +51,22 @@ async function press(e, at) {
 }
 
 /** Drags from one place to another and lets go; `measured` is asked to run the moves. */
-export async function dragged(e, from, to, moves, measured) {
+export async function dragged(e, from, to, frames, measured) {
   await press(e, from);
   // What is only worked out at the first moves is not what a hand feels all the time.
   await sweep(e, from, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], 12);
   const measures = await measured(() =>
-    sweep(e, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], to, moves),
+    sweep(e, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], to, frames),
   );
   await e.release();
   return measures;
 }
 
 /** From the pointer to the futures on screen, and what travels; the page was opened with `listening: 'times'`. */
-export async function answered(browser, e, from, to, moves) {
+export async function answered(browser, e, from, to, frames) {
   const mark = e.wire.asked.length;
   let hand = [];
-  const trace = await dragged(e, from, to, moves, (run) =>
+  const trace = await dragged(e, from, to, frames, (run) =>
     traced(browser, e.page, async () => {
       hand = await run();
     }),
@@ -96,8 +98,8 @@ export async function answered(browser, e, from, to, moves) {
 }
 
 /** What a frame of a drag costs, undisturbed: the page was opened with `listening: 'nothing'`. */
-export async function costs(browser, e, from, to, moves) {
-  const { trace, threads } = await dragged(e, from, to, moves, async (run) => {
+export async function costs(browser, e, from, to, frames) {
+  const { trace, threads } = await dragged(e, from, to, frames, async (run) => {
     const before = await threadTimes(browser);
     const trace = await traced(browser, e.page, run, FRAMES_ALONE);
     return { trace, threads: since(before, await threadTimes(browser)) };
@@ -106,9 +108,9 @@ export async function costs(browser, e, from, to, moves) {
   return {
     frame: between(trace.screen),
     drawn: between(trace.drawn),
-    page: trace.pageMs / moves,
-    all: trace.cpuMs / moves,
-    threads: Object.fromEntries(Object.entries(threads).map(([name, ms]) => [name, ms / moves])),
+    page: trace.pageMs / frames,
+    all: trace.cpuMs / frames,
+    threads: Object.fromEntries(Object.entries(threads).map(([name, ms]) => [name, ms / frames])),
   };
 }
 
