@@ -65,15 +65,11 @@ impl Library {
     pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached_bytes: usize) -> io::Result<Self> {
         let inside = Inside { entries: RwLock::default(), open: Cache::new(cached_bytes), pool };
         let library = Self(Arc::new(inside));
-        let folder = folder.map(Path::to_owned);
-        let filled = library.clone();
-        let fill = move || {
-            filled.add_demos();
-            if let Some(folder) = folder {
-                filled.add_folder(&folder);
-            }
-        };
-        std::thread::Builder::new().name("library".into()).spawn(fill)?;
+        library.add_demos();
+        if let Some(folder) = folder.map(Path::to_owned) {
+            let filled = library.clone();
+            std::thread::Builder::new().name("library".into()).spawn(move || filled.add_folder(&folder))?;
+        }
         Ok(library)
     }
 
@@ -250,4 +246,18 @@ fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
 fn name_id(path: &Path, index: usize) -> String {
     let stem = path.file_name().unwrap_or_default().to_string_lossy();
     id::cleaned(&format!("file-{}-{index}", stem.split('.').next().unwrap_or_default()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::limits::Limits;
+
+    #[test]
+    fn demos_are_there_before_anybody_can_ask() {
+        let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
+        let library = Library::start(None, pool, 1 << 20).unwrap();
+        assert_eq!(library.items().len(), DemoScenes::iter().filter(|n| n.ends_with(".json")).count());
+        assert!(library.has("demo-crossing"));
+    }
 }
