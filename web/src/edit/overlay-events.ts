@@ -2,10 +2,13 @@
 import type { Pen } from '../draw/pen';
 import type { TrafficEvent } from '../model/events';
 import type { Pose } from '../model/geometry';
+import { poseAt } from '../model/motion';
 import type { Agent } from '../model/scene';
 import { seconds } from '../model/units';
 import { paintIcon, tag, type Labels, type PillStyle } from '../draw/labels';
-import { paintRing } from '../draw/handles';
+import { paintGhost, paintRing } from '../draw/handles';
+import { colourKey, stamp } from '../draw/sprites';
+import { trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
@@ -13,6 +16,8 @@ import { TEXTS } from '../texts/picture';
 
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;
+/** So many events of another time are shown beside the one that is picked. */
+const MOST_ELSEWHERE = 3;
 
 const isNow = (ev: TrafficEvent, t: number): boolean =>
   t >= ev.time - NEAR_S && t <= Math.max(ev.time, ev.until) + NEAR_S;
@@ -28,12 +33,42 @@ export class EventsOverlay {
     const { editor: e } = this;
     const picked = e.selectedEvent.value;
     const t = e.time.value;
-    const pose = (a: Agent): Pose | null => this.poseNow(e.scene.value!.agents.get(a.id) ?? a);
+    const pose = (a: Agent): Pose | null => this.poseNow(this.now(a));
+    if (picked) this.paintPicked(g, v, picked);
     for (const ev of e.events.value) {
       // What is in the log shows itself only when somebody asks.
       if (ev !== picked && (ev.inLog || !isNow(ev, t))) continue;
       paintMarks(g, v, this.labels, ev, isNow(ev, t) ? pose : null);
       if (!this.saidOnLine(ev)) paintLabel(g, v, this.labels, ev);
+    }
+  }
+
+  private now(a: Agent): Agent {
+    return this.editor.scene.value!.agents.get(a.id) ?? a;
+  }
+
+  /** How those in the picked event come to it and go on, and who is in others, where they are then. */
+  private paintPicked(g: Pen, v: View, picked: TrafficEvent): void {
+    const { editor: e } = this;
+    for (const [who, width] of [
+      [picked.b, 1.6],
+      [picked.a, 2.5],
+    ] as const) {
+      // The futures of who is selected are there already.
+      if (!who || (who.id === e.selection.value && e.layers.value.futures)) continue;
+      const a = this.now(who);
+      trail(g, v, e.motionFor(a), { colour: colours()[colourKey(a)], width, halo: true, dots: width > 2 });
+      const now = this.poseNow(a);
+      if (now) stamp(g, v, a, now, true);
+      g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    }
+    const elsewhere = e.events.value.filter((ev) => ev !== picked && !ev.inLog && !isNow(ev, e.time.value));
+    for (const ev of elsewhere.slice(0, MOST_ELSEWHERE)) {
+      for (const who of [ev.a, ev.b]) {
+        const then = who && poseAt(e.motionFor(this.now(who)), ev.time);
+        if (then) paintGhost(g, v, who, then, colourOf(ev), ev.kind === 'near' ? colours()['near-soft'] : null, [5, 3]);
+      }
+      paintLabel(g, v, this.labels, ev);
     }
   }
 
