@@ -3,6 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Client } from '../net/client';
 import { keep, recall } from '../net/storage';
 import type { SceneListItem } from '../net/types';
+import { TEXTS } from '../texts/reading';
 
 /** Examples in the order in which they are best met, last first. */
 const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-roundabout', 'demo-crossing'];
@@ -38,7 +39,9 @@ export class SceneList {
 
   async refresh(): Promise<void> {
     try {
-      this.#list.value = inOrder((await this.client.scenes()).scenes);
+      this.#list.value = inOrder(
+        (await this.client.scenes()).scenes.map((s) => ({ ...s, name: TEXTS.sceneName(s.id, s.name) })),
+      );
     } finally {
       this.#listed.value = true;
     }

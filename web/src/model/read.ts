@@ -63,7 +63,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   const length = readLength(ed.length_s);
   return Object.freeze({
     id: json.id ?? '',
-    name: json.name ?? TEXTS.untitled,
+    name: TEXTS.sceneName(json.id ?? '', json.name ?? TEXTS.untitled),
     source: json.meta?.source ?? 'drawn',
     licence: json.meta?.licence ?? '',
     steps,

@@ -7,4 +7,6 @@ export const TEXTS = table('reading', {
     `This scene was saved by a newer version (${version}). This one reads up to 1.`,
   theMapOfThis: 'The map of this scene is not here.',
   untitled: 'Untitled',
+  /** What a scene is called in this language: examples have a name in each. */
+  sceneName: (_id: string, name: string) => name,
 });
