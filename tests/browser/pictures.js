@@ -70,13 +70,14 @@ async function run(names, accept) {
         const small = await pixels.small(readFileSync(await take(program, browser, state)));
         const known = `${ACCEPTED}/${name}.webp`;
         const before = existsSync(known) ? readFileSync(known) : null;
-        const { share, where } = before ? await pixels.differing(before, small) : { share: 1, where: '' };
-        const alike = before && share <= Pixels.ALLOWED;
+        const unlike = { alike: false, share: 1, square: 1, where: '' };
+        const { alike, share, square, where } = before ? await pixels.differing(before, small) : unlike;
+        const differ = `${percent(share)} of the pixels differ, ${percent(square)} in one place`;
         if (alike) say(name, 'as accepted', false);
         else if (accept) {
           writeFileSync(known, small);
-          say(name, before ? `accepted, ${percent(share)} differ` : 'accepted, new', false);
-        } else say(name, before ? `${percent(share)} of the pixels differ${where}` : 'nothing accepted yet');
+          say(name, before ? `accepted; ${differ}` : 'accepted, new', false);
+        } else say(name, before ? `${differ}${where}` : 'nothing accepted yet');
       } catch (error) {
         say(name, `not reached: ${error.message.split('\n')[0]}`);
       } finally {

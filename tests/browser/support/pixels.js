@@ -6,9 +6,12 @@ const QUALITY = 0.8;
 /** Colours nearer than this, summed over red, green and blue, are the same: what is kept small has lost as much. */
 const SAME_COLOUR = 72;
 
+/** What is small and in one place is looked at in squares of so many pixels. */
+const SQUARE_PX = 32;
+/** Shares of differing pixels above which two pictures are called different: of the whole, and of one square. */
+const ALLOWED = { whole: 0.003, square: 0.04 };
+
 export class Pixels {
-  /** Share of differing pixels above which two pictures are called different. */
-  static ALLOWED = 0.003;
   #page;
 
   static async open(browser) {
@@ -23,12 +26,17 @@ export class Pixels {
     return Buffer.from(base64, 'base64');
   }
 
-  /** The share of differing pixels, and where they lie in words. */
+  /** Are two alike, and where not? The share of differing pixels, and where they lie in words. */
   async differing(a, b) {
     const [p, q] = [a, b].map((bytes) => bytes.toString('base64'));
-    const { share, box } = await this.#page.evaluate(differing, [p, q, SAME_COLOUR]);
+    const { share, square, box } = await this.#page.evaluate(differing, [p, q, SAME_COLOUR, SQUARE_PX]);
     const [x0, y0, x1, y1] = (box ?? []).map((v) => Math.round(v / SCALE));
-    return { share, where: box ? ` within x ${x0} to ${x1}, y ${y0} to ${y1}` : '' };
+    return {
+      alike: share <= ALLOWED.whole && square <= ALLOWED.square,
+      share,
+      square,
+      where: box ? ` within x ${x0} to ${x1}, y ${y0} to ${y1}` : '',
+    };
   }
 }
 
@@ -48,8 +56,8 @@ async function shrink([base64, scale, quality]) {
   return btoa(text);
 }
 
-/** Runs in the page: share of differing pixels of two pictures, and the rectangle they lie in. */
-async function differing([a, b, same]) {
+/** Runs in the page: share of differing pixels of two pictures, of the worst square, and the rectangle they lie in. */
+async function differing([a, b, same, side]) {
   const read = async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const bitmap = await createImageBitmap(new Blob([bytes]));
@@ -58,8 +66,10 @@ async function differing([a, b, same]) {
     return g.getImageData(0, 0, bitmap.width, bitmap.height);
   };
   const [p, q] = [await read(a), await read(b)];
-  if (p.width !== q.width || p.height !== q.height) return { share: 1, box: null };
+  if (p.width !== q.width || p.height !== q.height) return { share: 1, square: 1, box: null };
   let count = 0;
+  const across = Math.ceil(p.width / side);
+  const squares = new Uint32Array(across * Math.ceil(p.height / side));
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   for (let i = 0; i < p.data.length; i += 4) {
     const d = [0, 1, 2].reduce((sum, k) => sum + Math.abs(p.data[i + k] - q.data[i + k]), 0);
@@ -67,10 +77,11 @@ async function differing([a, b, same]) {
     count++;
     const x = (i / 4) % p.width;
     const y = Math.floor(i / 4 / p.width);
+    squares[Math.floor(y / side) * across + Math.floor(x / side)]++;
     box[0] = Math.min(box[0], x);
     box[1] = Math.min(box[1], y);
     box[2] = Math.max(box[2], x);
     box[3] = Math.max(box[3], y);
   }
-  return { share: count / (p.width * p.height), box: count ? box : null };
+  return { share: count / (p.width * p.height), square: Math.max(...squares) / side ** 2, box: count ? box : null };
 }

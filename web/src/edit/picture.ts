@@ -139,7 +139,8 @@ export class Picture {
       return p;
     }
     const old = poseAt(motionOf(e.scene.value!, this.reactFrom.motion, a), t);
-    this.stage.invalidate('agents');
+    // Rings and labels go along.
+    this.stage.invalidate('agents', 'overlay');
     return old ? mixPose(old, p, 1 - (1 - k) ** 3) : p;
   }
 

@@ -2,6 +2,8 @@ import { table } from './table';
 
 export const TEXTS = table('timeline', {
   inCase: (who: string, called: string) => ` · ${who} in ${called}`,
+  inVariants: (name: string, left: number, right: number) => ` · ${name} in ${left}, dashed: in ${right}`,
+  inVariant: (id: number, label: string) => `${id}: ${label}`,
   dashed: (dashed: string) => `, dashed: ${dashed}`,
   selectedOneLine: (count: number) => ` · ${count} selected, one line each`,
   nothingToPlay: 'Nothing to play yet',

@@ -50,7 +50,7 @@ export const TEXTS = table('variants-panel', {
   makeVariants: (n: number) => plural(n, { one: `Make ${n} variant`, other: `Make ${n} variants` }),
   speed: 'Speed',
   whoseSpeed: 'Whose speed',
-  speedOfInBoth: (name: string) => `Speed of ${name} in both`,
+  inTheTimeline: 'below, in the timeline',
   all: 'All',
   withEvents: 'With events',
   starred: 'Starred',

@@ -6,6 +6,7 @@ import type { Motion } from '../../model/motion';
 import { untracked } from '@preact/signals';
 import type { Agent } from '../../model/scene';
 import type { Context } from '../../actions/context';
+import { TEXTS } from '../../texts/timeline';
 
 /** Pixels left of the plot, right of it, for the events above and for the seconds below. */
 export const X0 = 52;
@@ -68,9 +69,28 @@ export interface Line {
 export const eventShown = ({ editor }: Context): TrafficEvent | null =>
   editor.selected.peek().length ? null : editor.selectedEvent.peek();
 
-/** A line each: of those in a case or an event that is looked at, else of several that are selected. */
+/** What happens in the plot: of two variants in both, each told by its number. */
+export function eventsShown(c: Context): readonly TrafficEvent[] {
+  const both = c.variants.compared.peek();
+  if (!both) return c.editor.shownEvents.peek();
+  const who = c.variants.followed.peek()?.agent.id;
+  return [both.left, both.right]
+    .flatMap(({ id, events }) =>
+      events
+        .filter((e) => !e.inLog && (e.a.id === who || e.b?.id === who))
+        .map((e) => ({ ...e, label: TEXTS.inVariant(id, e.label) })),
+    )
+    .sort((p, q) => p.time - q.time);
+}
+
+/**
+ * A line each: of who is compared in both variants, of those in a case or an event that is looked at, else of several
+ * that are selected.
+ */
 export function severalShown(c: Context): Line[] {
   const { editor } = c;
+  const both = c.variants.followed.peek();
+  if (both) return [both.left, both.right].map((motion) => ({ agent: both.agent, motion }));
   const b = editor.beside.peek();
   const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);
   if (b && inCase) return inCase.map((agent) => ({ agent, motion: motionOf(b.scene, b.set, agent) }));

@@ -16,19 +16,22 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const { editor } = c;
   const several = severalShown(c);
   const meeting = editor.beside.peek()?.meeting;
+  const both = c.variants.followed.peek() && c.variants.compared.peek();
   const event = eventShown(c);
-  const few = !!meeting || !!event;
-  const agent = meeting ? null : editor.agent.peek();
+  const few = !!both || !!meeting || !!event;
+  const agent = meeting || both ? null : editor.agent.peek();
   const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
-    : meeting
-      ? TEXTS.inCase(several.map((l) => l.agent.name).join(TEXTS.and), meeting.called)
-      : event
-        ? ` · ${event.a.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
-        : several.length
-          ? TEXTS.selectedOneLine(several.length)
-          : '';
+    : both
+      ? TEXTS.inVariants(several[0].agent.name, both.left.id, both.right.id)
+      : meeting
+        ? TEXTS.inCase(several.map((l) => l.agent.name).join(TEXTS.and), meeting.called)
+        : event
+          ? ` · ${event.a.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
+          : several.length
+            ? TEXTS.selectedOneLine(several.length)
+            : '';
   const drawn = agent
     ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
     : several.map((l) => l.motion);
@@ -68,7 +71,7 @@ function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]
     <>
       {all.map(({ agent: a, motion }, i) => (
         <Curve
-          key={a.id}
+          key={i}
           axes={axes}
           motion={motion}
           colour={`var(--${colourKey(a)})`}

@@ -2,7 +2,7 @@
 import { counted, type TrafficEvent } from '../../model/events';
 import { goToEvent } from '../inspector/event-list';
 import { useApp } from '../parts/app-context';
-import { placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
+import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
 import { TEXTS } from '../../texts/timeline';
 
 const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
@@ -13,8 +13,7 @@ const INK = { collision: '--on-collision', rule: '--on-near', near: '--on-near',
 const wordsWidth = (text: string): number => text.length * 5.9 + 8;
 
 export function EventBadges({ axes: a }: { axes: Axes }) {
-  const { editor } = useApp();
-  const all = editor.shownEvents.peek();
+  const all = eventsShown(useApp());
   const events = counted(all);
   const signs = events.map((e) => ({ at: a.x(e.time), w: wordsWidth(e.label), rank: RANK[e.kind] }));
   const placed = placeSigns(signs, X0 + 2, a.x1 + SIGN);
@@ -58,8 +57,9 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   // A second click goes on to the next one that shares the place.
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const to = events[turn % events.length];
-  // What happens in a case is no event of the scene as it is.
-  const go = () => (c.editor.beside.peek()?.meeting ? c.editor.setTime(to.time) : goToEvent(c, to));
+  // What happens in a case or a variant is no event of the scene as it is.
+  const elsewhere = () => c.editor.beside.peek()?.meeting ?? c.variants.compared.peek();
+  const go = () => (elsewhere() ? c.editor.setTime(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
   const x = p.x - SIGN - (p.words === 'left' ? w : 0);
   const ink = `var(${INK[e.kind]})`;

@@ -3,7 +3,7 @@ import { Fragment } from 'preact';
 import { counted } from '../../model/events';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
-import { LANE, markedSpan, X0, type Axes } from './axes';
+import { eventsShown, LANE, markedSpan, X0, type Axes } from './axes';
 import { TEXTS } from '../../texts/timeline';
 
 /** Seconds marked behind the curves at least. */
@@ -63,11 +63,11 @@ function SecondLines({ axes: a }: { axes: Axes }) {
 
 /** The times at which something happens to whose curves they are, marked behind them; else to anybody. */
 export function EventTimes({ axes: a }: { axes: Axes }) {
-  const { editor } = useApp();
-  const id = editor.selection.peek();
+  const c = useApp();
+  const id = c.variants.compared.peek() ? null : c.editor.selection.peek();
   return (
     <>
-      {counted(editor.shownEvents.peek()).map((e, i) => {
+      {counted(eventsShown(c)).map((e, i) => {
         if (e.kind === 'short' || (id !== null && e.a.id !== id && e.b?.id !== id)) return null;
         const [from, to] = markedSpan(e.time, e.until, MARKED_S[e.kind], a.duration);
         return (

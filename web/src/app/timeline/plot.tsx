@@ -16,7 +16,9 @@ import { EventTimes, Grid } from './grid';
 import { TEXTS } from '../../texts/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
-const shown = ({ editor }: Context): unknown => [
+const shown = ({ editor, variants }: Context): unknown => [
+  variants.compared.value,
+  variants.followed.value,
   editor.agent.value,
   editor.selected.value,
   editor.selected.value.length > 1 && editor.hover.value,

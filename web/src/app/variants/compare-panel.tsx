@@ -6,7 +6,7 @@ import type { Compared } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { SpeedPair } from './speed-pair';
+import { WhoseSpeed } from './whose-speed';
 import { TEXTS } from '../../texts/variants-panel';
 
 export default function ComparePanel() {
@@ -48,7 +48,7 @@ export default function ComparePanel() {
           </tbody>
         </table>
       </section>
-      <SpeedPair key={`${left.id} ${right.id}`} now={now} />
+      <WhoseSpeed key={`${left.id} ${right.id}`} now={now} />
       <section class="sect">
         <h3>
           {TEXTS.whenTheyPart}

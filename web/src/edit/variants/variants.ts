@@ -30,6 +30,7 @@ import {
 } from '../../model/variants';
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
+import type { Parted } from '../../model/parting';
 import { cardsOf, comparedOf, filtered, isWhole, type Card, type Compared, type Filter, type WholeCard } from './cards';
 import { Maker, Stopped, subjectOf, type Take } from './making';
 import { TEXTS } from '../../texts/variants';
@@ -132,6 +133,12 @@ export class Variants {
   /** Id of the card that keys are about: the one with the focus, else the one on the picture. */
   readonly current: ReadonlySignal<number | null>;
 
+  readonly #followed = signal<string | null>(null);
+  /** Whose speed in the two is looked at: who was picked for it, else who is furthest apart. */
+  readonly followed = computed<Parted | null>(() => {
+    const parted = this.compared.value?.parting.parted ?? [];
+    return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
+  });
   /** The two that are compared, and what differs. */
   readonly compared: ReadonlySignal<Compared | null>;
 
@@ -203,6 +210,10 @@ export class Variants {
       if (!open) this.endCompare();
     });
     if (!open) this.stop();
+  }
+
+  follow(agent: string): void {
+    this.#followed.value = agent;
   }
 
   setCount(n: number): void {

@@ -3,6 +3,8 @@ import type { Said } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   inCase: (who, called) => ` · ${who} in ${called}`,
+  inVariants: (name, left, right) => ` · ${name} in ${left}, gestrichelt: in ${right}`,
+  inVariant: (id, label) => `${id}: ${label}`,
   dashed: (dashed) => `, gestrichelt: ${dashed}`,
   selectedOneLine: (count) => ` · ${count} ausgewählt, je eine Linie`,
   nothingToPlay: 'Noch nichts abzuspielen',

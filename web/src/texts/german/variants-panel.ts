@@ -52,7 +52,7 @@ export const german: Said<typeof TEXTS> = {
   makeVariants: (n) => plural(n, { one: `${n} Variante machen`, other: `${n} Varianten machen` }),
   speed: 'Tempo',
   whoseSpeed: 'Wessen Tempo',
-  speedOfInBoth: (name) => `Tempo von ${name} in beiden`,
+  inTheTimeline: 'unten, in der Zeitleiste',
   all: 'Alle',
   withEvents: 'Mit Ereignissen',
   starred: 'Mit Stern',
