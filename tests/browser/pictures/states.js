@@ -285,8 +285,11 @@ export const STATES = [
   [
     '19-palette',
     async (e) => {
+      await selected(e);
       await e.key('Control+k');
       await e.page.waitForSelector('.dlg');
+      await e.page.keyboard.type('goal');
+      await e.frames(2);
     },
   ],
   [

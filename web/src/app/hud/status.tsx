@@ -42,7 +42,7 @@ function statusLine(c: Context) {
 /** How far a search is that goes on, or the making of variants. */
 function workLine({ searching, variants }: Context): Line | null {
   const making = variants.making.value;
-  if (making) return { dot: 'busy', text: TEXTS.makingVariants(making.done, making.of) };
+  if (making) return { dot: 'busy', text: TEXTS.makingVariants(making.made.length, making.of) };
   const open = searching.open.value;
   if (open?.state.value !== 'running') return null;
   const { tried, of } = open.progress.value;

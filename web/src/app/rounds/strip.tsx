@@ -6,7 +6,7 @@ import type { MotionSet } from '../../model/futures';
 import { readEvents } from '../../model/events';
 import type { Hand } from '../../edit/rounds/deck';
 import { useAlbum } from '../variants/album';
-import type { Pictured } from '../variants/live-picture';
+import type { Pictured } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';

@@ -9,7 +9,8 @@ import { MapPicture } from '../../draw/paint-map';
 import { View } from '../../draw/view';
 import { turnAtRest } from '../hud/view-tick';
 import { useApp } from '../parts/app-context';
-import type { Album, Pictured } from './live-picture';
+import type { Pictured } from '../../edit/variants/cards';
+import type { Album } from './live-picture';
 
 const CARD_W = 174;
 const CARD_H = 92;

@@ -3,7 +3,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { num, seconds } from '../../model/units';
-import type { Card } from '../../edit/variants/cards';
+import type { Card, Pictured } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { LivePicture, type Album } from './live-picture';
@@ -17,7 +17,7 @@ const MARKS: Record<TrafficEvent['kind'], readonly [colour: string, word: string
 };
 
 /** What happens in it, in a word with its colour, and one fact. */
-export function verdictOf({ set, events }: Card): { colour: string; word: string; fact: string } {
+export function verdictOf({ set, events }: Pictured): { colour: string; word: string; fact: string } {
   const worst = worstOf(events);
   if (!set) return { colour: '', word: '…', fact: '' };
   if (!worst) {

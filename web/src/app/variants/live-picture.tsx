@@ -1,6 +1,6 @@
 // The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Card } from '../../edit/variants/cards';
+import type { Pictured } from '../../edit/variants/cards';
 import { motionOf } from '../../model/changes';
 import { counted } from '../../model/events';
 import { poseAt } from '../../model/motion';
@@ -14,9 +14,6 @@ import { colours, modeColour } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
-
-/** What a picture shows: everybody in a document, and one of them with its way. */
-export type Pictured = Pick<Card, 'scene' | 'set' | 'events'> & { readonly state: { readonly subject: string | null } };
 
 /** What the pictures of all cards share. */
 export interface Album {

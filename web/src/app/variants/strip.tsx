@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
-import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
+import { hasEvents, type Card, type Filter, type Pictured } from '../../edit/variants/cards';
 import { leftWords } from '../../model/units';
 import { MOST_NEW } from '../../model/variants';
 import type { Making } from '../../edit/variants/variants';
@@ -10,7 +10,8 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { useAlbum } from './album';
-import { CardView } from './card';
+import { CardView, verdictOf } from './card';
+import { LivePicture, type Album } from './live-picture';
 import { Range, RangePick } from './range';
 import '../../styles/variants.css';
 import { TEXTS } from '../../texts/variants-panel';
@@ -29,7 +30,7 @@ export default function Strip() {
   const all = variants.cards.value;
   const making = variants.making.value;
   const list = useRef<HTMLDivElement>(null);
-  const album = useAlbum(all);
+  const album = useAlbum([...all, ...(making?.made ?? [])]);
   const walk = (e: KeyboardEvent) => {
     const step = e.key === 'ArrowRight' ? 1 : e.key === 'ArrowLeft' ? -1 : 0;
     if (!step || (e.target as HTMLElement).tagName === 'INPUT') return;
@@ -74,8 +75,8 @@ export default function Strip() {
         {cards.map((card) => (
           <CardView key={card.id} card={card} album={album} />
         ))}
-        {Array.from({ length: making ? making.of - making.done : 0 }, (_, i) => (
-          <div key={`w${i}`} class="vcard waiting" aria-hidden="true" />
+        {Array.from({ length: making?.of ?? 0 }, (_, i) => (
+          <Arriving key={`w${i}`} one={making!.made[i]} album={album} />
         ))}
         {cards.length || making ? null : <Nobody any={all.length > 0} />}
       </div>
@@ -94,6 +95,23 @@ export default function Strip() {
       </p>
     );
   }
+}
+
+/** A place for one that is made: what is there of it is shown, and can be taken once all are. */
+function Arriving({ one, album }: { one: Pictured | undefined; album: Album }) {
+  if (!one) return <div class="vcard waiting" aria-hidden="true" />;
+  const { colour, word, fact } = verdictOf(one);
+  return (
+    <div class="vcard arrived">
+      <LivePicture card={one} album={album} />
+      {/* Names tell them apart: they come when all are known. */}
+      <div class="named">{'\u00a0'}</div>
+      <div class="verdict">
+        <span class={`tag ${colour}`}>{word}</span>
+        <small>{fact}</small>
+      </div>
+    </div>
+  );
 }
 
 const countOf = (all: readonly Card[], filter: Filter): number =>
@@ -150,14 +168,20 @@ function Progress({ of: m }: { of: Making }) {
         {paused ? TEXTS.goOn : TEXTS.pause}
       </button>
       <button type="button" class="btn line" onClick={() => variants.stop()}>
-        {m.done ? TEXTS.stopKeep(m.done) : TEXTS.stop}
+        {m.made.length ? TEXTS.stopKeep(m.made.length) : TEXTS.stop}
       </button>
       <small role="status">
-        <b>{TEXTS.of(m.done, m.of)}</b>
+        <b>{TEXTS.of(m.made.length, m.of)}</b>
         {left ? `, ${left}` : ''}
       </small>
-      <span class="progress" role="progressbar" aria-label={TEXTS.made} aria-valuemax={m.of} aria-valuenow={m.done}>
-        <i style={{ width: `${(100 * m.done) / m.of}%` }} />
+      <span
+        class="progress"
+        role="progressbar"
+        aria-label={TEXTS.made}
+        aria-valuemax={m.of}
+        aria-valuenow={m.made.length}
+      >
+        <i style={{ width: `${(100 * m.made.length) / m.of}%` }} />
       </span>
       <span class="tally">
         {m.clear ? <em class="tag ok">{TEXTS.clear(m.clear)}</em> : null}

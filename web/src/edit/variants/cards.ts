@@ -20,6 +20,9 @@ export interface Card {
   readonly name: string;
 }
 
+/** What a picture shows: everybody in a document, and one of them with its way. */
+export type Pictured = Pick<Card, 'scene' | 'set' | 'events'> & { readonly state: { readonly subject: string | null } };
+
 /** A card that everything is known of. */
 export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet };
 

@@ -31,7 +31,17 @@ import {
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
 import type { Parted } from '../../model/parting';
-import { cardsOf, comparedOf, filtered, isWhole, type Card, type Compared, type Filter, type WholeCard } from './cards';
+import {
+  cardsOf,
+  comparedOf,
+  filtered,
+  isWhole,
+  type Card,
+  type Compared,
+  type Filter,
+  type Pictured,
+  type WholeCard,
+} from './cards';
 import { Maker, Stopped, subjectOf, type Take } from './making';
 import { TEXTS } from '../../texts/variants';
 
@@ -40,7 +50,8 @@ export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
 /** How far the making is, and what happens in those that are there. */
 export interface Making {
-  readonly done: number;
+  /** Those that are there. */
+  readonly made: readonly Pictured[];
   readonly of: number;
   /** So many without anything, with a near miss or a broken rule, and with a collision. */
   readonly clear: number;
@@ -50,18 +61,19 @@ export interface Making {
   readonly left: number | null;
 }
 
-const begun = (of: number): Making => ({ done: 0, of, clear: 0, near: 0, hit: 0, left: null });
+const begun = (of: number): Making => ({ made: [], of, clear: 0, near: 0, hit: 0, left: null });
 
-function withOne(m: Making, { scene, set }: Take, tookS: number): Making {
-  const worst = worstOf(counted(readEvents(scene, set)));
-  const done = m.done + 1;
+function withOne(m: Making, { scene, set }: Take, subject: string | null, tookS: number): Making {
+  const events = readEvents(scene, set);
+  const worst = worstOf(counted(events));
+  const made = [...m.made, { scene, set, events, state: { subject } }];
   return {
     ...m,
-    done,
+    made,
     clear: m.clear + Number(worst === null),
     hit: m.hit + Number(worst === 'collision'),
     near: m.near + Number(worst !== null && worst !== 'collision'),
-    left: (tookS / done) * (m.of - done),
+    left: (tookS / made.length) * (m.of - made.length),
   };
 }
 
@@ -275,7 +287,7 @@ export class Variants {
     const source = values
       ? this.maker.each(values, subject!)
       : this.maker.make(open, subject, nextSeed(scene, subject), wanted);
-    const { takes, why } = await this.#takesOf(source, wanted, turn);
+    const { takes, why } = await this.#takesOf(source, subject, wanted, turn);
     const stopped = turn !== this.#turn;
     if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
   }
@@ -283,6 +295,7 @@ export class Variants {
   /** Takes one after the other until somebody stops it, and waits while it is paused. */
   async #takesOf(
     source: AsyncGenerator<Take>,
+    subject: string | null,
     of: number,
     turn: number,
   ): Promise<{ takes: Take[]; why: string | null }> {
@@ -298,7 +311,8 @@ export class Variants {
       for await (const take of source) {
         if (turn !== this.#turn) break;
         takes.push(take);
-        this.#making.value = withOne(this.#making.peek() ?? begun(of), take, (performance.now() - from) / 1000);
+        const tookS = (performance.now() - from) / 1000;
+        this.#making.value = withOne(this.#making.peek() ?? begun(of), take, subject, tookS);
         await this.#resumed();
         if (turn !== this.#turn) break;
       }
@@ -482,7 +496,7 @@ export class Variants {
     if (!scenes.length || this.#refusedLock()) return;
     this.stop();
     const turn = this.#turn;
-    const { takes, why } = await this.#takesOf(this.maker.each(scenes, id, futures), scenes.length, turn);
+    const { takes, why } = await this.#takesOf(this.maker.each(scenes, id, futures), id, scenes.length, turn);
     if (why) editor.notices.show({ text: why });
     this.#join(takes, id);
   }
