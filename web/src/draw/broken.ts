@@ -25,7 +25,7 @@ function pointsOf(v: View, s: Stretch): [number, number][] {
     i1 = Math.round(s.to / STEP_S) - m.first;
   i0 = Math.max(0, Math.min(i0, m.x.length - 1));
   i1 = Math.max(i0, Math.min(i1, m.x.length - 1));
-  for (let k = 0; k < MOST_STEPS && length(at, i0, i1) < SHORTEST_PX; k++) {
+  for (let k = 0; k < MOST_STEPS && !isLong(v, m, i0, i1); k++) {
     if (inside(i0 - 1)) i0--;
     if (inside(i1 + 1)) i1++;
   }
@@ -34,10 +34,15 @@ function pointsOf(v: View, s: Stretch): [number, number][] {
   return out;
 }
 
-function length(at: (i: number) => [number, number], i0: number, i1: number): number {
-  let s = 0;
-  for (let i = i0 + 1; i <= i1; i++) s += Math.hypot(at(i)[0] - at(i - 1)[0], at(i)[1] - at(i - 1)[1]);
-  return s;
+/** Is a stretch long enough to be seen? */
+function isLong(v: View, m: Motion, i0: number, i1: number): boolean {
+  let left = SHORTEST_PX / v.z;
+  for (let i = i0 + 1; i <= i1 && left > 0; i++) {
+    const dx = m.x[i] - m.x[i - 1],
+      dy = m.y[i] - m.y[i - 1];
+    left -= Math.sqrt(dx * dx + dy * dy);
+  }
+  return left <= 0;
 }
 
 function trace(g: Pen, pts: readonly (readonly [number, number])[]): void {

@@ -75,8 +75,9 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
     scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
   if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
   for (const b of scene.agents.values()) {
-    const p = b.id === a.id || b.type !== 'vehicle' ? null : startPose(b);
-    if (!p || Math.abs(p.speed) > 0.5) continue;
+    if (b.id === a.id || b.type !== 'vehicle' || Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > 0.5) continue;
+    const p = startPose(b);
+    if (!p) continue;
     const on = project(lane.line, p.x, p.y);
     if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
   }

@@ -93,7 +93,10 @@ export interface Projection extends OnLine {
 
 /** Nearest point of a polyline. */
 export function project(line: Line, x: number, y: number): Projection {
-  let best: Projection = { x: 0, y: 0, heading: 0, s: 0, d: Infinity };
+  // A drag asks this of hundreds of lines in each frame: nothing is put into memory on the way.
+  let least = Infinity,
+    at = 0,
+    share = 0;
   for (let i = 1; i < line.pts.length; i++) {
     const a = line.pts[i - 1],
       b = line.pts[i];
@@ -101,12 +104,21 @@ export function project(line: Line, x: number, y: number): Projection {
       dy = b[1] - a[1];
     const len2 = dx * dx + dy * dy;
     const t = len2 > 0 ? clamp(((x - a[0]) * dx + (y - a[1]) * dy) / len2, 0, 1) : 0;
-    const px = a[0] + dx * t,
-      py = a[1] + dy * t;
-    const d = Math.hypot(x - px, y - py);
-    if (d < best.d) best = { x: px, y: py, heading: Math.atan2(dy, dx), s: line.s[i - 1] + Math.sqrt(len2) * t, d };
+    const ex = x - a[0] - dx * t,
+      ey = y - a[1] - dy * t;
+    const d2 = ex * ex + ey * ey;
+    if (d2 >= least) continue;
+    least = d2;
+    at = i;
+    share = t;
   }
-  return best;
+  if (!at) return { x: 0, y: 0, heading: 0, s: 0, d: Infinity };
+  const a = line.pts[at - 1],
+    b = line.pts[at];
+  const dx = b[0] - a[0],
+    dy = b[1] - a[1];
+  const s = line.s[at - 1] + Math.sqrt(dx * dx + dy * dy) * share;
+  return { x: a[0] + dx * share, y: a[1] + dy * share, heading: Math.atan2(dy, dx), s, d: Math.sqrt(least) };
 }
 
 /** Piece of a line between two distances, both ends included. */
@@ -193,13 +205,17 @@ export function thinned(
   keep(anchor);
   let last = anchor;
   // The directions in which a line from the anchor passes all points since: right of one, left of the other.
-  let [lowX, lowY, highX, highY] = [0, 0, 0, 0];
+  let lowX = 0,
+    lowY = 0,
+    highX = 0,
+    highY = 0;
   let open = true;
   let farthest = 0;
   for (let i = from + 1; i <= to; i++) {
     const p = at(i);
-    const [dx, dy] = [p[0] - anchor[0], p[1] - anchor[1]];
-    const d = Math.hypot(dx, dy);
+    const dx = p[0] - anchor[0],
+      dy = p[1] - anchor[1];
+    const d = Math.sqrt(dx * dx + dy * dy);
     const ahead = open || (lowX * dy - lowY * dx >= 0 && highX * dy - highY * dx <= 0);
     if (!ahead || d < farthest - tolerance) {
       keep(last);
@@ -215,10 +231,18 @@ export function thinned(
     // The tangents from the anchor to the circle of what is tolerated around the point.
     const sin = tolerance / d;
     const cos = Math.sqrt(1 - sin * sin);
-    const [rx, ry] = [dx * cos + dy * sin, dy * cos - dx * sin];
-    const [lx, ly] = [dx * cos - dy * sin, dy * cos + dx * sin];
-    if (open || lowX * ry - lowY * rx > 0) [lowX, lowY] = [rx, ry];
-    if (open || highX * ly - highY * lx < 0) [highX, highY] = [lx, ly];
+    const rx = dx * cos + dy * sin,
+      ry = dy * cos - dx * sin;
+    const lx = dx * cos - dy * sin,
+      ly = dy * cos + dx * sin;
+    if (open || lowX * ry - lowY * rx > 0) {
+      lowX = rx;
+      lowY = ry;
+    }
+    if (open || highX * ly - highY * lx < 0) {
+      highX = lx;
+      highY = ly;
+    }
     open = false;
   }
   if (last !== anchor) keep(last);

@@ -111,7 +111,7 @@ export function distances(m: Motion): Float64Array {
   for (let i = 0; i < s.length; i++) {
     if (i) s[i] = s[i - 1];
     if (!isValidAt(m, m.first + i)) continue;
-    if (last >= 0) s[i] += Math.hypot(m.x[i] - m.x[last], m.y[i] - m.y[last]);
+    if (last >= 0) s[i] += Math.sqrt((m.x[i] - m.x[last]) ** 2 + (m.y[i] - m.y[last]) ** 2);
     last = i;
   }
   return s;
