@@ -3,12 +3,13 @@
 //   npm run figures                                    all rows, with the program as it is built
 //   npm run figures -- --bin OLD --bin NEW --turns 3   two programs by turns, so that both meet the same machine
 //   npm run figures -- drag tabs                       some rows: opening, drag, crowds, record, edits, tabs
+//   npm run figures -- --hand 60                       a hand that is told of so often a second, else 125 times
 import { availableParallelism, loadavg } from 'node:os';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { crowd } from './support/crowds.js';
 import { Editor, launch } from './support/editor.js';
-import { answered, atRest, costs, edit, flagNow, held, takeFlag } from './support/measures.js';
+import { answered, atRest, costs, edit, flagNow, hand, held, takeFlag } from './support/measures.js';
 import { Program } from './support/program.js';
 import { missing, out, program as built, recordedFile } from './support/where.js';
 
@@ -223,8 +224,13 @@ async function run(bins, names, turns) {
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
-  options: { bin: { type: 'string', multiple: true, default: [built] }, turns: { type: 'string', default: '1' } },
+  options: {
+    bin: { type: 'string', multiple: true, default: [built] },
+    turns: { type: 'string', default: '1' },
+    hand: { type: 'string' },
+  },
 });
+if (values.hand) hand.hz = Number(values.hand);
 const names = positionals.length ? positionals : Object.keys(ROWS);
 const unknown = names.filter((n) => !ROWS[n]);
 if (unknown.length) {

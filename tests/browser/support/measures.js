@@ -4,7 +4,7 @@ import { carOnTheMove } from './casting.js';
 import { FRAMES_ALONE, spread, traced } from './trace.js';
 
 /** A mouse tells of its moves 125 times a second, the slowest of them: a screen has a new place for every frame. */
-const MOUSE_HZ = 125;
+export const hand = { hz: 125 };
 const SCREEN_HZ = 60;
 /** Clock ticks of the kernel a second. */
 const TICKS = 100;
@@ -15,17 +15,17 @@ const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 export async function sweep(e, from, to, frames) {
   const began = performance.now();
   const sent = [];
-  const hand = [];
-  const moves = Math.round((frames * MOUSE_HZ) / SCREEN_HZ);
+  const moved = [];
+  const moves = Math.round((frames * hand.hz) / SCREEN_HZ);
   for (let i = 1; i <= moves; i++) {
-    await wait(Math.max(0, began + (i * 1000) / MOUSE_HZ - performance.now()));
+    await wait(Math.max(0, began + (i * 1000) / hand.hz - performance.now()));
     const at = { x: from[0] + ((to[0] - from[0]) * i) / moves, y: from[1] + ((to[1] - from[1]) * i) / moves };
     // The browser's clock is the system's.
-    hand.push(Number(process.hrtime.bigint()) / 1e6);
+    moved.push(Number(process.hrtime.bigint()) / 1e6);
     sent.push(e.cdp.send('Input.dispatchMouseEvent', { type: 'mouseMoved', button: 'left', buttons: 1, ...at }));
   }
   await Promise.all(sent);
-  return hand;
+  return moved;
 }
 
 /** Takes the flag of a car that goes straight on; gives back where it is after a share of the way back to the car. */
@@ -65,10 +65,10 @@ export async function dragged(e, from, to, frames, measured) {
 /** From the pointer to the futures on screen, and what travels; the page was opened with `listening: 'times'`. */
 export async function answered(browser, e, from, to, frames) {
   const mark = e.wire.asked.length;
-  let hand = [];
+  let moved = [];
   const trace = await dragged(e, from, to, frames, (run) =>
     traced(browser, e.page, async () => {
-      hand = await run();
+      moved = await run();
     }),
   );
   const asked = e.wire.since(mark).filter((a) => a.body.react === false);
@@ -85,7 +85,7 @@ export async function answered(browser, e, from, to, frames) {
     });
   const shown = answersTo(trace.moves);
   return {
-    hand: spread(answersTo(hand.map((at) => ({ at, known: at }))).map((m) => m.all)),
+    hand: spread(answersTo(moved.map((at) => ({ at, known: at }))).map((m) => m.all)),
     shown: spread(shown.map((m) => m.all)),
     asked: spread(shown.map((m) => m.asked)),
     came: spread(shown.map((m) => m.came)),
