@@ -116,18 +116,16 @@ struct Moment<'a> {
 struct Unshifted {
     position: Vec2,
     left: Vec2,
-    /// With room to be met, and with room to be close.
-    grown: [OrientedBox; 2],
+    /// Where others count as met there, and where as close.
+    met: OrientedBox,
+    close: OrientedBox,
 }
 
-/// What counts as met and as close, metres between boxes.
-const ROOMS_M: [f64; 2] = [SPARE_M, CLOSE_M + SPARE_M];
-
 impl Moment<'_> {
-    /// Somebody comes so near at a shift, by the index of the room.
-    fn is_met(&self, shift: Shift, room: usize) -> bool {
+    /// Somebody is in one of the boxes of a shift.
+    fn is_in(&self, shift: Shift, of: impl Fn(&Unshifted) -> &OrientedBox) -> bool {
         let on = &self.unshifted[(shift.ahead + AHEADS) as usize];
-        let outline = on.grown[room].about(on.position + on.left * shift.aside_m());
+        let outline = of(on).about(on.position + on.left * shift.aside_m());
         self.near.iter().any(|b| meets(b, &outline))
     }
 }
@@ -265,11 +263,12 @@ impl<'a> Course<'a> {
         let moments: Vec<Moment<'_>> = steps.into_iter().filter_map(|step| self.moment(step)).collect();
         let ground: Vec<f64> = (-ASIDES..=ASIDES).map(|aside| self.on_ground(step, aside)).collect();
         for shift in Shift::all().filter(|s| self.allows(instant, *s)) {
-            let near = |room: usize| moments.iter().any(|moment| moment.is_met(shift, room));
-            let met = match near(1) {
-                true if near(0) => MET,
-                true => CLOSE,
-                false => 0.0,
+            let met = if !moments.iter().any(|m| m.is_in(shift, |u| &u.close)) {
+                0.0
+            } else if moments.iter().any(|m| m.is_in(shift, |u| &u.met)) {
+                MET
+            } else {
+                CLOSE
             };
             costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
         }
@@ -279,7 +278,7 @@ impl<'a> Course<'a> {
     /// What may be met at a step; `None` where nobody is near.
     fn moment(&self, step: usize) -> Option<Moment<'a>> {
         let own = self.outline(self.pose(step, Shift { ahead: 0, aside: 0 }));
-        let reach_m = SHIFTED_M + own.grown(ROOMS_M[1]).radius_m();
+        let reach_m = SHIFTED_M + own.grown(CLOSE_M + SPARE_M).radius_m();
         let within = |b: &OrientedBox| (b.center() - own.center()).norm() < reach_m + b.radius_m();
         let boxes = self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref());
         let near: Vec<&OrientedBox> = boxes.filter(|b| within(b)).collect();
@@ -290,7 +289,8 @@ impl<'a> Course<'a> {
             let pose = self.pose(step, Shift { ahead, aside: 0 });
             let outline = self.outline(pose);
             let left = direction(pose.heading_rad + FRAC_PI_2);
-            Unshifted { position: pose.position, left, grown: ROOMS_M.map(|room_m| outline.grown(room_m)) }
+            let (met, close) = (outline.grown(SPARE_M), outline.grown(CLOSE_M + SPARE_M));
+            Unshifted { position: pose.position, left, met, close }
         };
         Some(Moment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
     }

@@ -48,7 +48,7 @@ export default function ComparePanel() {
           </tbody>
         </table>
       </section>
-      <WhoseSpeed key={`${left.id} ${right.id}`} now={now} />
+      <WhoseSpeed now={now} />
       <section class="sect">
         <h3>
           {TEXTS.whenTheyPart}
