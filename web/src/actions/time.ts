@@ -1,5 +1,5 @@
 // Time: playback, events, how much is worked out.
-import { counted } from '../model/events';
+import { counted, type TrafficEvent } from '../model/events';
 import { LENGTHS, REPLANS } from '../model/scene';
 import { setLength, setReplan } from '../model/commands';
 import { STEP_S } from '../model/motion';
@@ -18,18 +18,28 @@ function goTo(c: Context, seconds: number): void {
   c.editor.setTime(seconds);
 }
 
-function nextEvent({ editor, ui }: Context): void {
+/** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
+const EDGE_PX = 60;
+
+/** The playhead goes to an event and the picture to where it happens; its facts open. */
+export function goToEvent(c: Context, e: TrafficEvent): void {
+  const { editor, stage, ui } = c;
+  goTo(c, e.time);
+  editor.pickEvent(e);
+  ui.showEvents(true);
+  const [x, y] = e.at;
+  if (!stage.view.isClear(x, y, EDGE_PX)) stage.glide.by((v) => v.centre(x, y));
+}
+
+function nextEvent(c: Context): void {
+  const { editor } = c;
   const now = editor.time.value;
   // What is in the log is no news; it is walked only where there is nothing else.
   const own = counted(editor.events.value);
   const events = own.length ? own : editor.events.value;
   const later = events.find((e) => e.time > now + 0.05 || (e.time >= now && e !== editor.selectedEvent.value));
   const next = later ?? events[0];
-  if (!next) return;
-  editor.playhead.pause();
-  ui.showEvents(true);
-  editor.setTime(next.time);
-  editor.pickEvent(next);
+  if (next) goToEvent(c, next);
 }
 
 const lengths = LENGTHS.map((s) => ({

@@ -1,28 +1,11 @@
 // What happens as a list, and the way to one of them.
 import { useComputed } from '@preact/signals';
-import type { Context } from '../../actions/context';
+import { goToEvent } from '../../actions/time';
 import { counted, type TrafficEvent } from '../../model/events';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/inspector';
-
-/** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
-const EDGE_PX = 60;
-
-export function goToEvent(c: Context, e: TrafficEvent): void {
-  const { editor, stage, ui } = c;
-  editor.playhead.pause();
-  editor.setTime(e.time);
-  editor.pickEvent(e);
-  ui.showEvents(true);
-  const v = stage.view;
-  const [x, y] = v.to(e.at[0], e.at[1]);
-  const inView = x >= v.inset.left + EDGE_PX && x <= v.w - EDGE_PX && y >= EDGE_PX && y <= v.h - EDGE_PX;
-  if (inView) return;
-  v.centre(e.at[0], e.at[1]);
-  stage.viewChanged();
-}
 
 export function EventList({ most = Infinity }: { most?: number }) {
   const { editor } = useApp();
