@@ -102,7 +102,7 @@ function Title() {
     <div class="title">
       <h1 class="sr">{name}</h1>
       {id === undefined ? <span>DragTraffic</span> : <NameField key={id} />}
-      <small>{state}</small>
+      <small title={state}>{state}</small>
     </div>
   );
 }
