@@ -39,6 +39,16 @@ describe('a view', () => {
     );
   });
 
+  it('turns by very little, or by a quarter and very little, without a change of size', () => {
+    for (const quarter of [0, 1, 2, -1])
+      for (const little of [1e-10, 2e-9, 2.2e-5, 1e-3]) {
+        const v = Object.assign(new View(), { z: 40, turn: (quarter * Math.PI) / 2 + little });
+        const [right, up] = v.across(3, 4);
+        expect(Math.abs(Math.hypot(right, up) - 5)).toBeLessThan(1e-12);
+        near(v.from(...v.to(-2000, 1500)), [-2000, 1500]);
+      }
+  });
+
   it('turns ways and headings as it turns places', () => {
     fc.assert(
       fc.property(view, coordinate, coordinate, angle, (v, x, y, heading) => {

@@ -32,11 +32,13 @@ export class View {
     return this.turned;
   }
   set turn(angle: number) {
-    const near = (v: number, to: number): number => (Math.abs(v - to) < EXACT_RAD ? to : v);
-    this.turned = near(wrapAngle(angle), 0);
-    const exact = (v: number): number => near(near(near(v, 0), 1), -1);
-    this.cos = exact(Math.cos(this.turned));
-    this.sin = exact(Math.sin(this.turned));
+    const t = wrapAngle(angle);
+    const quarters = Math.round(t / (Math.PI / 2));
+    const exact = Math.abs(t - (quarters * Math.PI) / 2) < EXACT_RAD;
+    this.turned = exact && !quarters ? 0 : t;
+    // Both or none: else it would be no turn.
+    this.cos = exact ? [1, 0, -1, 0][(quarters + 4) % 4] : Math.cos(t);
+    this.sin = exact ? [0, 1, 0, -1][(quarters + 4) % 4] : Math.sin(t);
   }
 
   x(wx: number, wy: number): number {
