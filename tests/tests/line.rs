@@ -209,6 +209,16 @@ fn a_refusal_is_told_and_the_line_goes_on() {
 }
 
 #[test]
+fn a_number_is_free_once_the_last_is_heard() {
+    let server = Server::start(&[]).unwrap();
+    let mut line = Line::to(&server);
+    for _ in 0..300 {
+        line.ask(1, &json!({"scene_id": "nowhere"}));
+        assert_eq!(line.answer(1).0["status"], json!(404));
+    }
+}
+
+#[test]
 fn what_cannot_be_understood_ends_the_line() {
     let server = Server::start(&["--limit", "line_bytes=30000"]).unwrap();
     let mut body = generate(1);

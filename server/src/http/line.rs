@@ -17,7 +17,7 @@ use serde_json::value::RawValue;
 use std::collections::HashMap;
 use std::time::Duration;
 use tokio::sync::mpsc;
-use tokio::task::{AbortHandle, JoinSet};
+use tokio::task::{self, AbortHandle, JoinSet};
 use tokio::time::Instant;
 
 /// Pieces of answers that wait for the reader, of all questions together.
@@ -95,6 +95,13 @@ struct Line {
     headers: HeaderMap,
 }
 
+/// A part of an answer on its way.
+struct Piece {
+    message: Message,
+    /// The task whose last one it is.
+    ends: Option<task::Id>,
+}
+
 /// Questions that are open.
 #[derive(Default)]
 struct Open {
@@ -120,7 +127,14 @@ impl Line {
         let mut closing = false;
         loop {
             let message = tokio::select! {
-                piece = ready.recv() => piece.unwrap_or_else(|| parting(close_code::NORMAL, "")),
+                piece = ready.recv() => match piece {
+                    Some(Piece { message, ends }) => {
+                        // Who has heard the last of a question may give its number to the next one at once.
+                        open.numbers.retain(|_, task| Some(task.id()) != ends);
+                        message
+                    }
+                    None => parting(close_code::NORMAL, ""),
+                },
                 Some(_) = open.tasks.join_next() => {
                     open.numbers.retain(|_, task| !task.is_finished());
                     continue;
@@ -156,7 +170,7 @@ impl Line {
     ///
     /// # Errors
     /// Why the client cannot be understood.
-    fn hear(&self, text: &str, open: &mut Open, pieces: &mpsc::Sender<Message>) -> Result<(), String> {
+    fn hear(&self, text: &str, open: &mut Open, pieces: &mpsc::Sender<Piece>) -> Result<(), String> {
         match serde_json::from_str(text).map_err(|error| error.to_string())? {
             Said { ask: Some(number), body: Some(body), end: None } => {
                 if open.numbers.contains_key(&number) {
@@ -187,7 +201,7 @@ impl Line {
 }
 
 /// Asks, and tells what comes until it is over or given up.
-async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<Message>) {
+async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<Piece>) {
     let (reply, _busy) = carrier.ask(request).await;
     let mut told = Told { ask, head: Some(Head::of(&reply)), last: false };
     let mut body = reply.into_body();
@@ -197,7 +211,8 @@ async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc
         let following = if piece.is_some() { next(&mut body).now_or_never() } else { Some(None) };
         told.last = matches!(following, Some(None));
         let Ok(message) = message(&told, &piece.unwrap_or_default()) else { return };
-        if pieces.send(message).await.is_err() {
+        let part = Piece { message, ends: told.last.then(task::id) };
+        if pieces.send(part).await.is_err() {
             return;
         }
         told.head = None;

@@ -319,8 +319,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       { timeout: 5000 },
     );
     await d.page.waitForSelector('.banner', { timeout: 9000 });
-    expect(await d.text('.status')).toContain('Generator away');
-    expect(await d.page.locator('.fu').count()).toBe(0);
+    // While the hand is there panels say it a moment later.
+    await d.page.waitForFunction(() => document.querySelector('.status')!.textContent!.includes('Generator away'));
+    await d.page.waitForFunction(() => !document.querySelector('.fu'));
     await d.page.mouse.up();
     await d.page.waitForFunction(() => /1 change waiting/.test(document.querySelector('.status')!.textContent!));
     d.server.options.hang = false;
