@@ -107,7 +107,9 @@ export class Easel {
       this.#paintBelow(this.#picture);
     } else if (this.#covered) this.#uncover(this.#covered);
     this.#play(this.#picture, this.#overlay);
-    this.#covered = this.#overlay.player.extent(this.#overlay.ops, this.canvases.picture, size.dpr);
+    if (fitted || overlay) {
+      this.#covered = this.#overlay.player.extent(this.#overlay.ops, this.canvases.picture, size.dpr);
+    }
     if (loupe) this.#magnify(loupe, size.dpr);
   }
 
