@@ -78,7 +78,13 @@ journeys('the speed curve', (stage) => {
       assert.ok(stands >= 29, `stands for ${stands} steps`);
       assert.match(await e.text('.pointfields .brakes'), /brakes \d+\.\d m\/s² at most/);
       await e.picture('speed-curve-three-seconds');
+      // Where it brakes hard that is said; later it need not, and what it does is.
+      assert.match(await e.text('.insp .hint'), /Brakes \d\.\d m\/s² at/);
+      await e.type('point-time', '5.3');
+      assert.match(await e.text('.insp .hint'), /^Stops for 3\.0 s, then goes on\s+Brakes 3\.\d m\/s² at most\.$/);
       await e.key('Escape');
+      await e.key('Control+z');
+      await e.settled();
       await e.key('Control+z');
       await e.settled();
       assert.match((await points(e))[1], /for 1\.0 s/);

@@ -95,6 +95,10 @@ export const TEXTS = table('agent', {
     plural(count, { one: `Within ${furthest} at ${time}.`, other: `All within ${furthest} at ${time}.` }),
   endUpToAway: (count: number, letter: string, furthest: string, letters: string) =>
     plural(count, { one: `${letter} ends ${furthest} short.`, other: `${letters} end up to ${furthest} away.` }),
+  stopsFor: (lasts: string, goesOn: boolean) => `Stops for ${lasts}${goesOn ? ', then goes on' : ''}`,
+  goesAtYourSpeed: 'Goes at your speed',
+  brakesAtMost: (braking: string) => `Brakes ${braking} at most.`,
+  reachesTheGoal: (time: string) => `Reaches the goal at ${time}.`,
   goalReachedIn: (it: number | string) => `Goal reached in all ${it}`,
   goalReachedInSome: (letters: string) => `Goal reached in ${letters}`,
   six: 'six',

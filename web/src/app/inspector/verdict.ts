@@ -1,13 +1,14 @@
 // What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
 import type { Context } from '../../actions/context';
-import type { Mark } from '../../model/about';
+import { markOf, type Mark } from '../../model/about';
 import { comparedWithLog } from '../../model/changes';
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
-import { distances, endPose, endsBefore, poseAt, type Motion } from '../../model/motion';
+import { distances, endPose, endsBefore, poseAt, STEP_S, type Motion } from '../../model/motion';
 import { nameIn, type Agent } from '../../model/scene';
-import { metres, seconds, speedLabel } from '../../model/units';
+import { hardestBraking, stopsOf } from '../../model/profile';
+import { acceleration, metres, seconds, speedLabel } from '../../model/units';
 import { headline } from '../../model/verdict-words';
 import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
@@ -52,7 +53,7 @@ function verdictNow(c: Context, a: Agent): Verdict | null {
   if (offLanes(c, a)) return NO_LANE;
   const log = againstLog(c, a);
   if (log && judged?.title === AS_RECORDED.title) return { ...judged, words: log.words };
-  return log ?? judged ?? onFutures(c, a);
+  return log ?? onCurve(c, a) ?? judged ?? onFutures(c, a);
 }
 
 const OUTDATED: Verdict = {
@@ -124,6 +125,22 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   if (mark === 'ok' && isGoalOfLog(a)) return AS_RECORDED;
   if (mark === 'ok' && !words) return { kind: 'ok', icon: 'check', title, words: paceWords(e, a), at };
   return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at };
+}
+
+/** Of a speed that was drawn by hand, where nothing is wrong with it: what it does. */
+function onCurve({ editor: e }: Context, a: Agent): Verdict | null {
+  const f = e.futures.value;
+  const mode = f?.modes[e.chosen.value];
+  if (!f || !mode?.about || !e.curve.profile.value || e.chosen.value !== a.chosen) return null;
+  const holds = isSettled(f) && !e.motion.value.stale && verdictsHold(e);
+  if (!holds || markOf(mode.about) !== 'ok' || happening(e, a)) return null;
+  const { motion } = mode;
+  const [stop] = stopsOf(motion);
+  const goesOn = stop && !endsBefore(motion, stop.from + stop.lasts + STEP_S);
+  const title = stop ? TEXTS.stopsFor(seconds(stop.lasts), goesOn) : TEXTS.goesAtYourSpeed;
+  const words = [TEXTS.brakesAtMost(acceleration(hardestBraking(motion)))];
+  if (a.goal.pos) words.push(TEXTS.reachesTheGoal(seconds(a.goal.time)));
+  return { kind: 'ok', icon: 'check', title, words: words.join(' '), at: stop?.from ?? null };
 }
 
 function offLanes({ editor }: Context, a: Agent): boolean {
