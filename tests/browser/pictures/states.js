@@ -77,16 +77,38 @@ async function nobody(e) {
   return json;
 }
 
-/** A goal right across a median, typed: the verdict stands on the line. */
+/** The flag is in a hand that is across a median: it hangs back at the kerb, and the verdict stands on the line. */
 async function acrossMedian(e) {
   const { car, across } = await carBesideMedian(e);
   await e.choose(car.id);
   await e.key('z');
   await e.settled();
-  await e.type('goal-pos', across.x.toFixed(1), 0);
-  await e.type('goal-pos', across.y.toFixed(1), 1);
-  await leave(e);
-  await rest(e);
+  const flagAt = async ({ x, y }) => {
+    const [right, down] = await e.at(x, y);
+    return [right + 9, down - 26];
+  };
+  await e.drag(await flagAt(car.end), await flagAt(across), { moves: 4 });
+  await e.page.waitForSelector('.helpbar');
+  await e.settled();
+  await refined(e);
+}
+
+/** The knob of the arm to the north of a new crossing is in a hand that turns it. */
+async function turningAnArm(e) {
+  await e.key('Control+n');
+  await e.page.click('[data-template="four-arms"]');
+  await e.settled();
+  await e.key(']');
+  const now = await e.value('layout-arms.angle_deg');
+  const body = { template: 'four-arms' };
+  const made = await (await e.page.request.post(new URL('/v1/map', e.page.url()).href, { data: body })).json();
+  const out = Math.hypot(...made.arms[1].mouth_m) + 9;
+  const knob = (degrees) => {
+    const angle = (degrees * Math.PI) / 180;
+    return e.at(out * Math.cos(angle), out * Math.sin(angle));
+  };
+  await e.drag(await knob(now), await knob(71), { moves: 4 });
+  await e.settled();
 }
 
 async function variants(e, count) {
@@ -238,6 +260,7 @@ export const STATES = [
       );
       await e.page.waitForSelector('.dlg pre');
       await e.settled();
+      await e.until(() => [...document.querySelectorAll('.scn canvas')].slice(0, 2).every((c) => c.dataset.done));
     },
     // When the server has saved them.
     { hide: ['.scn small + small'] },
@@ -373,14 +396,7 @@ export const STATES = [
       await gone(e, '.toast');
     },
   ],
-  [
-    '28-new-map',
-    async (e) => {
-      await e.key('Control+n');
-      await e.page.waitForSelector('.insp [aria-label="Checks"], .insp .checks');
-      await e.settled();
-    },
-  ],
+  ['28-new-map', turningAnArm],
   [
     '30-speed-curve',
     async (e) => {
@@ -388,7 +404,7 @@ export const STATES = [
       await e.key('t');
       await e.frames(3);
       const plot = await e.page.locator('.plot').boundingBox();
-      await e.page.mouse.dblclick(plot.x + plot.width * 0.5, plot.y + plot.height * 0.55);
+      await e.page.mouse.dblclick(plot.x + plot.width * 0.6, plot.y + plot.height * 0.55);
       await e.settled();
       await e.type('point-speed', '0');
       await e.type('point-hold', '3');

@@ -93,6 +93,7 @@ function Title() {
   const name = useComputed(() => (editor.resting.value ? TEXTS.dragtraffic(editor.resting.value.name) : 'DragTraffic'));
   const state = useComputed(() => {
     const scene = editor.resting.value;
+    if (editor.layouts.isNew.value) return TEXTS.notSaved;
     if (editor.dragging.value) return TEXTS.dragging;
     if (!scene) return '';
     const saved = saving.state.value;
@@ -101,7 +102,13 @@ function Title() {
   return (
     <div class="title">
       <h1 class="sr">{name}</h1>
-      {id === undefined ? <span>DragTraffic</span> : <NameField key={id} />}
+      {editor.layouts.isNew.value ? (
+        <b>{TEXTS.newMap}</b>
+      ) : id === undefined ? (
+        <span>DragTraffic</span>
+      ) : (
+        <NameField key={id} />
+      )}
       <small title={state}>{state}</small>
     </div>
   );

@@ -95,6 +95,8 @@ export class Layouts {
   /** Null while no map is being made. */
   readonly wish: ReadonlySignal<MapWish | null> = this.#wish;
   readonly isOpen = computed(() => this.wish.value !== null);
+  /** Is it one that nobody is on? */
+  readonly isNew = computed(() => this.isOpen.value && !this.#base);
   readonly made = computed<Made | null>(() => (this.wish.value ? this.#made.value : null));
   /** Why the last change was not taken. */
   readonly fault: ReadonlySignal<string | null> = this.#fault;

@@ -34,8 +34,6 @@ export const TEXTS = table('layouts', {
   newMap: 'New map',
   useThisMap: 'Use this map',
   cancel: 'Cancel',
-  on: 'On',
-  off: 'Off',
   arm: 'Arm',
   armNamed: (name: string) => `${name} arm`,
   of: (index: number, count: number) => `${index} of ${count}`,

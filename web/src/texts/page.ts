@@ -21,6 +21,7 @@ export const TEXTS = table('page', {
   changedElsewhere: 'Changed elsewhere',
   noRoomToSave: 'No room to save',
   notSaved: 'Not saved',
+  newMap: 'New map',
   fileAndSettings: 'File and settings',
   actions: 'Actions',
   more: 'More',

@@ -7,6 +7,7 @@ export const TEXTS = table('timeline', {
   dashed: (dashed: string) => `, dashed: ${dashed}`,
   selectedOneLine: (count: number) => ` · ${count} selected, one line each`,
   nothingToPlay: 'Nothing to play yet',
+  nobodyOnThisMap: 'Nobody on this map yet. Use it, then place a car or fill an area.',
   selectARoadUser: 'Select a road user to see its speed',
   placeSomebody: 'Place somebody to see how fast they go',
   inTheLog: (name: string, title: string) => `${name}, in the log: ${title}`,

@@ -1,6 +1,6 @@
 // Filling an area: how busy, which kinds, and what is added with one key.
 import { useComputed } from '@preact/signals';
-import type { ComponentChildren } from 'preact';
+import type { ComponentChildren, ComponentProps } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
 import { armName, RATE_STEP } from '../../edit/arm-handles';
 import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/filling';
@@ -13,6 +13,7 @@ import { SeedField } from '../parts/asking';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { Slider } from '../parts/slider';
 import '../../styles/filling.css';
 import { TEXTS } from '../../texts/fill-panel';
 
@@ -41,7 +42,7 @@ export default function FillPanel() {
         </button>
       </h3>
       <div class="busy">
-        <Slider
+        <Share
           label={TEXTS.howBusy}
           value={wish.density}
           range={[LEAST_DENSITY, MOST_DENSITY]}
@@ -57,7 +58,7 @@ export default function FillPanel() {
       </div>
       <hr />
       {FILL_KINDS.map((k) => (
-        <Slider
+        <Share
           key={k}
           label={NAMES[k]}
           value={wish.mix[k]}
@@ -67,7 +68,7 @@ export default function FillPanel() {
           set={(v) => filling.setShare(k, v)}
         />
       ))}
-      <Slider
+      <Share
         label={TEXTS.parkedCars}
         value={Math.round(wish.parked * 100)}
         range={[0, 100]}
@@ -227,30 +228,11 @@ function Note() {
   );
 }
 
-interface SliderProps {
-  label: string;
-  value: number;
-  range: readonly [number, number];
-  step: number;
-  text: string;
-  set: (v: number) => void;
-}
-
-function Slider({ label, value, range: [min, max], step, text, set }: SliderProps) {
+function Share({ text, ...slider }: ComponentProps<typeof Slider>) {
   return (
     <label class="slide">
-      <span>{label}</span>
-      <input
-        type="range"
-        aria-label={label}
-        aria-valuetext={text}
-        min={min}
-        max={max}
-        step={step}
-        value={value}
-        style={{ '--fill': `${((value - min) / (max - min)) * 100}%` }}
-        onInput={(e) => set(Number(e.currentTarget.value))}
-      />
+      <span>{slider.label}</span>
+      <Slider {...slider} text={text} />
       <b>{text}</b>
     </label>
   );

@@ -56,7 +56,7 @@ function mapLine({ editor }: Context): Line {
   const { lanes, crosswalks } = made.scene.map;
   const driven = [...lanes.values()].filter((l) => l.kind === 'road').length;
   const bad = made.checks.some((k) => !k.passed);
-  const words = TEXTS.lanesCrosswalks(driven, crosswalks.length, Math.round(made.ms));
+  const words = TEXTS.lanesCrosswalks(driven, crosswalks.length, Math.max(1, Math.round(made.ms)));
   return { dot: bad ? 'near' : '', text: words };
 }
 

@@ -10,6 +10,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { Slider } from '../parts/slider';
 import '../../styles/layouts.css';
 import { TEXTS } from '../../texts/layouts';
 import { inSentence } from '../../texts/language';
@@ -53,6 +54,8 @@ const SWITCHES: Readonly<Record<string, string>> = {
   off_ramp: TEXTS.rampLeaves,
   speed_bumps: TEXTS.speedBumps,
 };
+/** What is tried until it looks right, rather than known: dragged as well as typed. */
+const DRAGGED: ReadonlySet<string> = new Set(['kerb_radius_m', 'lane_width_m']);
 /** Widths that a switch turns on. */
 const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
 
@@ -62,12 +65,12 @@ export default function LayoutPanel() {
   const wish = layouts.wish.value;
   const parameters = layouts.parameters.value;
   if (!wish) return null;
-  const title = layouts.base ? TEXTS.changeTheMap : TEXTS.newMap;
+  const title = layouts.isNew.value ? TEXTS.newMap : TEXTS.changeTheMap;
   return (
     <>
       <div class="ih">
         <div class="ag t-ink">
-          <Icon name="layers" size={20} />
+          <Icon name="road" size={20} />
         </div>
         <div class="grow">
           <h2>{title}</h2>
@@ -140,8 +143,13 @@ function NumberRow({ place, name, value, set }: NumberRowProps) {
       </Row>
     );
   const told = unit === 'm' ? toLength : (v: number) => v;
+  const text = () => num(told(value()), Number.isInteger(told(value())) ? 0 : lengthUnit() === 'm' ? digits || 1 : 1);
+  const range = rangeOf(template, place);
   return (
     <Row label={label}>
+      {DRAGGED.has(name) ? (
+        <Slider label={label} value={value()} range={range} step={step} text={`${text()} ${lengthUnit()}`} set={set} />
+      ) : null}
       <NumberField
         label={label}
         field={`layout-${place}`}
@@ -149,9 +157,9 @@ function NumberRow({ place, name, value, set }: NumberRowProps) {
         quantity={() => (unit === 'm' ? 'length' : unit ? 'angle' : 'count')}
         step={step}
         value={value}
-        text={() => num(told(value()), Number.isInteger(told(value())) ? 0 : lengthUnit() === 'm' ? digits || 1 : 1)}
+        text={text}
         set={(v) => set(whole ? Math.round(v) : v)}
-        range={() => rangeOf(template, place)}
+        range={() => range}
       />
     </Row>
   );
@@ -159,16 +167,7 @@ function NumberRow({ place, name, value, set }: NumberRowProps) {
 
 function Switch({ label, on, set }: { label: string; on: boolean; set: (on: boolean) => void }) {
   return (
-    <button
-      type="button"
-      class={`pillb ${on ? 'on' : ''}`}
-      role="switch"
-      aria-checked={on}
-      aria-label={label}
-      onClick={() => set(!on)}
-    >
-      {on ? TEXTS.on : TEXTS.off}
-    </button>
+    <button type="button" class="switch" role="switch" aria-checked={on} aria-label={label} onClick={() => set(!on)} />
   );
 }
 
@@ -324,6 +323,7 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
 function Connections({ arm }: { arm: number }) {
   const { layouts } = useApp().editor;
   const [lane, setLane] = useState(0);
+  const [open, setOpen] = useState(false);
   const places = layouts.made.value?.arms ?? [];
   const ins = places[arm]?.ins_m.length ?? 0;
   if (!layouts.connects || !ins) return null;
@@ -335,17 +335,14 @@ function Connections({ arm }: { arm: number }) {
       return own.some((w) => sameWay(w, way)) ? [] : [{ way, name: layouts.exitName([to, out]) }];
     }),
   );
+  const picking = own.some((w) => layouts.way.value && sameWay(w, layouts.way.value));
   const changed = [...layouts.connections.added, ...layouts.connections.removed].some((w) => laneOf(w.from)[0] === arm);
   return (
-    <div class="ways" role="group" aria-label={TEXTS.connections}>
-      <div class="line">
+    <details class="ways" open={open || picking || changed} onToggle={(e) => setOpen(e.currentTarget.open)}>
+      <summary>
         <span>{TEXTS.connections}</span>
-        {changed ? (
-          <button type="button" class="btn line" onClick={() => layouts.set(layouts.usualWays(arm))}>
-            {TEXTS.usualOnes}
-          </button>
-        ) : null}
-      </div>
+        <small>{own.length}</small>
+      </summary>
       <ul>
         {own.map((way) => {
           const words = TEXTS.laneTo(laneOf(way.from)[1] + 1, layouts.exitName(laneOf(way.to)));
@@ -403,7 +400,12 @@ function Connections({ arm }: { arm: number }) {
           </select>
         </div>
       ) : null}
-    </div>
+      {changed ? (
+        <button type="button" class="btn line" onClick={() => layouts.set(layouts.usualWays(arm))}>
+          {TEXTS.usualOnes}
+        </button>
+      ) : null}
+    </details>
   );
 }
 

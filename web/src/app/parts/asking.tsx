@@ -5,6 +5,7 @@ import { setDiversity, setSeed } from '../../model/commands';
 import { DEFAULTS } from '../../model/domain';
 import { useApp } from './app-context';
 import { ActionButton, IconButton } from './buttons';
+import { Slider } from './slider';
 import { resultCode } from '../../model/result-code';
 import { TEXTS } from '../../texts/parts';
 import { TEXTS as CODE } from '../../texts/result-code';
@@ -98,17 +99,15 @@ function DiversitySlider() {
   const percent = useComputed(() => Math.round((editor.resting.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
   return (
     <>
-      <input
-        type="range"
-        min={0}
-        max={MOST}
-        step={10}
-        aria-label={TEXTS.diversity}
-        title={TEXTS.howFarTheSix}
+      <Slider
+        label={TEXTS.diversity}
         value={percent}
-        style={{ '--fill': `${(percent / MOST) * 100}%` }}
-        onInput={(e) => {
-          const v = Number(e.currentTarget.value) / 100;
+        range={[0, MOST]}
+        step={10}
+        text={`${percent}%`}
+        title={TEXTS.howFarTheSix}
+        set={(to) => {
+          const v = to / 100;
           if (v !== editor.scene.peek()?.diversity) editor.run(setDiversity(v));
         }}
       />

@@ -6,6 +6,7 @@ import { isSettled, type Futures } from '../../model/futures';
 import { startPose, touched, type Agent } from '../../model/scene';
 import { toUnit } from '../../model/units';
 import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
+import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
 import { eventShown, severalShown, X0, type Axes, type Line } from './axes';
@@ -86,16 +87,18 @@ function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]
 }
 
 function Hint({ axes: a }: { axes: Axes }) {
-  const { editor } = useApp();
   return (
     <text class="big back" x={(X0 + a.x1) / 2} y={(a.y0 + a.y1) / 2 + 4} text-anchor="middle">
-      {!editor.scene.peek()
-        ? TEXTS.nothingToPlay
-        : editor.scene.peek()!.agents.size
-          ? TEXTS.selectARoadUser
-          : TEXTS.placeSomebody}
+      {whatIsMissing(useApp().editor)}
     </text>
   );
+}
+
+function whatIsMissing({ layouts, resting }: Editor): string {
+  if (layouts.isNew.value) return TEXTS.nobodyOnThisMap;
+  const scene = resting.value;
+  if (!scene) return TEXTS.nothingToPlay;
+  return scene.agents.size ? TEXTS.selectARoadUser : TEXTS.placeSomebody;
 }
 
 function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {

@@ -35,8 +35,6 @@ export const german: Said<typeof TEXTS> = {
   newMap: 'Neue Karte',
   useThisMap: 'Karte nehmen',
   cancel: 'Abbrechen',
-  on: 'Ein',
-  off: 'Aus',
   arm: 'Arm',
   armNamed: (name) => `Arm ${name}`,
   of: (index, count) => `${index} von ${count}`,

@@ -22,6 +22,7 @@ export const german: Said<typeof TEXTS> = {
   changedElsewhere: 'Anderswo geändert',
   noRoomToSave: 'Kein Platz zum Sichern',
   notSaved: 'Nicht gesichert',
+  newMap: 'Neue Karte',
   fileAndSettings: 'Datei und Einstellungen',
   actions: 'Aktionen',
   more: 'Mehr',

@@ -8,6 +8,7 @@ export const german: Said<typeof TEXTS> = {
   dashed: (dashed) => `, gestrichelt: ${dashed}`,
   selectedOneLine: (count) => ` · ${count} ausgewählt, je eine Linie`,
   nothingToPlay: 'Noch nichts abzuspielen',
+  nobodyOnThisMap: 'Noch niemand auf dieser Karte. Verwenden, dann ein Auto einsetzen oder füllen.',
   selectARoadUser: 'Jemanden auswählen, um sein Tempo zu sehen',
   placeSomebody: 'Jemanden einsetzen, um sein Tempo zu sehen',
   inTheLog: (name, title) => `${name}, in der Aufzeichnung: ${title}`,
