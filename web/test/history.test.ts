@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { Journal, resume } from '../src/edit/journal';
 import { rename, setGoal, setSeed } from '../src/model/commands';
 import { History, MOST_STEPS, replay } from '../src/model/history';
+import type { GeneratedJson } from '../src/model/json';
 import { readScene } from '../src/model/read';
 import { freeGoal, sceneKey, withAgents, type Agent, type Scene } from '../src/model/scene';
 import { applyDiff, diffOf, isEmptyDiff, stateOf, withState } from '../src/model/scene-diff';
@@ -147,6 +148,25 @@ describe('a scene that is opened again', () => {
     const { h, kept } = await edited(false, null);
     const r = resume(file(), await kept(), false, '"new"');
     expect([r.standing, sceneKey(r.scene)]).toEqual(['ahead', sceneKey(h.scene)]);
+  });
+
+  it('keeps what everybody does where one is, beside the steps', async () => {
+    const { store, journal, h, kept } = await edited(false, null);
+    const generated = { seed: 5, samples: [] } as unknown as GeneratedJson;
+    journal.keepAnswers(generated);
+    await journal.flush();
+    expect((await kept()).answers).toEqual({ step: h.head, generated });
+    // Steps written anew leave it; a scene that is forgotten does not.
+    await journal.retry();
+    expect((await kept()).answers?.step).toBe(h.head);
+    journal.keepAnswers(null);
+    await journal.flush();
+    expect((await kept()).answers).toBeNull();
+    await store.forget('x');
+    journal.letGo();
+    journal.keepAnswers(generated);
+    await journal.flush();
+    expect(await store.read('x')).toBeNull();
   });
 
   it('starts afresh where what is kept has holes', async () => {

@@ -14,7 +14,32 @@ const undo = async (e) => {
 /** Waits until the inspector shows this goal time. */
 const shows = (e, time) => e.until((t) => document.querySelector('[data-field="goal-time"]')?.value === t, time);
 
+/** What the panel says of the selected one, and its six futures. */
+const said = async (e) => [
+  (await e.value('goal-pos', 0)) + (await e.text('.insp .hint')),
+  ...(await e.page.locator('.fu').allInnerTexts()),
+];
+
 journeys('keeping', (stage) => {
+  it('shows after a killed tab the very futures that the hand had left', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    const flag = (share) => [0, 1].map((i) => car.to[i] + (car.from[i] - car.to[i]) * share + [9, -26][i]);
+    // Many moves: each question of a drag goes on from what the one before has shown.
+    await e.drag(flag(0), flag(0.4), { moves: 30 });
+    await e.release();
+    await e.settled();
+    const before = await said(e);
+    await e.until(() => /^Saved on this computer/.test(document.querySelector('.title small').textContent));
+    const again = await e.killed();
+    await again.settled();
+    await again.choose(car.id);
+    assert.deepEqual(await said(again), before);
+    assert.deepEqual(again.wire.asked.map((a) => a.body.react).filter(Boolean), [], 'nobody is asked anew');
+  });
+
   it(
     'brings back scene, undo and redo after a killed tab, and takes back what Generate did',
     { timeout: 60_000 },

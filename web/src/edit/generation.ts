@@ -64,6 +64,7 @@ export class Generation implements Previews {
       askAgain: (w) => this.#ask(w),
       look: (id) => this.#look(id),
       score: (step) => void this.score(step, true),
+      known: () => this.#keep(),
     });
     this.#foresight = new Foresight(others, {
       question: (scene, on) => this.#foreseeing(scene, on),
@@ -171,6 +172,7 @@ export class Generation implements Previews {
     if (editor.motion.peek().stale && !this.#absence.now && this.#takeOver(scene, step)) return;
     this.#foresight.drop();
     if (!editor.motion.peek().stale) {
+      this.#keep();
       this.generator.cancel();
       editor.answers.report({ kind: 'ready' });
       this.#selected(editor.selection.peek());
@@ -186,6 +188,11 @@ export class Generation implements Previews {
         rested();
       }, REST_MS);
     }
+  }
+
+  #keep(): void {
+    const scene = this.editor.scene.peek();
+    if (scene) this.saving.answered(scene);
   }
 
   /** The Generate button: everybody anew. */
@@ -280,7 +287,10 @@ export class Generation implements Previews {
     const abort = (this.#scoring = new AbortController());
     const end = this.#begin();
     const shown = this.#shown(scene);
-    if (editor.motion.peek().stale) editor.answers.settle(scene, shown, null);
+    if (editor.motion.peek().stale) {
+      editor.answers.settle(scene, shown, null);
+      this.#keep();
+    }
     const scored = [...scene.agents.values()].filter(
       (a) => canChange(a) && (shown.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );

@@ -3,6 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, replay, type HistoryChange, type KeptHistory } from '../model/history';
 import { isComplete, stateOf, withState, type SceneState } from '../model/scene-diff';
 import { sceneKey, type Scene } from '../model/scene';
+import type { GeneratedJson } from '../model/json';
 import { ofAgents, variantsJson } from '../model/write';
 import { isFull, type KeptScene, type StepStore, type Synced } from '../net/step-store';
 
@@ -95,6 +96,16 @@ export class Journal {
     this.#base = kept?.base ?? (own ? stateOf(history.first()) : null);
     this.#gap = kept === null;
     history.onChange = (change) => this.#changed(change);
+  }
+
+  /** What everybody does where one is now. */
+  keepAnswers(generated: GeneratedJson | null): void {
+    const history = this.#history;
+    if (!history?.kept().steps.length) return;
+    const scene = this.#scene;
+    const answers = generated && { step: history.head, generated };
+    // They can be worked out anew: where there is no room for them the steps matter more.
+    this.#writing = this.#writing.then(() => this.store.keepAnswers(scene, answers)).catch(() => undefined);
   }
 
   /** Another tab keeps them now. */

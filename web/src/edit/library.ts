@@ -138,7 +138,9 @@ export class Library {
     keep('last-scene', scene.id);
     this.list.noteOpened(scene.id);
     const current = standing === 'fresh' || standing === 'same';
-    const saved = current ? readGenerated(json, scene) : null;
+    const answers = kept?.answers?.step === kept?.place.head ? kept?.answers?.generated : null;
+    const generated = current ? json.generated : answers;
+    const saved = generated ? readGenerated({ ...json, generated }, scene) : null;
     const { selection, time } = editor;
     const seen = { who: selection.peek(), when: time.peek() };
     batch(() => {

@@ -38,6 +38,8 @@ export interface Hooks {
   askAgain(w: Wanted): void;
   look(id: string): void;
   score(step: Step): void;
+  /** What everybody does in the document on screen is known. */
+  known(): void;
 }
 
 /** Refinement steps left behind on screen as trails. */
@@ -297,6 +299,7 @@ export class Reception {
     this.#names.rest();
     editor.answers.dropLiveReach();
     editor.answers.settle(scene, set, this.#subjects(scene, step), editor.speedUnit.peek());
+    hooks.known();
     this.settled(step, ms);
     if (selected && !set.futures.has(selected)) hooks.look(selected);
     if (!set.score) hooks.score(step);

@@ -65,6 +65,15 @@ export class Saving {
     this.#timer = setTimeout(() => void this.#save(), DELAY_MS);
   }
 
+  /**
+   * What everybody does in the document is known, and is kept with it. Worked out anew when it is opened again it
+   * could be another: a drag and its release go on from what the hand has seen.
+   */
+  answered(scene: Scene): void {
+    if (this.file.stored && this.list.isOwn(scene.id)) this.changed(scene);
+    else this.journal.keepAnswers(this.file.answers());
+  }
+
   /** The server is back, or there is room again: what could not be saved is saved now. */
   retry(): void {
     if (this.#server.peek() === 'behind' && !this.editor.lock.peek()) void this.#save();

@@ -1,5 +1,5 @@
 // The open scene as a file: as it came, and as it is written back with the user's changes in it.
-import type { MapJson, SceneJson } from '../model/json';
+import type { GeneratedJson, MapJson, SceneJson } from '../model/json';
 import type { MotionSet } from '../model/futures';
 import { rosterOfJson } from '../model/read';
 import type { Scene } from '../model/scene';
@@ -78,11 +78,20 @@ export class SceneFile {
     return { ...json, generated: { ...generated, samples }, x_editor: { ...x_editor, variants } };
   }
 
+  /** The futures that belong to the document; null while they are not known, and where nobody has any. */
+  answers(): GeneratedJson | null {
+    const scene = this.editor.scene.peek();
+    return scene && answersIn(scene, this.editor.motion.peek());
+  }
+
   #written(scene: Scene, m: MotionSet): SceneJson | null {
     if (!this.raw) return null;
-    const driving = [...m.futures].filter(([id]) => m.driving.has(id));
-    const generated = m.stale ? null : generatedJson(scene, driving, m.head);
-    return writeScene(this.raw, scene, generated, this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined));
+    return writeScene(
+      this.raw,
+      scene,
+      answersIn(scene, m),
+      this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined),
+    );
   }
 
   /** A document as a file of its own, with the map inside. */
@@ -96,4 +105,9 @@ export class SceneFile {
     const json = this.current();
     return json && this.map ? { ...json, map: this.map } : json;
   }
+}
+
+function answersIn(scene: Scene, m: MotionSet): GeneratedJson | null {
+  const driving = [...m.futures].filter(([id]) => m.driving.has(id));
+  return m.stale ? null : generatedJson(scene, driving, m.head);
 }

@@ -1,5 +1,6 @@
 // What was done in which scene, kept on this computer: one entry a step, added as it is done, and beside them where
-// one is among them and the document before the first.
+// one is among them, the document before the first, and what everybody does where one is.
+import type { GeneratedJson } from '../model/json';
 import type { HistoryStep, KeptHistory } from '../model/history';
 import type { SceneState } from '../model/scene-diff';
 
@@ -16,19 +17,27 @@ export interface Place extends Omit<KeptHistory, 'steps'> {
   readonly synced: Synced | null;
 }
 
+/** What everybody did in the document after a step. */
+export interface KeptAnswers {
+  readonly step: number | null;
+  readonly generated: GeneratedJson;
+}
+
 export interface KeptScene {
   readonly place: Place;
   readonly steps: readonly HistoryStep[];
   /** Null where the file itself is the document before the first step. */
   readonly base: SceneState | null;
+  readonly answers: KeptAnswers | null;
 }
 
 export interface StepStore {
   read(scene: string): Promise<KeptScene | null>;
   /** A step more, or none, and where one is now. */
   append(place: Place, step: HistoryStep | null): Promise<void>;
-  /** All of it anew. */
-  rewrite(kept: KeptScene): Promise<void>;
+  /** All of it anew, but for the answers. */
+  rewrite(kept: Omit<KeptScene, 'answers'>): Promise<void>;
+  keepAnswers(scene: string, answers: KeptAnswers | null): Promise<void>;
   forget(scene: string): Promise<void>;
   places(): Promise<Place[]>;
 }
@@ -37,11 +46,12 @@ export interface StepStore {
 export const isFull = (e: unknown): boolean => e instanceof DOMException && e.name === 'QuotaExceededError';
 
 const NAME = 'dragtraffic';
-const VERSION = 1;
+const VERSION = 2;
 const PLACES = 'places',
   STEPS = 'steps',
-  BASES = 'bases';
-const ALL = [PLACES, STEPS, BASES];
+  BASES = 'bases',
+  ANSWERS = 'answers';
+const ALL = [PLACES, STEPS, BASES, ANSWERS];
 
 interface StoredStep extends HistoryStep {
   readonly scene: string;
@@ -53,11 +63,14 @@ export class BrowserStepStore implements StepStore {
   #open(): Promise<IDBDatabase> {
     this.#opening ??= new Promise<IDBDatabase>((resolve, reject) => {
       const request = indexedDB.open(NAME, VERSION);
-      request.onupgradeneeded = () => {
+      request.onupgradeneeded = ({ oldVersion }) => {
         const db = request.result;
-        db.createObjectStore(PLACES, { keyPath: 'scene' });
-        db.createObjectStore(STEPS, { keyPath: ['scene', 'id'] });
-        db.createObjectStore(BASES);
+        if (oldVersion < 1) {
+          db.createObjectStore(PLACES, { keyPath: 'scene' });
+          db.createObjectStore(STEPS, { keyPath: ['scene', 'id'] });
+          db.createObjectStore(BASES);
+        }
+        db.createObjectStore(ANSWERS);
       };
       request.onsuccess = () => {
         // A newer program in another tab may change the shape: this one lets go and opens anew when it is asked.
@@ -85,13 +98,14 @@ export class BrowserStepStore implements StepStore {
 
   async read(scene: string): Promise<KeptScene | null> {
     const t = (await this.#open()).transaction(ALL, 'readonly');
-    const [place, steps, base] = await Promise.all([
+    const [place, steps, base, answers] = await Promise.all([
       got<Place | undefined>(t.objectStore(PLACES).get(scene)),
       got<StoredStep[]>(t.objectStore(STEPS).getAll(stepsOf(scene))),
       got<SceneState | undefined>(t.objectStore(BASES).get(scene)),
+      got<KeptAnswers | undefined>(t.objectStore(ANSWERS).get(scene)),
     ]);
     if (!place) return null;
-    return { place, steps, base: base ?? null };
+    return { place, steps, base: base ?? null, answers: answers ?? null };
   }
 
   append(place: Place, step: HistoryStep | null): Promise<void> {
@@ -101,7 +115,7 @@ export class BrowserStepStore implements StepStore {
     });
   }
 
-  rewrite({ place, steps, base }: KeptScene): Promise<void> {
+  rewrite({ place, steps, base }: Omit<KeptScene, 'answers'>): Promise<void> {
     const { scene } = place;
     return this.#write((t) => {
       t.objectStore(STEPS).delete(stepsOf(scene));
@@ -112,10 +126,18 @@ export class BrowserStepStore implements StepStore {
     });
   }
 
+  keepAnswers(scene: string, answers: KeptAnswers | null): Promise<void> {
+    return this.#write((t) => {
+      if (answers) t.objectStore(ANSWERS).put(answers, scene);
+      else t.objectStore(ANSWERS).delete(scene);
+    });
+  }
+
   forget(scene: string): Promise<void> {
     return this.#write((t) => {
       t.objectStore(STEPS).delete(stepsOf(scene));
       t.objectStore(BASES).delete(scene);
+      t.objectStore(ANSWERS).delete(scene);
       t.objectStore(PLACES).delete(scene);
     });
   }
@@ -146,11 +168,17 @@ export class PassingStepStore implements StepStore {
     const old = this.#kept.get(place.scene);
     const others = (old?.steps ?? []).filter((s) => s.id !== step?.id);
     const steps = step ? [...others, structuredClone(step)] : others;
-    this.#kept.set(place.scene, { place, steps, base: old?.base ?? null });
+    this.#kept.set(place.scene, { place, steps, base: old?.base ?? null, answers: old?.answers ?? null });
   }
 
-  async rewrite(kept: KeptScene): Promise<void> {
-    this.#kept.set(kept.place.scene, structuredClone(kept));
+  async rewrite(kept: Omit<KeptScene, 'answers'>): Promise<void> {
+    const answers = this.#kept.get(kept.place.scene)?.answers ?? null;
+    this.#kept.set(kept.place.scene, structuredClone({ ...kept, answers }));
+  }
+
+  async keepAnswers(scene: string, answers: KeptAnswers | null): Promise<void> {
+    const kept = this.#kept.get(scene);
+    if (kept) this.#kept.set(scene, { ...kept, answers: structuredClone(answers) });
   }
 
   async forget(scene: string): Promise<void> {
