@@ -62,23 +62,21 @@ const DRIFT_COST: f64 = 0.25;
 const PACE_COST: f64 = 0.12;
 
 /// Some shift: along the path and to the left, metres.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 struct Shift {
     ahead: i32,
     aside: i32,
 }
 
 impl Shift {
+    const NONE: Self = Self { ahead: 0, aside: 0 };
+
     fn all() -> impl Iterator<Item = Self> {
         (-AHEADS..=AHEADS).flat_map(|ahead| (-ASIDES..=ASIDES).map(move |aside| Self { ahead, aside }))
     }
 
     fn index(self) -> usize {
         (self.ahead + AHEADS) as usize * ACROSS + (self.aside + ASIDES) as usize
-    }
-
-    fn is_none(self) -> bool {
-        self.ahead == 0 && self.aside == 0
     }
 
     fn ahead_m(self) -> f64 {
@@ -218,7 +216,7 @@ impl<'a> Course<'a> {
 
     /// Those who are within reach of the shifts at some instant, and were not met at the start.
     fn who_may_be_met(&self) -> Vec<&'a Moving> {
-        let own = self.outline(self.pose(0, Shift { ahead: 0, aside: 0 }));
+        let own = self.outline(self.pose(0, Shift::NONE));
         let looked_at = (1..=HORIZON_STEPS).step_by(2);
         let places: Vec<(usize, Vec2)> =
             looked_at.map(|step| (step, self.path.extrapolate(self.along_m[step]).position)).collect();
@@ -252,7 +250,7 @@ impl<'a> Course<'a> {
             && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;
         let between = instant * PER_INSTANT != self.plan.target.step;
         let hardly = between && shift.ahead.abs() <= 1 && shift.aside.abs() <= 1;
-        !due || shift.is_none() || hardly
+        !due || shift == Shift::NONE || hardly
     }
 
     /// What each shift of an instant costs by itself.
@@ -277,7 +275,7 @@ impl<'a> Course<'a> {
 
     /// What may be met at a step; `None` where nobody is near.
     fn moment(&self, step: usize) -> Option<Moment<'a>> {
-        let own = self.outline(self.pose(step, Shift { ahead: 0, aside: 0 }));
+        let own = self.outline(self.pose(step, Shift::NONE));
         let reach_m = SHIFTED_M + own.grown(CLOSE_M + SPARE_M).radius_m();
         let within = |b: &OrientedBox| (b.center() - own.center()).norm() < reach_m + b.radius_m();
         let boxes = self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref());
@@ -343,18 +341,17 @@ impl<'a> Course<'a> {
 
     /// The cheapest shifts, one an instant; `None` where none at all are.
     fn least(&self) -> Option<[Shift; INSTANTS]> {
-        let none = Shift { ahead: 0, aside: 0 };
         let mut total = vec![f64::INFINITY; SHIFTS];
-        total[none.index()] = 0.0;
+        total[Shift::NONE.index()] = 0.0;
         let mut before: Vec<Vec<usize>> = Vec::with_capacity(INSTANTS);
         let mut unshifted = 0.0;
         let all: Vec<Shift> = Shift::all().collect();
         for instant in 1..=INSTANTS {
             let costs = self.costs(instant);
-            unshifted += costs[none.index()];
+            unshifted += costs[Shift::NONE.index()];
             let way_m = self.along_m[instant * PER_INSTANT] - self.along_m[(instant - 1) * PER_INSTANT];
             let mut next = vec![f64::INFINITY; SHIFTS];
-            let mut from = vec![none.index(); SHIFTS];
+            let mut from = vec![Shift::NONE.index(); SHIFTS];
             for shift in all.iter().filter(|s| costs[s.index()].is_finite()) {
                 for ahead in -MOST_AHEAD..=MOST_AHEAD {
                     for aside in -MOST_ASIDE..=MOST_ASIDE {
@@ -381,7 +378,7 @@ impl<'a> Course<'a> {
         if !total[at].is_finite() || total[at] > unshifted - 0.5 * OFF_ROAD {
             return None;
         }
-        let mut shifts = [none; INSTANTS];
+        let mut shifts = [Shift::NONE; INSTANTS];
         for instant in (0..INSTANTS).rev() {
             shifts[instant] = all[at];
             at = before[instant][at];
