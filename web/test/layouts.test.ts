@@ -44,7 +44,39 @@ describe('connections', () => {
   beforeEach(() => {
     layouts = new Layouts();
     layouts.choose('four-arms');
-    layouts.settle(reply([way('arm1.in1', 'arm3.out1')]), 1);
+    layouts.settle(layouts.wish.peek()!, reply([way('arm1.in1', 'arm3.out1')]), 1);
+  });
+
+  it('that cannot be drawn are wished for no longer, and their step is none', () => {
+    layouts.setArm(0, { angle_deg: 5 });
+    layouts.settle(layouts.wish.peek()!, reply([]), 1);
+    const drawn = layouts.wish.peek()!;
+    layouts.setArm(1, { angle_deg: 10 });
+    layouts.refuse('Arms need 20° between them');
+    expect([layouts.fault.value, layouts.arms.value[1].angle_deg]).toEqual(['Arms need 20° between them', 90]);
+    expect(layouts.isDrawn(layouts.wish.peek()!)).toBe(true);
+    layouts.undo();
+    expect(layouts.arms.value[0].angle_deg).toBe(0);
+    layouts.redo();
+    layouts.settle(drawn, reply([]), 1);
+    // In a hand it stays where that is, and goes back when that lets go.
+    layouts.hold();
+    layouts.setArm(1, { angle_deg: 10 });
+    layouts.refuse('Arms need 20° between them');
+    expect(layouts.arms.value[1].angle_deg).toBe(10);
+    layouts.letGo();
+    expect([layouts.arms.value[1].angle_deg, layouts.canRedo.value]).toEqual([90, false]);
+  });
+
+  it('are there again where one goes on with a map that was put away', () => {
+    expect(layouts.close()).toBeNull();
+    layouts.choose('four-arms');
+    layouts.settle(layouts.wish.peek()!, reply([]), 1);
+    layouts.setArm(0, { angle_deg: 5 });
+    const reopen = layouts.close();
+    expect([layouts.isOpen.value, layouts.canUndo.value]).toEqual([false, false]);
+    reopen!();
+    expect([layouts.arms.value[0].angle_deg, layouts.canUndo.value]).toEqual([5, true]);
   });
 
   it('are named by their lanes, and go when their lanes go', () => {
@@ -66,7 +98,7 @@ describe('connections', () => {
     expect(layouts.way.value).toEqual(usual);
     layouts.removeWay(usual);
     expect(layouts.connections).toEqual({ added: [], removed: [usual] });
-    layouts.settle(reply([]), 1);
+    layouts.settle(layouts.wish.peek()!, reply([]), 1);
     expect(layouts.way.value).toBeNull();
     layouts.addWay(usual);
     expect(layouts.connections).toEqual({ added: [], removed: [] });
@@ -82,7 +114,7 @@ describe('connections', () => {
     const back = connectionOf([0, 0], [0, 0]);
     layouts.addWay(back);
     expect(layouts.connections.added).toEqual([back]);
-    layouts.settle(reply([way(back.from, back.to, true)]), 1);
+    layouts.settle(layouts.wish.peek()!, reply([way(back.from, back.to, true)]), 1);
     layouts.removeWay(back);
     expect(layouts.connections).toEqual({ added: [], removed: [] });
   });

@@ -35,6 +35,7 @@ export function shortKeys(): Plugin {
     enforce: 'pre',
     transform(code, id) {
       const table = TABLE.exec(id) ?? GERMAN.exec(id);
+      if (table && /^ *\.\.\.|\{ \.\.\./m.test(code)) this.error(`${id}: write a table out, its keys become others`);
       if (table && /\bTEXTS\b/.test(code)) return shortened(code, table[1], (why) => this.error(why));
       let out = code;
       for (const [, as, area] of code.matchAll(IMPORT)) {

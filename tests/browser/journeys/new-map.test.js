@@ -110,9 +110,20 @@ journeys('new map', (stage) => {
     // Too near to the one in the east: refused in words, and the arm goes back to where a map could be drawn.
     await e.type('layout-arms.angle_deg', '10');
     await e.until(() => /Arms need 20° between them/.test(document.querySelector('.checks').textContent));
-    await e.type('layout-arms.angle_deg', '71');
+    assert.equal(await angle(e), 71);
+    await e.type('layout-arms.angle_deg', '72');
     await drawn(e);
     assert.ok(!(await checks(e)).some((text) => text.includes('20°')));
+    await e.type('layout-arms.angle_deg', '71');
+    await drawn(e);
+
+    // Esc lets go of the field, of the way that is picked, and of the map; a press brings that back.
+    for (let presses = 0; presses < 3; presses++) await e.key('Escape');
+    await e.page.waitForSelector('.templates', { state: 'detached' });
+    await e.page.getByRole('button', { name: 'Go on with it' }).click();
+    await drawn(e);
+    assert.equal(await e.page.locator('.ways li').count(), ways + 1);
+    assert.equal(await angle(e), 71);
 
     await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Equal').click();
     await drawn(e);

@@ -13,7 +13,7 @@ const canRedo = ({ editor: { layouts, redoName } }: Context): boolean =>
   layouts.isOpen.value ? layouts.canRedo.value : redoName.value !== null;
 
 /** Esc: what is nearest goes first, one thing a press. */
-function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
+function letGo({ editor, gestures, importing, maker, rounds, searching, ui, variants }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
     ui.closeContextMenu();
@@ -25,7 +25,7 @@ function letGo({ editor, gestures, importing, rounds, searching, ui, variants }:
     ui.showEvents(false);
     editor.pickEvent(null);
   } else if (editor.layouts.way.value) editor.layouts.pickWay(null);
-  else if (editor.layouts.isOpen.value) editor.layouts.close();
+  else if (editor.layouts.isOpen.value) maker.leave();
   else if (rounds.isOpen.value) rounds.close();
   else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');

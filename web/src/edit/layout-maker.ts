@@ -6,6 +6,7 @@ import { isMapRef, type AgentJson, type SceneJson } from '../model/json';
 import { readScene } from '../model/read';
 import { startPose } from '../model/scene';
 import { Away, Refused, type Client } from '../net/client';
+import { inWords } from '../net/refusal';
 import { keep, recall } from '../net/storage';
 import type { Layout, Parameters, TemplateName } from '../net/types';
 import type { Editor } from './editor';
@@ -17,6 +18,8 @@ import { TEXTS } from '../texts/keeping';
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
 /** Who stands farther from every lane than this does not stand on one, metres. */
 const ON_LANE_M = 2.5;
+/** A server that does not answer is asked again after so long. */
+const AGAIN_MS = 2000;
 
 export class LayoutMaker {
   /** One question on its way, and the newest that came meanwhile. */
@@ -31,8 +34,8 @@ export class LayoutMaker {
   ) {
     effect(() => {
       const wish = editor.layouts.wish.value;
-      if (wish) this.#ask(wish);
-      else this.#waiting = null;
+      if (!wish) this.#waiting = null;
+      else if (!editor.layouts.isDrawn(wish)) this.#ask(wish);
     });
   }
 
@@ -70,6 +73,19 @@ export class LayoutMaker {
     this.editor.layouts.change(layout, base);
   }
 
+  /** Leaves the making; what was changed can be gone on with. */
+  leave(): void {
+    const { layouts, notices } = this.editor;
+    const reopen = layouts.close();
+    if (!reopen) return;
+    const run = (): void => {
+      notices.hide();
+      this.#open();
+      reopen();
+    };
+    notices.show({ text: TEXTS.theMapIsPutAway, action: { label: TEXTS.goOnWithIt, run } });
+  }
+
   #open(): void {
     const { editor } = this;
     editor.playhead.pause();
@@ -100,13 +116,22 @@ export class LayoutMaker {
           wish.parameters ?? (wish.traffic ? { traffic: wish.traffic } : null),
         );
         // What was closed or replaced by another template meanwhile is not shown.
-        if (layouts.wish.peek()?.template === wish.template) layouts.settle(reply, performance.now() - began);
+        if (layouts.wish.peek()?.template === wish.template) layouts.settle(wish, reply, performance.now() - began);
       } catch (e) {
         if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
-        layouts.refuse(e instanceof Refused ? e.message : TEXTS.theServerIsNot);
+        if (e instanceof Away) this.#askAgain(wish);
+        else if (layouts.wish.peek() === wish) layouts.refuse(inWords(e.problem));
       }
     }
     this.#running = false;
+  }
+
+  #askAgain(wish: MapWish): void {
+    const { layouts } = this.editor;
+    layouts.unanswered(TEXTS.theServerIsNot);
+    setTimeout(() => {
+      if (layouts.wish.peek() === wish) this.#ask(wish);
+    }, AGAIN_MS);
   }
 
   #next(): MapWish | null {

@@ -89,6 +89,8 @@ export class Layouts {
   /** The wish before a drag, which is one step. */
   #held: MapWish | null = null;
   #last = { number: '', at: 0 };
+  /** What the map on the picture was drawn from, and the steps that led there. */
+  #drawnFrom: { readonly wish: MapWish; readonly past: readonly MapWish[] } | null = null;
   /** The scene whose map is changed; null for a new one. */
   #base: SceneJson | null = null;
 
@@ -132,7 +134,7 @@ export class Layouts {
   choose(template: TemplateName, traffic?: DrivingSide): void {
     batch(() => {
       this.#forget();
-      this.#made.value = null;
+      this.#clear();
       this.#step({ template, parameters: null, ...(traffic && { traffic }) });
     });
   }
@@ -146,17 +148,36 @@ export class Layouts {
     });
   }
 
-  close(): void {
+  /** What is given back opens it again as it was left; null where nothing was changed. */
+  close(): (() => void) | null {
+    const left = { wish: this.#now(), made: this.#made.peek(), arm: this.#arm.peek(), steps: this.#steps.peek() };
+    const base = this.#base;
+    const reopen = (): void => {
+      this.#base = base;
+      batch(() => {
+        this.#wish.value = left.wish;
+        this.#made.value = left.made;
+        this.#arm.value = left.arm;
+        this.#steps.value = left.steps;
+      });
+    };
     this.#base = null;
     this.#held = null;
     batch(() => {
       this.#forget();
       this.#wish.value = null;
-      this.#made.value = null;
+      this.#clear();
       this.#turned.value = null;
       this.#asking.value = false;
       this.#steps.value = NO_STEPS;
     });
+    return left.steps.past.length ? reopen : null;
+  }
+
+  /** Nothing is drawn. */
+  #clear(): void {
+    this.#made.value = null;
+    this.#drawnFrom = null;
   }
 
   #forget(): void {
@@ -214,7 +235,8 @@ export class Layouts {
     const before = this.#held;
     this.#held = null;
     this.#last = { number: '', at: 0 };
-    if (before && before.parameters !== this.parameters.peek())
+    if (this.#fault.peek()) this.#backToMade();
+    else if (before && before.parameters !== this.parameters.peek())
       this.#steps.value = { past: [...this.#steps.peek().past, before].slice(-MOST_STEPS), next: [] };
   }
 
@@ -236,7 +258,7 @@ export class Layouts {
   #goTo(wish: MapWish | undefined, steps: { past: readonly MapWish[]; next: readonly MapWish[] }): void {
     if (!wish) return;
     batch(() => {
-      if (wish.template !== this.#wish.peek()?.template) this.#made.value = null;
+      if (wish.template !== this.#wish.peek()?.template) this.#clear();
       this.#fault.value = null;
       this.#wish.value = wish;
       this.#steps.value = steps;
@@ -382,7 +404,14 @@ export class Layouts {
     this.#asking.value = true;
   }
 
-  settle(reply: MapReply, ms: number): void {
+  /** Is it the one that the map on the picture was drawn from? */
+  isDrawn(wish: MapWish): boolean {
+    return wish === this.#drawnFrom?.wish;
+  }
+
+  settle(wish: MapWish, reply: MapReply, ms: number): void {
+    // Where more was wished for meanwhile its steps are among these; what was drawn is a way back all the same.
+    this.#drawnFrom = { wish, past: this.#steps.peek().past };
     const json = reply.scene as unknown as SceneJson;
     const { layout, checks, arms, corners, ways } = reply;
     batch(() => {
@@ -392,10 +421,27 @@ export class Layouts {
     });
   }
 
+  /** What cannot be drawn is not wished for any longer: fields and handles show the map that there is. */
   refuse(why: string): void {
     batch(() => {
       this.#asking.value = false;
       this.#fault.value = why;
+      if (!this.#held) this.#backToMade();
     });
+  }
+
+  /** Nothing could be drawn: of what is wished for and what is there nothing changes. */
+  unanswered(why: string): void {
+    batch(() => {
+      this.#asking.value = false;
+      this.#fault.value = why;
+    });
+  }
+
+  #backToMade(): void {
+    const was = this.#drawnFrom;
+    if (!was || was.wish === this.#wish.peek()) return;
+    this.#wish.value = was.wish;
+    this.#steps.value = { ...this.#steps.peek(), past: was.past };
   }
 }

@@ -7,6 +7,8 @@ export const TEXTS = table('keeping', {
   thereIsNoRoom: 'There is no room here.',
   roadUsersPlaced: (count: number, reason: string) => `${count} road users placed. ${reason}`,
   theServerIsNot: 'The server is not answering.',
+  theMapIsPutAway: 'The map was put away.',
+  goOnWithIt: 'Go on with it',
   newMap: 'New map',
   noLongerStand: (count: number, lost: string) => `${count} no longer stand on a lane: ${lost}.`,
   otherMap: (base: undefined | string) => `${base}, other map`,

@@ -60,7 +60,7 @@ const DRAGGED: ReadonlySet<string> = new Set(['kerb_radius_m', 'lane_width_m']);
 const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
 
 export default function LayoutPanel() {
-  const { editor } = useApp();
+  const { editor, maker } = useApp();
   const { layouts } = editor;
   const wish = layouts.wish.value;
   const parameters = layouts.parameters.value;
@@ -93,7 +93,7 @@ export default function LayoutPanel() {
         <ActionButton id="use-map" class="pri" icon="" withKey>
           {TEXTS.useThisMap}
         </ActionButton>
-        <button type="button" class="btn line" onClick={() => layouts.close()}>
+        <button type="button" class="btn line" onClick={() => maker.leave()}>
           {TEXTS.cancel}
         </button>
       </div>

@@ -69,7 +69,7 @@ export default function Templates() {
     <section class="card templates" aria-label={TEXTS.startFrom}>
       <h2>
         {TEXTS.startFrom}
-        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => layouts.close()}>
+        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => maker.leave()}>
           <Icon name="x" size={16} />
         </button>
       </h2>

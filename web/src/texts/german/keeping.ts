@@ -9,6 +9,8 @@ export const german: Said<typeof TEXTS> = {
   thereIsNoRoom: 'Hier ist kein Platz.',
   roadUsersPlaced: (count, reason) => `${count} Verkehrsteilnehmer eingesetzt. ${reason}`,
   theServerIsNot: 'Der Server antwortet nicht.',
+  theMapIsPutAway: 'Die Karte wurde weggelegt.',
+  goOnWithIt: 'Weitermachen',
   newMap: 'Neue Karte',
   noLongerStand: (count, lost) =>
     plural(count, {

@@ -2,18 +2,13 @@ import type { TEXTS } from '../kinds';
 import { plural } from '../german-plural';
 import type { Said } from '../table';
 
-/** Nouns are the same in a sentence and at the head of one. */
-const NAMES = {
+export const german: Said<typeof TEXTS> = {
   car: 'Auto',
   truck: 'Lkw',
   bus: 'Bus',
   motorcycle: 'Motorrad',
   cyclist: 'Radfahrer',
   pedestrian: 'Fußgänger',
-};
-
-export const german: Said<typeof TEXTS> = {
-  ...NAMES,
   object: 'Objekt',
   smallCar: 'Kleinwagen',
   van: 'Lieferwagen',
@@ -29,7 +24,15 @@ export const german: Said<typeof TEXTS> = {
   adult: 'Erwachsener',
   child: 'Kind',
   wheelchair: 'Rollstuhl',
-  one: { ...NAMES, other: 'Objekt' },
+  one: {
+    car: 'Auto',
+    truck: 'Lkw',
+    bus: 'Bus',
+    motorcycle: 'Motorrad',
+    cyclist: 'Radfahrer',
+    pedestrian: 'Fußgänger',
+    other: 'Objekt',
+  },
   count: {
     car: (n: number) => plural(n, { one: `${n} Auto`, other: `${n} Autos` }),
     truck: (n: number) => `${n} Lkw`,
