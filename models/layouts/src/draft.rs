@@ -2,7 +2,7 @@
 
 use crate::curve::{self, Pose};
 use crate::parameters::{Connection, Turn};
-use crate::turns::Movement;
+use crate::turns::{Movement, mirrored};
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, StopSign, TypedLine};
 use scene::{Signal, Vec2};
 use schemars::JsonSchema;
@@ -257,6 +257,8 @@ impl Draft {
             flip(&mut arm.end_m);
             arm.ins_m.iter_mut().chain(&mut arm.outs_m).for_each(flip);
         }
+        self.arms.iter_mut().for_each(|arm| arm.turns = mirrored(&arm.turns));
+        self.movements.iter_mut().for_each(|m| m.turn = m.turn.mirrored());
         self.corners.iter_mut().for_each(|corner| flip(&mut corner.at_m));
         self
     }

@@ -6,7 +6,7 @@ use crate::draft::{ArmPlace, CornerPlace, Draft, place};
 use crate::lights::{self, Crossing};
 use crate::parameters::{Arm, Connection, Connections, Control, Junction, Traffic};
 use crate::roadway::{Plan, Profile, Roadway};
-use crate::turns::{names, of_lanes};
+use crate::turns::{mirrored, names, of_lanes};
 use scene::Vec2;
 use scene::geometry::{cross, direction};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -75,7 +75,9 @@ pub fn spokes(arms: &[Arm], lane_m: f64, traffic: Traffic) -> (Vec<Spoke>, Vec<u
         .map(|arm| match traffic {
             Traffic::RightHand => arm.clone(),
             // The drawing is mirrored in the end.
-            Traffic::LeftHand => Arm { angle_deg: -arm.angle_deg, ..arm.clone() },
+            Traffic::LeftHand => {
+                Arm { angle_deg: -arm.angle_deg, turns: arm.turns.as_deref().map(mirrored), ..arm.clone() }
+            }
         })
         .collect();
     let mut order: Vec<usize> = (0..arms.len()).collect();

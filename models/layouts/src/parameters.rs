@@ -54,6 +54,18 @@ pub enum Turn {
     Right,
 }
 
+impl Turn {
+    /// The same in the mirror image.
+    #[must_use]
+    pub(crate) fn mirrored(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Straight => Self::Straight,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
 /// The lights of a junction: its phases follow one another without end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -50,6 +50,12 @@ pub fn directions(arms: &[Arm], from: usize) -> Vec<Option<Turn>> {
         .collect()
 }
 
+/// What lanes are for in the mirror image.
+pub fn mirrored(lanes: &[Vec<Turn>]) -> Vec<Vec<Turn>> {
+    let lane = |turns: &Vec<Turn>| turns.iter().rev().map(|turn| turn.mirrored()).collect();
+    lanes.iter().map(lane).collect()
+}
+
 /// What each lane in is for, from the middle of the road to the kerb.
 pub fn of_lanes(arms: &[Arm], from: usize) -> Vec<Vec<Turn>> {
     if let Some(turns) = &arms[from].turns {

@@ -292,8 +292,20 @@ proptest! {
 
     #[test]
     fn left_hand_traffic_is_the_mirror_image(junction in connected()) {
+        // What one calls left is left, whichever side one drives on.
+        let turn = |turn: &Turn| match turn {
+            Turn::Left => Turn::Right,
+            Turn::Straight => Turn::Straight,
+            Turn::Right => Turn::Left,
+        };
+        let lane = |turns: &Vec<Turn>| turns.iter().rev().map(turn).collect();
+        let arm = |arm: &Arm| Arm {
+            angle_deg: -arm.angle_deg,
+            turns: arm.turns.as_ref().map(|lanes| lanes.iter().map(lane).collect()),
+            ..arm.clone()
+        };
         let mirrored = Junction {
-            arms: junction.arms.iter().map(|arm| Arm { angle_deg: -arm.angle_deg, ..arm.clone() }).collect(),
+            arms: junction.arms.iter().map(arm).collect(),
             traffic: Traffic::RightHand,
             ..junction.clone()
         };
@@ -301,6 +313,10 @@ proptest! {
         let right = build(&Layout::FourArms(mirrored)).unwrap();
         prop_assert_eq!(left.map, right.map.mirrored());
         prop_assert_eq!(left.signals.len(), right.signals.len());
+        prop_assert_eq!(left.ways.len(), right.ways.len());
+        for (own, other) in left.ways.iter().zip(&right.ways) {
+            prop_assert_eq!((own.connection, own.turn), (other.connection, turn(&other.turn)));
+        }
     }
 
     #[test]
