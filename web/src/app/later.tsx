@@ -49,6 +49,8 @@ async function fetchPart(name: Name): Promise<void> {
   if (!here.has(name)) here.set(name, (await PARTS[name]()) as ComponentType);
 }
 
+/** A part that did not come is asked for again after so long: the server may be back. */
+const AGAIN_MS = 3000;
 /** The page is not busy for so long at most before the rest of it comes, whatever else goes on. */
 const REST_MS = 4000;
 
@@ -78,13 +80,17 @@ export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<
   const tried = tries.value;
   useEffect(() => {
     let wanted = true;
+    let again: ReturnType<typeof setTimeout> | undefined;
     const say = (to: 'there' | 'missing') => () => {
-      if (wanted) state.value = to;
+      if (!wanted) return;
+      state.value = to;
+      if (to === 'missing') again = setTimeout(() => tries.value++, AGAIN_MS);
     };
     // Also one that has come since it was drawn: nobody else would draw it anew.
     void fetchPart(part).then(say('there'), say('missing'));
     return () => {
       wanted = false;
+      clearTimeout(again);
     };
   }, [part, state, tried]);
   if (state.value === 'missing')

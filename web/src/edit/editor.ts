@@ -25,6 +25,12 @@ import { Playhead } from './playhead';
 import { Deck } from './rounds/deck';
 import { TEXTS } from '../texts/generation';
 
+/** A handle of the selected road user: of its start, of its goal, or a via point by its index. */
+export interface Keyed {
+  readonly part: Part;
+  readonly via: number | null;
+}
+
 export type Part = 'start' | 'goal';
 export type Field = 'pos' | 'heading' | 'speed';
 export type HandleName = 'body' | 'heading' | 'speed' | 'time' | 'via' | 'ring';
@@ -134,6 +140,7 @@ export class Editor {
   readonly #hover = signal<string | null>(null);
   readonly #hoverFuture = signal<number | null>(null);
   readonly #hoverGrip = signal<Grip | null>(null);
+  readonly #keyed = signal<Keyed | null>(null);
   readonly #focusPart = signal<Part>('start');
   readonly #viaInHand = signal<number | null>(null);
   readonly #lastField = signal<{ part: Part; field: Field }>({ part: 'goal', field: 'speed' });
@@ -167,6 +174,8 @@ export class Editor {
   readonly hover: ReadonlySignal<string | null> = this.#hover;
   readonly hoverFuture: ReadonlySignal<number | null> = this.#hoverFuture;
   readonly hoverGrip: ReadonlySignal<Grip | null> = this.#hoverGrip;
+  /** The handle that keys move now: it has the focus, and one sees where it is. */
+  readonly keyed: ReadonlySignal<Keyed | null> = this.#keyed;
   /** The part that keys move. */
   readonly focusPart: ReadonlySignal<Part> = this.#focusPart;
   /** The via point that keys are about; null where there is none. */
@@ -512,7 +521,7 @@ export class Editor {
       this.#hoverFuture.value = null;
       this.#selectedEvent.value = null;
       this.#focusPart.value = 'start';
-      this.#viaInHand.value = null;
+      this.#viaInHand.value = this.#keyed.value = null;
       this.answers.forgetLook();
     });
     const a = this.agent.peek();
@@ -547,6 +556,11 @@ export class Editor {
       this.#hoverFuture.value = future;
       this.#hoverGrip.value = grip;
     });
+  }
+
+  /** A handle has the focus of keys; null when none has. */
+  focusHandle(handle: Keyed | null): void {
+    this.#keyed.value = handle;
   }
 
   /** Keys move this part from now on. */

@@ -2,6 +2,7 @@
 import { effect } from '@preact/signals-core';
 import { drivingSide, type DrivingSide } from '../model/driving-side';
 import { nearestLanes } from '../model/lanemap';
+import { TEMPLATE_TITLES } from '../model/layouts';
 import { isMapRef, type AgentJson, type SceneJson } from '../model/json';
 import { readScene } from '../model/read';
 import { startPose } from '../model/scene';
@@ -152,7 +153,7 @@ export class LayoutMaker {
     const base = layouts.base;
     if (!made || layouts.asking.peek()) return;
     layouts.close();
-    if (!base) return this.care.newOnMap(made.json, made.json.name ?? TEXTS.newMap);
+    if (!base) return this.care.newOnMap(made.json, TEMPLATE_TITLES[made.layout.template]);
     const agents: AgentJson[] = base.agents;
     const body: SceneJson = { ...base, map: made.json.map, signals: made.json.signals, agents, generated: null };
     Object.assign(body, { x_layout: made.layout });

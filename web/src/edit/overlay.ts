@@ -21,6 +21,7 @@ import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { HoveredOverlay } from './overlay-hovered';
+import { shownPose } from './moves';
 import { paintPins, paintPinWords } from './overlay-pins';
 import { paintStops, type StopBar } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
@@ -39,6 +40,8 @@ const RAIL_W = 62;
 const DRAG_HELP_W = 650;
 /** Above the zoom control, or above the thumb on a small page. */
 const COMPASS_PX = 84;
+/** The ring around the handle that keys move, outside of what the handle is. */
+const KEYED_PX = 15;
 const RAIL_LEAST = 40;
 const RAIL_MOST = 140;
 /** About as wide as a toast is, pixels. */
@@ -254,6 +257,20 @@ export class Overlay {
     this.paintLetters(g, v, a);
     if (!e.drag.value) paintPinWords(g, this.labels, v, pins);
     this.goal.dragLabels(g, v, a, goal);
+    this.paintKeyed(g, v, a);
+  }
+
+  /** Around the handle that keys move. */
+  private paintKeyed(g: Pen, v: View, a: Agent): void {
+    const keyed = this.editor.keyed.value;
+    const pose = keyed && keyed.via === null ? shownPose(this.editor, a, keyed.part) : null;
+    const at = keyed?.via != null ? a.goal.via[keyed.via]?.pos : pose && ([pose.x, pose.y] as const);
+    if (!at) return;
+    g.strokeStyle = colours().focus;
+    g.lineWidth = 2.5;
+    g.beginPath();
+    g.arc(...v.to(at[0], at[1]), KEYED_PX * v.grip, 0, 2 * Math.PI);
+    g.stroke();
   }
 
   /** Are the futures of the selected road user shown? While cards are scenes they are not what is looked at. */

@@ -90,6 +90,7 @@ export class Picture {
         e.hover.value,
         e.hoverFuture.value,
         e.hoverGrip.value,
+        e.keyed.value,
         e.localReach.value,
         e.liveReach.value,
         e.measure.value,

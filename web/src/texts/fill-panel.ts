@@ -15,8 +15,6 @@ export const TEXTS = table('fill-panel', {
   keepWhatIsThere: 'Keep what is there',
   everybodyStays: 'Everybody stays',
   thoseInTheArea: 'Those in the area who are not locked make room',
-  on: 'On',
-  off: 'Off',
   seed: 'Seed',
   seedOfTheFill: 'Seed of the fill',
   add: (count: string) => `Add ${count}`,

@@ -65,6 +65,7 @@ export const TEXTS = table('layouts', {
   close: 'Close',
   threeArms: 'Three arms',
   fourArms: 'Four arms',
+  arms: (n: number) => `${n} arms`,
   roundabout: 'Roundabout',
   merge: 'Merge',
   straight: 'Straight',

@@ -20,6 +20,7 @@ export const TEXTS = table('variants-panel', {
   ndoubleClick: (card: string) => `${card}\nDouble click: another name`,
   nameOfVariant: (id: number) => `Name of variant ${id}`,
   compare: 'Compare',
+  sides: { first: 'first', left: 'left', right: 'right' },
   variantAndVariant: (id: number, id2: number) => `Variant ${id} and variant ${id2}`,
   endTheComparison: 'End the comparison',
   whenTheyPart: 'When they part',

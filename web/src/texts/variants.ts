@@ -21,6 +21,7 @@ export const TEXTS = table('variants', {
   cardsKept: (n: number) => plural(n, { one: 'A card kept as a variant', other: `${n} cards kept as variants` }),
   casesKept: (n: number) => plural(n, { one: 'A case kept as a variant', other: `${n} cases kept as variants` }),
   thereIsNoRoom: 'There is no room for more variants. Remove some first.',
+  pickTheSecond: (id: number) => `Variant ${id} and which other? Pick it, then compare once more.`,
   variantsAndThey: (left: number, right: number, words: string) =>
     `Variants ${left} and ${right}. They part: ${words}.`,
   variantsAndTheyAre: (left: number, right: number) => `Variants ${left} and ${right}. They are alike.`,

@@ -47,9 +47,10 @@ interface SliderProps {
 
 function Slider({ label, part, via, now, text, move }: SliderProps) {
   const { editor } = useApp();
-  const focus = () => {
+  const focus = (e: FocusEvent) => {
     editor.activate(part);
     if (via !== undefined) editor.takeVia(via);
+    if ((e.currentTarget as Element).matches(':focus-visible')) editor.focusHandle({ part, via: via ?? null });
   };
   const keyDown = (e: KeyboardEvent) => {
     if (!ARROWS[e.key] || e.ctrlKey || e.altKey) return;
@@ -68,6 +69,7 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
       aria-valuemin={-10000}
       aria-valuemax={10000}
       onFocus={focus}
+      onBlur={() => editor.focusHandle(null)}
       onKeyDown={keyDown}
     />
   );

@@ -14,6 +14,7 @@ import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import { Slider } from '../parts/slider';
+import { Switch } from '../parts/switch';
 import '../../styles/filling.css';
 import { TEXTS } from '../../texts/fill-panel';
 
@@ -85,17 +86,12 @@ export default function FillPanel() {
       </Line>
       <Arms />
       <Line label={TEXTS.keepWhatIsThere}>
-        <button
-          type="button"
-          class={`pillb ${wish.keep ? 'on' : ''}`}
-          role="switch"
-          aria-checked={wish.keep}
-          aria-label={TEXTS.keepWhatIsThere}
+        <Switch
+          label={TEXTS.keepWhatIsThere}
+          on={wish.keep}
           title={wish.keep ? TEXTS.everybodyStays : TEXTS.thoseInTheArea}
-          onClick={() => filling.setKeep(!wish.keep)}
-        >
-          {wish.keep ? TEXTS.on : TEXTS.off}
-        </button>
+          set={(keep) => filling.setKeep(keep)}
+        />
       </Line>
       <Line label={TEXTS.seed}>
         <SeedField label={TEXTS.seedOfTheFill} seed={wish.seed} set={(v) => filling.setSeed(v)} />

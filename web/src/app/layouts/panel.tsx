@@ -11,6 +11,7 @@ import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import { Slider } from '../parts/slider';
+import { Switch } from '../parts/switch';
 import '../../styles/layouts.css';
 import { TEXTS } from '../../texts/layouts';
 import { inSentence } from '../../texts/language';
@@ -76,7 +77,9 @@ export default function LayoutPanel() {
           <h2>{title}</h2>
           <p>
             {[
-              inSentence(TEMPLATE_TITLES[wish.template]),
+              wish.template.endsWith('-arms') && parameters?.arms
+                ? TEXTS.arms(parameters.arms.length)
+                : inSentence(TEMPLATE_TITLES[wish.template]),
               parameters?.control && inSentence(CONTROL_WORDS[parameters.control]),
             ]
               .filter(Boolean)
@@ -162,12 +165,6 @@ function NumberRow({ place, name, value, set }: NumberRowProps) {
         range={() => range}
       />
     </Row>
-  );
-}
-
-function Switch({ label, on, set }: { label: string; on: boolean; set: (on: boolean) => void }) {
-  return (
-    <button type="button" class="switch" role="switch" aria-checked={on} aria-label={label} onClick={() => set(!on)} />
   );
 }
 

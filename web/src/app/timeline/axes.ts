@@ -71,6 +71,7 @@ export const eventShown = ({ editor }: Context): TrafficEvent | null =>
 
 /** What happens in the plot: of two variants in both, each told by its number. */
 export function eventsShown(c: Context): readonly TrafficEvent[] {
+  if (c.editor.layouts.isNew.peek()) return [];
   const both = c.variants.compared.peek();
   if (!both) return c.editor.shownEvents.peek();
   const who = c.variants.followed.peek()?.agent.id;

@@ -95,8 +95,8 @@ function Hint({ axes: a }: { axes: Axes }) {
 }
 
 function whatIsMissing({ layouts, resting }: Editor): string {
-  if (layouts.isNew.value) return TEXTS.nobodyOnThisMap;
-  const scene = resting.value;
+  if (layouts.isNew.peek()) return TEXTS.nobodyOnThisMap;
+  const scene = resting.peek();
   if (!scene) return TEXTS.nothingToPlay;
   return scene.agents.size ? TEXTS.selectARoadUser : TEXTS.placeSomebody;
 }

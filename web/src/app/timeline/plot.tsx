@@ -17,6 +17,7 @@ import { TEXTS } from '../../texts/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor, variants }: Context): unknown => [
+  editor.layouts.isNew.value,
   variants.compared.value,
   variants.followed.value,
   editor.agent.value,

@@ -29,6 +29,8 @@ export function verdictOf({ set, events }: Pictured): { colour: string; word: st
   return { colour, word, fact: `${seconds(first.time)}, ${first.b?.name ?? first.a.name}` };
 }
 
+const SIDES = TEXTS.sides;
+
 export function CardView({ card, album }: { card: Card; album: Album }) {
   const { variants } = useApp();
   const { id, variant: v } = card;
@@ -76,7 +78,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
           <span class="blank">{card.scene ? TEXTS.workingItOut : TEXTS.otherRoadUsers}</span>
         )}
       </button>
-      {side ? <em class="badge-side">{side}</em> : null}
+      {side ? <em class="badge-side">{SIDES[side]}</em> : null}
       <button
         type="button"
         class={`star ${v.starred ? 'on' : ''}`}

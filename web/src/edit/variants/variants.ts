@@ -548,7 +548,9 @@ export class Variants {
   compareWith(id: number): void {
     const first = this.#picked.peek() ?? this.shown.peek();
     if (first === null || first === id) {
-      this.#picked.value = this.#picked.peek() === id ? null : id;
+      const taken = this.#picked.peek() !== id;
+      this.#picked.value = taken ? id : null;
+      if (taken) this.editor.notices.show({ text: TEXTS.pickTheSecond(id) });
       return;
     }
     this.compare(first, id);

@@ -17,8 +17,6 @@ export const german: Said<typeof TEXTS> = {
   keepWhatIsThere: 'Bisherige behalten',
   everybodyStays: 'Alle bleiben',
   thoseInTheArea: 'Wer auf der Fläche steht und nicht gesperrt ist, macht Platz',
-  on: 'Ein',
-  off: 'Aus',
   seed: 'Startwert',
   seedOfTheFill: 'Startwert der Füllung',
   add: (count) => `${count} einsetzen`,

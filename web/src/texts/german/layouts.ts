@@ -66,6 +66,7 @@ export const german: Said<typeof TEXTS> = {
   close: 'Schließen',
   threeArms: 'Drei Arme',
   fourArms: 'Vier Arme',
+  arms: (n) => `${n} Arme`,
   roundabout: 'Kreisverkehr',
   merge: 'Einfädelung',
   straight: 'Gerade',

@@ -22,6 +22,7 @@ export const german: Said<typeof TEXTS> = {
   ndoubleClick: (card) => `${card}\nDoppelklick: anderer Name`,
   nameOfVariant: (id) => `Name der Variante ${id}`,
   compare: 'Vergleich',
+  sides: { first: 'erste', left: 'links', right: 'rechts' },
   variantAndVariant: (id, id2) => `Variante ${id} und Variante ${id2}`,
   endTheComparison: 'Vergleich beenden',
   whenTheyPart: 'Wo sie sich trennen',

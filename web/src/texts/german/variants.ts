@@ -24,6 +24,7 @@ export const german: Said<typeof TEXTS> = {
     plural(n, { one: 'Ein Vorschlag als Variante behalten', other: `${n} Vorschläge als Varianten behalten` }),
   casesKept: (n) => plural(n, { one: 'Ein Fall als Variante behalten', other: `${n} Fälle als Varianten behalten` }),
   thereIsNoRoom: 'Für weitere Varianten ist kein Platz. Erst einige entfernen.',
+  pickTheSecond: (id) => `Variante ${id} und welche noch? Auswählen, dann noch einmal vergleichen.`,
   variantsAndThey: (left, right, words) => `Varianten ${left} und ${right}. Sie trennen sich: ${words}.`,
   variantsAndTheyAre: (left, right) => `Varianten ${left} und ${right}. Sie sind gleich.`,
   theGeneratorIs: 'Der Generator antwortet nicht. Was bisher entstand, ist da.',
