@@ -40,6 +40,7 @@ export const TEXTS = table('inspector', {
   nothingToJudge: 'Nothing to judge yet.',
   notKnownWhile: 'Not known while the generator is away',
   notWorkedOut: 'Not worked out yet',
+  moreEvents: (n: number) => plural(n, { one: `${n} more event`, other: `${n} more events` }),
   noCollisions: 'No collisions, no near misses',
   signals: 'signals',
   leftHandTraffic: 'Left-hand traffic',

@@ -8,17 +8,23 @@ import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/inspector';
 
 export function EventList({ most = Infinity }: { most?: number }) {
-  const { editor } = useApp();
+  const { editor, ui } = useApp();
   const all = editor.events.value;
   const own = counted(all);
   // Those that count come first.
   const events = [...own, ...all.filter((e) => e.inLog)].slice(0, most);
+  const left = own.length - events.length;
   return (
     <div>
       {own.length ? null : <NoEvents />}
       {events.map((e) => (
         <Row key={`${e.what}:${e.a.id}:${e.b?.id ?? ''}:${e.time}`} event={e} />
       ))}
+      {left > 0 ? (
+        <button type="button" class="btn line" onClick={() => ui.showEvents(true)}>
+          {TEXTS.moreEvents(left)}
+        </button>
+      ) : null}
     </div>
   );
 }

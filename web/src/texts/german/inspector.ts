@@ -42,6 +42,7 @@ export const german: Said<typeof TEXTS> = {
   nothingToJudge: 'Noch nichts zu bewerten.',
   notKnownWhile: 'Unbekannt, solange der Generator weg ist',
   notWorkedOut: 'Noch nicht berechnet',
+  moreEvents: (n) => plural(n, { one: `${n} weiteres Ereignis`, other: `${n} weitere Ereignisse` }),
   noCollisions: 'Keine Zusammenstöße, keine Beinahe-Unfälle',
   signals: 'Ampeln',
   leftHandTraffic: 'Linksverkehr',
