@@ -1,4 +1,5 @@
 // The status line: what the generator is doing, or what happens in the scene.
+import type { Lane } from '../../model/lanemap';
 import { num } from '../../model/units';
 import { summary, worstOf, type TrafficEvent } from '../../model/events';
 import { KIND_WORDS } from '../../model/kinds';
@@ -49,14 +50,17 @@ function workLine({ searching, variants }: Context): Line | null {
   return { dot: 'busy', text: TEXTS.searching(tried, of, open.found.value.length) };
 }
 
+/** Lanes for motor vehicles, which are what one calls lanes. */
+const driven = (lanes: ReadonlyMap<string, Lane>): number =>
+  [...lanes.values()].filter((l) => l.kind === 'road').length;
+
 /** What the map that is being made holds. */
 function mapLine({ editor }: Context): Line {
   const made = editor.layouts.made.value;
   if (!made) return { dot: 'busy', text: TEXTS.drawing };
   const { lanes, crosswalks } = made.scene.map;
-  const driven = [...lanes.values()].filter((l) => l.kind === 'road').length;
   const bad = made.checks.some((k) => !k.passed);
-  const words = TEXTS.lanesCrosswalks(driven, crosswalks.length, Math.max(1, Math.round(made.ms)));
+  const words = TEXTS.lanesCrosswalks(driven(lanes), crosswalks.length, Math.max(1, Math.round(made.ms)));
   return { dot: bad ? 'near' : '', text: words };
 }
 
@@ -141,7 +145,7 @@ function sceneLine({ editor }: Context): Line {
   const scene = editor.scene.value;
   if (!scene) return { dot: '', text: TEXTS.ready };
   const { size } = scene.agents;
-  if (!size) return { dot: '', text: TEXTS.mapReadyLanes(scene.map.lanes.size) };
+  if (!size) return { dot: '', text: TEXTS.mapReadyLanes(driven(scene.map.lanes)) };
   if (!editor.layers.value.log) return { dot: '', text: TEXTS.readyRoadUsers(size) };
   const edited = [...scene.agents.values()].filter(touched).length;
   return { dot: '', text: TEXTS.logShownDashed(edited, size) };

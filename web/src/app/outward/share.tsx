@@ -130,7 +130,7 @@ function Switch({ label, note, on, set }: SwitchProps) {
         {label}
         {note ? <small>{note}</small> : null}
       </span>
-      <i />
+      <i class="knob" />
     </button>
   );
 }

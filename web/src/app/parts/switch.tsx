@@ -1,4 +1,4 @@
-// On or off.
+// On or off, where what it is for stands beside it.
 interface SwitchProps {
   label: string;
   on: boolean;
@@ -9,11 +9,13 @@ interface SwitchProps {
 export const Switch = ({ label, on, title, set }: SwitchProps) => (
   <button
     type="button"
-    class="switch"
+    class="bareswitch"
     role="switch"
     aria-checked={on}
     aria-label={label}
     title={title}
     onClick={() => set(!on)}
-  />
+  >
+    <i class="knob" />
+  </button>
 );
