@@ -69,6 +69,9 @@ export function saveAll(editor: Editor, files: readonly ExportedFile[]): void {
 export const slug = (s: string | undefined): string =>
   (s ?? '')
     .toLowerCase()
+    .replaceAll('ß', 'ss')
+    .normalize('NFKD')
+    .replace(/\p{M}/gu, '')
     .replace(/[^a-z0-9]+/g, '-')
     .replace(/^-|-$/g, '') || 'scene';
 

@@ -177,9 +177,13 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   goal_missed: TEXTS.goalMissed,
 };
 
+/** They come no nearer than this, metres, or nobody knows how near: what counts is how little time there was. */
+const isMissInTime = ({ extent }: Raw): boolean => extent === null || extent > 1;
+
 /** How bad it is, in the unit of its kind. */
 function extentWords(r: Raw, unit: SpeedUnit): string | null {
-  if (r.extent === null) return r.ttc === null ? null : TEXTS.sToCollision(num(r.ttc, 1));
+  if (r.ttc !== null && isMissInTime(r)) return TEXTS.sToCollision(num(r.ttc, 1));
+  if (r.extent === null) return null;
   switch (r.what) {
     case 'collision':
       return TEXTS.closingAt(speedLabel(r.extent, unit));
@@ -231,8 +235,7 @@ function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
 
 function shortOf(scene: Scene, r: Raw): string {
   const other = (r.b !== null && nameIn(scene)(r.b)) || '';
-  if (r.what === 'near_miss' && r.ttc !== null && (r.extent === null || r.extent > 1))
-    return TEXTS.sToCollisionWith(num(r.ttc, 1), other);
+  if (r.what === 'near_miss' && r.ttc !== null && isMissInTime(r)) return TEXTS.sToCollisionWith(num(r.ttc, 1), other);
   const fault = {
     kind: r.what,
     time: r.time,
