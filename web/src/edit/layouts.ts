@@ -98,7 +98,7 @@ export class Layouts {
   readonly wish: ReadonlySignal<MapWish | null> = this.#wish;
   readonly isOpen = computed(() => this.wish.value !== null);
   /** Is it one that nobody is on? */
-  readonly isNew = computed(() => this.isOpen.value && !this.#base);
+  readonly isNew = computed(() => this.wish.value !== null && !this.#base);
   readonly made = computed<Made | null>(() => (this.wish.value ? this.#made.value : null));
   /** Why the last change was not taken. */
   readonly fault: ReadonlySignal<string | null> = this.#fault;

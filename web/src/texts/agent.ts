@@ -95,7 +95,8 @@ export const TEXTS = table('agent', {
     plural(count, { one: `Within ${furthest} at ${time}.`, other: `All within ${furthest} at ${time}.` }),
   endUpToAway: (count: number, letter: string, furthest: string, letters: string) =>
     plural(count, { one: `${letter} ends ${furthest} short.`, other: `${letters} end up to ${furthest} away.` }),
-  stopsFor: (lasts: string, goesOn: boolean) => `Stops for ${lasts}${goesOn ? ', then goes on' : ''}`,
+  stopsFor: (lasts: string) => `Stops for ${lasts}, then goes on`,
+  stopsAndStays: (from: string) => `Stops at ${from} and stays`,
   goesAtYourSpeed: 'Goes at your speed',
   brakesAtMost: (braking: string) => `Brakes ${braking} at most.`,
   reachesTheGoal: (time: string) => `Reaches the goal at ${time}.`,

@@ -31,6 +31,8 @@ export interface Verdict {
 
 /** A future that ends nearer to the goal than this has reached it, in metres. */
 const REACHED_M = 2;
+/** Who is no faster than this after a stop has not gone on, m/s. */
+const CREEPS_MPS = 0.5;
 /** A goal further from all lanes than this lies beside the road, in metres. */
 const NO_LANE_M = 4;
 
@@ -136,8 +138,13 @@ function onCurve({ editor: e }: Context, a: Agent): Verdict | null {
   if (!holds || markOf(mode.about) !== 'ok' || happening(e, a)) return null;
   const { motion } = mode;
   const [stop] = stopsOf(motion);
-  const goesOn = stop && !endsBefore(motion, stop.from + stop.lasts + STEP_S);
-  const title = stop ? TEXTS.stopsFor(seconds(stop.lasts), goesOn) : TEXTS.goesAtYourSpeed;
+  const after = stop ? Math.round((stop.from + stop.lasts) / STEP_S) - motion.first : 0;
+  const goesOn = motion.speed.slice(after).some((v) => v > CREEPS_MPS);
+  const title = !stop
+    ? TEXTS.goesAtYourSpeed
+    : goesOn
+      ? TEXTS.stopsFor(seconds(stop.lasts))
+      : TEXTS.stopsAndStays(seconds(stop.from));
   const words = [TEXTS.brakesAtMost(acceleration(hardestBraking(motion)))];
   if (a.goal.pos) words.push(TEXTS.reachesTheGoal(seconds(a.goal.time)));
   return { kind: 'ok', icon: 'check', title, words: words.join(' '), at: stop?.from ?? null };
