@@ -189,6 +189,24 @@ describe('what tells variants apart', () => {
     expect(p.moments[0].time).toBeLessThan(2.2);
     expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });
     expect(partingOf(side('1', on), side('2', on)).moments).toEqual([]);
+    // Of more than can be told the worst of both sides are, whichever side they are on.
+    const happens = (kind: TrafficEvent['kind'], time: number) =>
+      ({
+        kind,
+        what: 'near_miss',
+        time,
+        title: kind,
+        short: `at ${time}`,
+        at: [0, 0],
+        a,
+        b: null,
+        inLog: false,
+      }) as unknown as TrafficEvent;
+    const many = { ...side('1', on), events: [5, 6, 7, 8, 9].map((t) => happens('near', t)) };
+    const worse = { ...side('4', on), events: [happens('near', 2), happens('collision', 3)] };
+    const told = (l: typeof many, r: typeof many) => partingOf(l, r).moments.map((k) => k.words);
+    expect(told(many, worse)).toEqual(['4: near, at 2', '4: collision, at 3', '1: near, at 5', '1: near, at 6']);
+    expect(told(worse, many)).toEqual(told(many, worse));
     const wide = partingOf(side('1', on), side('2', drive(a, [8], 0.6)));
     expect(wide.moments[0].words).toBe(`${a.name} keeps further left in 2`);
   });

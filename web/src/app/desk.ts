@@ -24,7 +24,7 @@ import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
 import { followView, gliding } from './hud/view-tick';
-import { fitScene, followSelected, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
+import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { drawPage } from './shell';
 import { coach } from './watching';
@@ -86,6 +86,7 @@ function connect(c: Context): void {
   const { editor, gestures, generation, library, playback, sharing, stage, trial, ui, variants } = c;
   followView(stage);
   lookAtMade(c);
+  keepInView(c);
   stage.onFrame = (now) => {
     gestures.frame(now);
     playback.frame(now);

@@ -153,6 +153,16 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   stage.viewChanged();
 }
 
+/** Who is selected stays in the picture when a panel takes room from it; one that was out of it already stays out. */
+export function keepInView(c: Opening): void {
+  const { editor, stage } = c;
+  stage.onSmaller = (before) => {
+    const all = editor.chosenOnes.flatMap((a) => poseShown(editor, a) ?? []);
+    const wasSeen = all.every((p) => before.isClear(p.x, p.y, EDGE_PX));
+    if (wasSeen && !editor.dragging.peek()) bringIn(c, editor.selected.peek());
+  };
+}
+
 /** The menu of what is selected, at the first of them; else that of the ground, in the middle. */
 export function openMenu(c: Context): void {
   const { editor, stage, ui } = c;

@@ -32,6 +32,8 @@ export class Stage {
   /** A frame found the screen busy; it is made up for when a picture was shown. */
   private owed = false;
   private hurried = false;
+  /** Called when a panel, or a smaller window, has taken room from the picture; it looked as the view says. */
+  onSmaller: ((before: View) => void) | null = null;
   /** Called once per frame before painting, for animation. */
   onFrame: ((now: number) => void) | null = null;
   readonly #watchers = new Set<() => void>();
@@ -100,11 +102,13 @@ export class Stage {
       h = this.element.clientHeight;
     const dpr = Math.min(2, window.devicePixelRatio || 1);
     if (!w || !h || (w === v.w && h === v.h && dpr === v.dpr && this.painted)) return;
+    const before = this.painted && (w < v.w || h < v.h) ? v.copy() : null;
     v.w = w;
     v.h = h;
     v.dpr = dpr;
     this.invalidate(...LAYERS);
     this.#viewMoved();
+    if (before) this.onSmaller?.(before);
   }
 
   invalidate(...layers: LayerName[]): void {

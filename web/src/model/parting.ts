@@ -1,4 +1,5 @@
 // What differs between two variants: who does another thing, since when, and what comes of it.
+import { compareMarks } from './about';
 import { motionOf } from './changes';
 import { summary, counted, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
@@ -138,9 +139,11 @@ function goals(left: Side, right: Side): Row[] {
 function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
   const said = (e: TrafficEvent): string =>
     e.what === 'collision' && e.b ? TEXTS.meets(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
-  const events = [left, right].flatMap((s) =>
-    counted(s.events).map((e): Moment => ({ time: e.time, words: `${s.label}: ${said(e)}`, at: e.at })),
-  );
+  // Where there are too many the worst are told, and of these the first, whichever side they are on.
+  const events = [left, right]
+    .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))
+    .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time)
+    .map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
   // What happens in both the same way is no parting.
   const own = events.filter((e) => !events.some((o) => o !== e && sameBut(o, e)));
   const ways = parted.map((p) => wayOf(left, right, p));
