@@ -12,6 +12,8 @@ const JUNCTION_M = 45;
 const MOST = 0.6;
 /** More ways across than any one junction has. */
 const MANY = 400;
+/** So far out a lane is seen from the junction, metres. */
+const OUT_M = 20;
 /** Lanes so many before or after the junction are its arms. */
 const FAR_LANES = 4;
 
@@ -65,8 +67,10 @@ function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
   if (!ways.length) return null;
   const centre = meanOf(ways.map(middle));
   if (!near(centre, junction)) return null;
-  // Seen from the junction the end that is at it says which arm it is, however the road bends further out.
-  const at = pointAt(lane.line, into.length ? lane.line.length : 0);
+  // Seen from the junction a place a little way out says which arm it is, however the road bends further out. At its
+  // very end an outer lane of a wide road lies beside the arm.
+  const { length } = lane.line;
+  const at = pointAt(lane.line, into.length ? Math.max(0, length - OUT_M) : Math.min(length, OUT_M));
   const arm = TEXTS.arm(compass(Math.atan2(at.y - junction[1], at.x - junction[0])));
   if (lane.kind === 'bike') return TEXTS.bikeLane(arm);
   if (lane.type === 'bus_lane') return TEXTS.busLane(arm);

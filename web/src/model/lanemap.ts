@@ -46,6 +46,13 @@ export interface LaneMap {
   readonly grid: Grid;
 }
 
+/** So far beyond the map somebody may be, metres: logs and goals end there now and then. */
+const BEYOND_M = 200;
+
+/** Between which places of an axis somebody may be, metres. */
+export const placesAlong = ({ box }: LaneMap, axis: 0 | 1): readonly [number, number] =>
+  axis ? [box.y0 - BEYOND_M, box.y1 + BEYOND_M] : [box.x0 - BEYOND_M, box.x1 + BEYOND_M];
+
 const WIDTH: Record<LaneKind, number> = { road: 3.5, bike: 1.8, walk: 2, other: 3 };
 const flat = (pts: readonly Point[] | undefined): Vec[] => (pts ?? []).map((p): Vec => [p[0], p[1]]);
 

@@ -24,11 +24,9 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
+import { placesAlong } from '../../model/lanemap';
 import { TEXTS } from '../../texts/agent';
 import { SAYS_WHERE } from '../../texts/language';
-
-/** Places lie within this many metres of the middle of the scene. */
-const FAR_M = 10_000;
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
   return (
@@ -193,7 +191,7 @@ function FixedPill({ agent, part, field, label }: PartProps & { field: Field; la
 }
 
 function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
-  const { word, spec, shown, run, dragged, focused } = usePart(props);
+  const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
   const name = axis ? 'y' : 'x';
   const free = () => spec().pos === null;
   const set = (v: number, live?: boolean) => {
@@ -210,7 +208,7 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
       field={`${props.part}-pos`}
       value={() => shown()?.[name] ?? null}
       text={() => about(free(), shown()?.[name], (v) => num(v, 1))}
-      range={() => [-FAR_M, FAR_M]}
+      range={() => placesAlong(editor.scene.peek()!.map, axis)}
       free={free}
       live={() => dragged('body')}
       set={set}

@@ -10,12 +10,11 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { placesAlong } from '../../model/lanemap';
 import type { Command } from '../../model/commands';
 import { TEXTS } from '../../texts/via';
 import { inSentence } from '../../texts/language';
 import type { LiveAgent } from './use-agent';
-
-const FAR_M = 10_000;
 
 export function ViasSection({ agent }: { agent: LiveAgent }) {
   const count = useComputed(() => agent.value.goal.via.length).value;
@@ -84,7 +83,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
       step={0.1}
       value={() => via()?.pos[axis] ?? null}
       text={() => num(via()?.pos[axis] ?? 0, 1)}
-      range={() => [-FAR_M, FAR_M]}
+      range={() => placesAlong(editor.scene.peek()!.map, axis)}
       live={live('via')}
       set={(v, l) => {
         const [x, y] = agent.peek().goal.via[i].pos;
