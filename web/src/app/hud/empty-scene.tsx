@@ -34,7 +34,7 @@ function Card({ scene }: { scene: string }) {
       <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => c.ui.hideEmpty(scene)}>
         <Icon name="x" size={16} />
       </button>
-      <h2>{TEXTS.theMapIsInNobody}</h2>
+      <h2>{c.editor.scene.peek()!.map.lanes.size ? TEXTS.theMapIsInNobody : TEXTS.plainGroundNobody}</h2>
       <p>{TEXTS.startWithOne}</p>
       <div class="ways">
         {WAYS.map((id, i) => {
@@ -55,7 +55,11 @@ function Card({ scene }: { scene: string }) {
         <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
           {TEXTS.newMap}
         </button>{' '}
-        <KeyCaps of="Ctrl+N" /> {TEXTS.insteadOfThis} <KeyCaps of="Ctrl+K" /> {TEXTS.forEverything}
+        <KeyCaps of="Ctrl+N" /> {TEXTS.insteadOfThis}
+        <span class="everything">
+          {' · '}
+          <KeyCaps of="Ctrl+K" /> {TEXTS.forEverything}
+        </span>
       </p>
     </section>
   );
