@@ -1,6 +1,7 @@
 import { table } from './table';
 
 export const TEXTS = table('parts', {
+  noSeed: (typed: string) => `“${typed}” is no seed: that is a whole number.`,
   seed: 'Seed',
   diversity: 'Diversity',
   waiting: 'Waiting …',

@@ -66,8 +66,9 @@ interface SeedFieldProps {
   set: (v: number) => void;
 }
 
-/** A whole number; what is none goes back to the seed that holds. */
+/** A whole number; what is none goes back to the seed that holds, and is said. */
 export function SeedField({ label, seed, set }: SeedFieldProps) {
+  const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   return (
     <label class="field seed">
@@ -79,9 +80,11 @@ export function SeedField({ label, seed, set }: SeedFieldProps) {
         maxlength={16}
         value={seed}
         onChange={() => {
-          const v = Number(input.current!.value.replace(/\D/g, ''));
+          const typed = input.current!.value.trim();
+          const v = /^\d+$/.test(typed) ? Number(typed) : NaN;
           if (Number.isSafeInteger(v) && v !== seed) set(v);
           else input.current!.value = String(seed);
+          if (!Number.isSafeInteger(v)) editor.notices.show({ text: TEXTS.noSeed(typed) });
         }}
         onKeyDown={(e) => {
           if (e.key === 'Enter') input.current!.blur();

@@ -2,6 +2,7 @@ import type { TEXTS } from '../parts';
 import type { Said } from '../table';
 
 export const german: Said<typeof TEXTS> = {
+  noSeed: (typed) => `„${typed}“ ist kein Startwert: das ist eine ganze Zahl.`,
   seed: 'Startwert',
   diversity: 'Vielfalt',
   waiting: 'Wartet …',
