@@ -87,7 +87,8 @@ async function acrossMedian(e) {
     const [right, down] = await e.at(x, y);
     return [right + 9, down - 26];
   };
-  await e.drag(await flagAt(car.end), await flagAt(across), { moves: 4 });
+  // One move: what a drag shows hangs on what it has shown before.
+  await e.drag(await flagAt(car.end), await flagAt(across), { moves: 1 });
   await e.page.waitForSelector('.helpbar');
   await e.settled();
   await refined(e);
@@ -351,12 +352,12 @@ export const STATES = [
         const to = await e.at(start.x + ahead * Math.cos(start.heading), start.y + ahead * Math.sin(start.heading));
         return [to[0] + 9, to[1] - 26];
       };
-      await e.drag([x + 9, y - 26], await flagAt(45), { moves: 4 });
+      await e.drag([x + 9, y - 26], await flagAt(45), { moves: 1 });
       // Whoever would do something else has been asked; where this car itself waits nobody would.
       for (const ahead of [40, 35, 50, 30]) {
         await e.settled();
         if (await e.shows('.foreseen')) break;
-        await e.page.mouse.move(...(await flagAt(ahead)), { steps: 2 });
+        await e.page.mouse.move(...(await flagAt(ahead)));
       }
       await e.page.waitForSelector('.foreseen');
       await e.settled();
