@@ -424,8 +424,7 @@ export class Layouts {
   /** What cannot be drawn is not wished for any longer: fields and handles show the map that there is. */
   refuse(why: string): void {
     batch(() => {
-      this.#asking.value = false;
-      this.#fault.value = why;
+      this.unanswered(why);
       if (!this.#held) this.#backToMade();
     });
   }

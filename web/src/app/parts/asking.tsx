@@ -82,9 +82,10 @@ export function SeedField({ label, seed, set }: SeedFieldProps) {
         onChange={() => {
           const typed = input.current!.value.trim();
           const v = /^\d+$/.test(typed) ? Number(typed) : NaN;
-          if (Number.isSafeInteger(v) && v !== seed) set(v);
+          const isSeed = Number.isSafeInteger(v);
+          if (isSeed && v !== seed) set(v);
           else input.current!.value = String(seed);
-          if (!Number.isSafeInteger(v)) editor.notices.show({ text: TEXTS.noSeed(typed) });
+          if (!isSeed) editor.notices.show({ text: TEXTS.noSeed(typed) });
         }}
         onKeyDown={(e) => {
           if (e.key === 'Enter') input.current!.blur();
