@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { journeys } from '../support/journey.js';
+import { knobOfArm } from '../support/maps.js';
 
 const making = (e) => e.page.evaluate(() => document.querySelector('.stage').getAttribute('aria-busy') === 'false');
 
@@ -16,10 +17,6 @@ async function drawn(e) {
 const angle = (e) => e.value('layout-arms.angle_deg');
 
 const checks = (e) => e.page.locator('.checks li').allTextContents();
-
-/** Where a place so far out on an arm at this angle lies on the picture. */
-const onArm = (e, degrees, out) =>
-  e.at(out * Math.cos((degrees * Math.PI) / 180), out * Math.sin((degrees * Math.PI) / 180));
 
 /** The open scene, as the server has it. */
 async function stored(e) {
@@ -45,17 +42,8 @@ journeys('new map', (stage) => {
     // The arm to the north is turned by its knob, and sticks at nothing on the way.
     await e.key(']');
     assert.equal(await angle(e), 92);
-    const stop = await e.page.evaluate(async () => {
-      const reply = await fetch('/v1/map', {
-        method: 'POST',
-        headers: { 'Content-Type': 'application/json' },
-        body: JSON.stringify({ template: 'four-arms' }),
-      });
-      const { arms } = await reply.json();
-      return Math.hypot(...arms[1].mouth_m);
-    });
-    const knob = stop + 9;
-    await e.drag(await onArm(e, 92, knob), await onArm(e, 71, knob), {
+    const knob = await knobOfArm(e, 1);
+    await e.drag(await knob(92), await knob(71), {
       then: async () => {
         await drawn(e);
         assert.match(await e.text('.layouts'), /was 92°/);

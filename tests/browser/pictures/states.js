@@ -3,7 +3,7 @@
 import { carBesideMedian, carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
 import { devices } from '../support/devices.js';
 import { Fingers } from '../support/fingers.js';
-import { along, brokenScene, emptyScene, lanesBeside } from '../support/maps.js';
+import { along, brokenScene, emptyScene, knobOfArm, lanesBeside } from '../support/maps.js';
 
 /** A corner of the picture where the pointer is over nobody and no panel. */
 const REST = [700, 120];
@@ -101,13 +101,7 @@ async function turningAnArm(e) {
   await e.settled();
   await e.key(']');
   const now = await e.value('layout-arms.angle_deg');
-  const body = { template: 'four-arms' };
-  const made = await (await e.page.request.post(new URL('/v1/map', e.page.url()).href, { data: body })).json();
-  const out = Math.hypot(...made.arms[1].mouth_m) + 9;
-  const knob = (degrees) => {
-    const angle = (degrees * Math.PI) / 180;
-    return e.at(out * Math.cos(angle), out * Math.sin(angle));
-  };
+  const knob = await knobOfArm(e, 1);
   await e.drag(await knob(now), await knob(71), { moves: 4 });
   await e.settled();
 }

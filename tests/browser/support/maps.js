@@ -1,4 +1,4 @@
-// Maps of the example scenes, for journeys that begin with nobody on them.
+// Maps of the example scenes, for journeys that begin with nobody on them, and places on maps that are made.
 
 /** The crossing of the examples as a file with nobody in it. */
 export async function emptyScene(e) {
@@ -62,4 +62,15 @@ export function boxOf(polygon) {
   const xs = polygon.map((p) => p[0]),
     ys = polygon.map((p) => p[1]);
   return { x0: Math.min(...xs), x1: Math.max(...xs), y0: Math.min(...ys), y1: Math.max(...ys) };
+}
+
+/** So far beyond the mouth of its arm a knob lies, metres. */
+const KNOB_M = 9;
+
+/** Where the knob of an arm of a plain crossing lies on the page, when the arm is at an angle in degrees. */
+export async function knobOfArm(e, arm) {
+  const reply = await e.page.request.post(new URL('/v1/map', e.page.url()).href, { data: { template: 'four-arms' } });
+  const { arms } = await reply.json();
+  const out = Math.hypot(...arms[arm].mouth_m) + KNOB_M;
+  return (degrees) => e.at(out * Math.cos((degrees * Math.PI) / 180), out * Math.sin((degrees * Math.PI) / 180));
 }
