@@ -1,7 +1,7 @@
 // Where the keyboard goes on the page.
 
 /** The parts of the page in the order in which F6 goes through them. */
-const ORDER = ['top', 'scenes', 'users', 'handles', 'inspector', 'timeline'];
+const ORDER = ['top', 'scenes', 'history', 'users', 'tools', 'handles', 'inspector', 'rounds', 'variants', 'timeline'];
 /** What of a part takes the focus. */
 const FIRST = '[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]';
 

@@ -124,9 +124,10 @@ export class Answers {
 
   /**
    * The document changed. Known answers appear at once; otherwise the old ones stay, marked as out of date. `fresh`
-   * is the one road user whose futures still hold.
+   * is the one road user whose futures still hold. `again` are those to whom a change was done again: who else
+   * changes with it is said as it was the first time.
    */
-  documentChanged(scene: Scene, fresh: string | null): void {
+  documentChanged(scene: Scene, fresh: string | null, again: ReadonlySet<string> | null, unit: SpeedUnit): void {
     const key = sceneKey(scene);
     const known = this.#cache.get(key);
     const now = this.#motion.peek();
@@ -134,7 +135,7 @@ export class Answers {
     if (now.key === key && !now.stale) return;
     batch(() => {
       this.#forgetGone(scene);
-      this.#changes.value = [];
+      this.#changes.value = known && again && !now.stale ? findChanges(scene, now, known, again, unit) : [];
       this.#remark.value = null;
       if (known) {
         this.#motion.value = known;

@@ -337,7 +337,7 @@ export class Editor {
   run(command: Command): void {
     if (!this.#history || this.#refused()) return;
     const before = this.#history.scene;
-    this.#committed(this.#history.run(command), before, command.name, false);
+    this.#committed(this.#history.run(command), before, command.name, null);
   }
 
   undo(): void {
@@ -354,7 +354,7 @@ export class Editor {
     if (!h || id === h.head || this.#refused()) return;
     const before = h.scene;
     const name = h.step(id)?.name ?? TEXTS.backToTheBeginning;
-    this.#committed(h.goTo(id), before, name, true);
+    this.#committed(h.goTo(id), before, name, 'there');
     this.notices.say(TEXTS.nowAt(name));
   }
 
@@ -364,7 +364,7 @@ export class Editor {
     if (!h) return;
     const before = h.scene;
     h.adopt(name, scene);
-    this.#committed(h.scene, before, name, true);
+    this.#committed(h.scene, before, name, 'there');
   }
 
   /** Calls a step by a name of its own. */
@@ -390,14 +390,16 @@ export class Editor {
     const before = this.#history?.scene;
     const step = this.#history && !this.#refused() ? move(this.#history) : null;
     if (!step || !this.#history || !before) return;
-    this.#committed(this.#history.scene, before, step.name, true);
+    this.#committed(this.#history.scene, before, step.name, way);
     this.onTravel?.(step, way);
     const word = way === 'back' ? TEXTS.undone : TEXTS.doneAgain;
     this.notices.show({ text: `${word}: ${step.name}.` });
     this.notices.say(`${word}: ${step.name}.`);
   }
 
-  #committed(scene: Scene, before: Scene, name: string, undo: boolean): void {
+  /** `way`: where one travelled in the history to come here; null for a new step. */
+  #committed(scene: Scene, before: Scene, name: string, way: 'back' | 'forth' | 'there' | null): void {
+    const undo = way !== null;
     const changed = changedAgents(before, scene);
     const agent = changed.length === 1 ? changed[0] : null;
     const several = changed.length > 1 ? changed : undefined;
@@ -410,7 +412,11 @@ export class Editor {
       // A scene may have become shorter.
       this.playhead.moveTo(Math.min(this.time.peek(), scene.duration));
       if (counting) this.answers.countsOtherwise(scene);
-      else this.answers.documentChanged(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
+      else {
+        const fresh = agent && onlyPicked(before, scene, agent) ? agent : null;
+        const again = way === 'forth' ? new Set([...changed, ...this.#selected.peek()]) : null;
+        this.answers.documentChanged(scene, fresh, again, this.speedUnit.peek());
+      }
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
     this.onCommit?.(scene, {
@@ -482,7 +488,7 @@ export class Editor {
       return;
     }
     const before = this.#history.scene;
-    this.#committed(this.#history.commit(command), before, command.name, false);
+    this.#committed(this.#history.commit(command), before, command.name, null);
   }
 
   /** Everything back to where it was before the drag. */

@@ -68,7 +68,7 @@ export function Hud() {
 
 function Rail() {
   return (
-    <nav class="rail" aria-label={TEXTS.tools}>
+    <nav class="rail" data-group="tools" aria-label={TEXTS.tools}>
       {TOOLS.map((tool, i) => (
         <Fragment key={tool.name}>
           {i && 'places' in tool !== 'places' in TOOLS[i - 1] ? <hr /> : null}
