@@ -22,6 +22,17 @@ journeys('turning', (stage) => {
     assert.ok(turn(start.heading + turned, Math.PI / 2) < 0.1, `it drives up: turned by ${turned}`);
     assert.ok(await e.shows('.compass'));
 
+    // The middle button moves the picture, and pastes nothing where a browser would.
+    const still = await e.page.getAttribute('main.stage', 'data-view');
+    await e.page.mouse.move(400, 300);
+    await e.page.mouse.down({ button: 'middle' });
+    await e.page.mouse.move(430, 300, { steps: 3 });
+    await e.page.mouse.up({ button: 'middle' });
+    await e.until((was) => document.querySelector('.stage').dataset.view !== was, still);
+    assert.equal(await e.page.locator('.toast').count(), 0);
+    await e.key('Alt+r');
+    await e.settled();
+
     // With a click, where it is seen now.
     await e.letGo();
     await e.page.mouse.click(...(await e.at(start.x, start.y)));

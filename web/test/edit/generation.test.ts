@@ -84,10 +84,14 @@ describe('a change', () => {
     rest();
     generator.last.on.final(finalOf('1'), 5);
     const asked = generator.asked.length;
+    const changed = editor.changes.peek();
     editor.undo();
+    expect(editor.changes.peek()).toEqual([]);
     editor.redo();
     rest();
     expect(editor.motion.peek().futures.has('1')).toBe(true);
+    expect(changed).toHaveLength(1);
+    expect(editor.changes.peek()).toEqual(changed);
     expect(generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
   });
 });

@@ -101,6 +101,11 @@ export class Gestures {
     el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
     // The menu is the editor's own; it opens with the release, for the right button also moves the picture.
     el.addEventListener('contextmenu', (e) => e.preventDefault());
+    // The middle button moves the picture; on Linux the browser would paste with it as well.
+    for (const up of ['mouseup', 'auxclick'] as const)
+      el.addEventListener(up, (e) => {
+        if (e.button === 1) e.preventDefault();
+      });
     el.addEventListener('dblclick', (e) => this.#doubleClick(e));
     addEventListener('keydown', (e) => this.#key(e, true));
     addEventListener('keyup', (e) => this.#key(e, false));
