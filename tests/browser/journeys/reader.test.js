@@ -97,7 +97,8 @@ journeys('by a screen reader', (stage) => {
       if (here.group === 'users') await e.key('F6');
       else await e.key('Tab');
     }
-    for (const g of ['top', 'users', 'tools', 'inspector', 'timeline']) assert.ok(groups.has(g), `${g} among ${[...groups]}`);
+    for (const g of ['top', 'users', 'tools', 'inspector', 'timeline'])
+      assert.ok(groups.has(g), `${g} among ${[...groups]}`);
   });
 
   it('the list of road users is a panel too, with filters', { timeout: 60_000 }, async () => {

@@ -2,7 +2,7 @@
 // status line, and whether the generator is there at all.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { findChanges, type Change } from '../model/changes';
-import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
+import { ByDocument, emptyMotion, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
 import { withTaken } from '../model/pins';
 import { sceneKey, type Scene } from '../model/scene';
 import type { SpeedUnit } from '../model/units';
@@ -53,7 +53,9 @@ export class Answers {
   readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
-  readonly #cache = new MotionCache();
+  readonly #cache = new ByDocument<MotionSet>();
+  /** Who else changed with the step that led to a document. */
+  readonly #told = new ByDocument<{ readonly key: string; readonly changes: readonly Change[] }>();
 
   /** Everything worked out for the document, or for the one before it when `stale`. */
   readonly motion: ReadonlySignal<MotionSet> = this.#motion;
@@ -73,6 +75,7 @@ export class Answers {
   open(scene: Scene, saved: MotionSet | null): void {
     batch(() => {
       this.#cache.clear();
+      this.#told.clear();
       this.#draft.value = null;
       this.#changes.value = [];
       this.#foreseen.value = null;
@@ -124,10 +127,10 @@ export class Answers {
 
   /**
    * The document changed. Known answers appear at once; otherwise the old ones stay, marked as out of date. `fresh`
-   * is the one road user whose futures still hold. `again` are those to whom a change was done again: who else
-   * changes with it is said as it was the first time.
+   * is the one road user whose futures still hold. Done `again`, a
+   * step says once more who else changed with it.
    */
-  documentChanged(scene: Scene, fresh: string | null, again: ReadonlySet<string> | null, unit: SpeedUnit): void {
+  documentChanged(scene: Scene, fresh: string | null, again = false): void {
     const key = sceneKey(scene);
     const known = this.#cache.get(key);
     const now = this.#motion.peek();
@@ -135,7 +138,7 @@ export class Answers {
     if (now.key === key && !now.stale) return;
     batch(() => {
       this.#forgetGone(scene);
-      this.#changes.value = known && again && !now.stale ? findChanges(scene, now, known, again, unit) : [];
+      this.#changes.value = (known && again && this.#told.get(key)?.changes) || [];
       this.#remark.value = null;
       if (known) {
         this.#motion.value = known;
@@ -179,7 +182,9 @@ export class Answers {
       this.#motion.value = set;
       this.#draft.value = null;
       this.#foreseen.value = null;
-      if (except) this.#changes.value = findChanges(scene, before, set, except, unit);
+      if (!except) return;
+      this.#changes.value = findChanges(scene, before, set, except, unit);
+      this.#told.put({ key: set.key, changes: this.#changes.value });
     });
   }
 

@@ -414,8 +414,7 @@ export class Editor {
       if (counting) this.answers.countsOtherwise(scene);
       else {
         const fresh = agent && onlyPicked(before, scene, agent) ? agent : null;
-        const again = way === 'forth' ? new Set([...changed, ...this.#selected.peek()]) : null;
-        this.answers.documentChanged(scene, fresh, again, this.speedUnit.peek());
+        this.answers.documentChanged(scene, fresh, way === 'forth');
       }
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;

@@ -255,18 +255,18 @@ export const emptyMotion = (key: string): MotionSet => ({
   stale: false,
 });
 
-/** Answers by document key, so that undo shows the old paths at once. Oldest out first. */
-export class MotionCache {
-  private readonly map = new Map<string, MotionSet>();
+/** What belongs to a document, by its key, so that undo and redo show it at once. Oldest out first. */
+export class ByDocument<T extends { readonly key: string }> {
+  private readonly map = new Map<string, T>();
   constructor(private readonly limit = 120) {}
 
-  get(key: string): MotionSet | undefined {
+  get(key: string): T | undefined {
     return this.map.get(key);
   }
 
-  put(set: MotionSet): void {
-    this.map.delete(set.key);
-    this.map.set(set.key, set);
+  put(of: T): void {
+    this.map.delete(of.key);
+    this.map.set(of.key, of);
     if (this.map.size > this.limit) this.map.delete(this.map.keys().next().value as string);
   }
 
