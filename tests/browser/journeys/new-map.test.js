@@ -113,6 +113,14 @@ journeys('new map', (stage) => {
     assert.equal(await e.page.locator('.ways li').count(), ways + 1);
     assert.equal(await angle(e), 71);
 
+    // So does a scene that is opened in between.
+    await e.key('Control+k');
+    await e.page.keyboard.type('School street');
+    await e.page.keyboard.press('Enter');
+    await e.page.getByRole('button', { name: 'Go on with it' }).click();
+    await drawn(e);
+    assert.equal(await angle(e), 71);
+
     await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Equal').click();
     await drawn(e);
     await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Signals').click();

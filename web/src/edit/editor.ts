@@ -223,6 +223,8 @@ export class Editor {
   onSelect: ((id: string | null) => void) | null = null;
   /** Undo and redo went over a step. */
   onTravel: ((step: HistoryStep, way: 'back' | 'forth') => void) | null = null;
+  /** A map that was being made has given way to a scene; what is handed over goes on with it. */
+  onMapPutAway: ((reopen: () => void) => void) | null = null;
   /** Where the picture looks; kept with every step. */
   camera: () => Camera | null = () => null;
 
@@ -302,6 +304,7 @@ export class Editor {
   }
 
   open(scene: Scene, saved: MotionSet | null = null, kept: KeptHistory | null = null): void {
+    const reopenMap = this.layouts.close();
     batch(() => {
       this.#history = new History(scene, undefined, kept);
       this.#history.camera = () => this.camera();
@@ -316,7 +319,6 @@ export class Editor {
       this.playhead.rewind();
       this.placement.stop();
       this.filling.close();
-      this.layouts.close();
       if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
       this.#beside.value = null;
@@ -324,6 +326,7 @@ export class Editor {
       this.notices.hide();
       this.#nameSteps();
     });
+    if (reopenMap) this.onMapPutAway?.(reopenMap);
   }
 
   #show(scene: Scene): void {

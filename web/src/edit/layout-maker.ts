@@ -38,6 +38,7 @@ export class LayoutMaker {
       if (!wish) this.#waiting = null;
       else if (!editor.layouts.isDrawn(wish)) this.#ask(wish);
     });
+    editor.onMapPutAway = (reopen) => this.#offerToGoOn(reopen);
   }
 
   /** A new map, from the template that was chosen last. */
@@ -76,9 +77,12 @@ export class LayoutMaker {
 
   /** Leaves the making; what was changed can be gone on with. */
   leave(): void {
-    const { layouts, notices } = this.editor;
-    const reopen = layouts.close();
-    if (!reopen) return;
+    const reopen = this.editor.layouts.close();
+    if (reopen) this.#offerToGoOn(reopen);
+  }
+
+  #offerToGoOn(reopen: () => void): void {
+    const { notices } = this.editor;
     const run = (): void => {
       notices.hide();
       this.#open();

@@ -25,6 +25,7 @@ export const TEXTS = table('layouts', {
   median: 'Median',
   crosswalk: 'Crosswalk',
   kerbRadius: 'Kerb radius',
+  tighterCorner: (radius: string, a: string, b: string) => `${radius} between ${a} and ${b}: no room for more`,
   laneWidth: 'Lane width',
   pavement: 'Pavement',
   rampJoins: 'Ramp joins',

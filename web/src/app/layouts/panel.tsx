@@ -1,6 +1,6 @@
 // The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
 import { armTitle } from '../../model/arm-names';
-import type { ComponentChildren } from 'preact';
+import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/layouts';
 import { fromUnit, lengthUnit, num, retold, speedText, toLength, toUnit } from '../../model/units';
@@ -461,7 +461,10 @@ function Whole({ parameters }: { parameters: Parameters }) {
         />
       ) : null}
       {keys.map((key) => (
-        <NumberRow key={key} place={key} name={key} value={() => now(key)} set={(v) => layouts.set({ [key]: v })} />
+        <Fragment key={key}>
+          <NumberRow place={key} name={key} value={() => now(key)} set={(v) => layouts.set({ [key]: v })} />
+          {key === 'kerb_radius_m' ? <Tightest asked_m={now(key)} /> : null}
+        </Fragment>
       ))}
       {switches.map((key) => (
         <Row key={key} label={SWITCHES[key]}>
@@ -475,6 +478,19 @@ function Whole({ parameters }: { parameters: Parameters }) {
         set={(traffic) => layouts.set({ traffic })}
       />
     </section>
+  );
+}
+
+/** A corner that is drawn with a smaller radius than asked. */
+function Tightest({ asked_m }: { asked_m: number }) {
+  const made = useApp().editor.layouts.made.value;
+  const [least] = [...(made?.corners ?? [])].sort((a, b) => a.radius_m - b.radius_m);
+  if (!made || !least || least.radius_m > asked_m - 0.05) return null;
+  const [a, b] = least.arms.map((arm) => armTitle(made.arms[arm].name));
+  return (
+    <p class="mut short">
+      {TEXTS.tighterCorner(`${num(toLength(least.radius_m), 1)} ${lengthUnit()}`, a, b)}
+    </p>
   );
 }
 

@@ -26,6 +26,7 @@ export const german: Said<typeof TEXTS> = {
   median: 'Mittelstreifen',
   crosswalk: 'Zebrastreifen',
   kerbRadius: 'Eckradius',
+  tighterCorner: (radius: string, a: string, b: string) => `${radius} zwischen ${a} und ${b}: für mehr ist kein Platz`,
   laneWidth: 'Spurbreite',
   pavement: 'Gehweg',
   rampJoins: 'Einfahrt',
