@@ -1,15 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { limitsOf } from '../src/model/domain';
-import {
-  addedPoint,
-  hardestBraking,
-  motionOf,
-  movedPoint,
-  pathOf,
-  readProfile,
-  stopsOf,
-  timeOfStop,
-} from '../src/model/profile';
+import { addedPoint, motionOf, movedPoint, pathOf, readProfile, stopsOf, timeOfStop } from '../src/model/profile';
+import { hardestBraking } from '../src/model/motion';
 
 const line = (metres: number) => ({
   x: Array.from({ length: metres + 1 }, (_, i) => i),

@@ -30,6 +30,10 @@ const THERE_M = 0.6;
 
 /** A new point keeps so far from others, seconds. */
 const ROOM_S = 0.4;
+/** Braking at most for a stop that is added, m/s²: one and a half times the mean, as a curve goes down. */
+const CALM_MPS2 = 3;
+
+const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? 0);
 
 const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPlace | undefined =>
   all.filter((p) => Math.abs(p.s - s) <= within).sort((p, q) => Math.abs(p.s - s) - Math.abs(q.s - s))[0];
@@ -167,7 +171,7 @@ export class SpeedCurve {
     this.release();
   }
 
-  /** A point, or a stop of so many seconds, where the playhead is; else in the middle of the widest gap. */
+  /** A point, or a stop of so many seconds, where the playhead rests; else in the middle of the widest gap. */
   addHere(hold: number | null): void {
     const points = this.points.peek();
     const motion = this.editor.futures.peek()?.modes[this.editor.chosen.peek()]?.motion;
@@ -177,10 +181,14 @@ export class SpeedCurve {
     }
     const gaps = points.slice(1).map((p, i) => ({ from: points[i].t + points[i].hold, to: p.t }));
     const now = this.editor.time.peek();
-    const here = gaps.some(({ from, to }) => now > from + ROOM_S && now < to - ROOM_S - (hold ?? 0));
+    const chosen = now > 0 && !this.editor.playing.peek();
+    const here = chosen && gaps.some(({ from, to }) => now > from + ROOM_S && now < to - ROOM_S - (hold ?? 0));
     const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
-    const t = here ? now : (widest.from + widest.to - (hold ?? 0)) / 2;
-    const v = hold === null ? Math.abs(poseAt(motion, t)?.speed ?? 0) : 0;
+    const middle = (widest.from + widest.to - (hold ?? 0)) / 2;
+    // A stop nobody has chosen the time of is one that can be braked for calmly, where there is room.
+    const calm = widest.from + (1.5 * speedAt(motion, widest.from)) / CALM_MPS2;
+    const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(calm, widest.to - hold - ROOM_S));
+    const v = hold === null ? speedAt(motion, t) : 0;
     this.add(t, v, hold ?? 0);
   }
 

@@ -194,3 +194,14 @@ export function straightOn(m: Motion, last: number): Motion {
   continued.set(m, out);
   return out;
 }
+
+/** So far before and after a moment speeds are compared, in steps: as the judge of scenes does. */
+const AROUND = 2;
+
+/** The hardest braking, m/s², as the judge of scenes measures it. */
+export function hardestBraking({ speed }: Motion): number {
+  let most = 0;
+  for (let i = 2 * AROUND; i < speed.length; i++)
+    most = Math.max(most, (Math.abs(speed[i - 2 * AROUND]) - Math.abs(speed[i])) / (2 * AROUND * STEP_S));
+  return most;
+}

@@ -2,7 +2,7 @@
 // the same. No two in one list are alike.
 import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
-import { distances, endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from './motion';
+import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from './motion';
 import { TEXTS as KINDS } from '../texts/kinds';
 import { TEXTS } from '../texts/names';
 
@@ -382,14 +382,6 @@ function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): 
     kept.forEach((i, k) => out.push({ i, word: SCALE[kept.length][k + 1] + word, margins: beyond(i) }));
   }
   return out;
-}
-
-/** The most that is lost in speed in half a second, m/s². */
-function hardestBraking(m: Motion): number {
-  let most = 0;
-  for (let i = 5; i < m.speed.length; i++)
-    most = Math.max(most, (Math.abs(m.speed[i - 5]) - Math.abs(m.speed[i])) / 0.5);
-  return most;
 }
 
 /** When it brakes hardest, seconds; nobody is told from those that hardly brake. */

@@ -116,13 +116,6 @@ function placeAt(path: Path, along: readonly number[], s: number): OnLine {
   return { x: lerp(p.x, q.x, k), y: lerp(p.y, q.y, k), heading: lerpAngle(p.heading, q.heading, k) };
 }
 
-/** How hard a motion brakes at most, m/s². */
-export function hardestBraking(m: Motion): number {
-  let most = 0;
-  for (let i = 1; i < m.speed.length; i++) most = Math.max(most, (m.speed[i - 1] - m.speed[i]) / STEP_S);
-  return most;
-}
-
 /** A place at which it stands. */
 export interface Stop {
   readonly pose: Pose;

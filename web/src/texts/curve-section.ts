@@ -6,6 +6,7 @@ export const TEXTS = table('curve-section', {
   at: (time: string) => `at ${time}`,
   for: (time: string) => `, for ${time}`,
   kinds: { start: 'start', end: 'end', hold: 'hold', stop: 'stop' },
+  drives: (speed: string) => `drives ${speed}`,
   point: 'Point',
   stop: 'Stop',
   via: 'Via',

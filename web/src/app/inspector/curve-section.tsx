@@ -1,8 +1,10 @@
 // A speed that was drawn by hand, in words: its points, and where it stops on the way.
 import { useComputed } from '@preact/signals';
 import { project } from '../../model/geometry';
+import { poseAt, type Motion } from '../../model/motion';
 import { lineOf, stopsOf, type SpeedPoint } from '../../model/profile';
 import { metres, seconds, speedLabel } from '../../model/units';
+import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -11,6 +13,11 @@ import type { LiveAgent } from './use-agent';
 
 /** So long a new stop lasts, seconds. */
 const STOP_S = 2;
+/** A speed that is missed by more is said, m/s. */
+const MISSED_MPS = 0.5;
+
+/** The motion that comes of the curve, as far as it is worked out. */
+const drivenOf = (e: Editor): Motion | undefined => e.toldFutures.value?.modes[e.toldChosen.value]?.motion;
 
 export function CurveSection({ agent }: { agent: LiveAgent }) {
   const { editor, ui } = useApp();
@@ -22,6 +29,12 @@ export function CurveSection({ agent }: { agent: LiveAgent }) {
   if (!shown) return null;
   const points = curve.points.value;
   const unit = editor.unitOf(agent.value);
+  const driven = drivenOf(editor);
+  /** What is driven instead where a point cannot be. */
+  const missed = (p: SpeedPoint): string | null => {
+    const now = curve.profile.value && driven && poseAt(driven, p.t);
+    return now && Math.abs(now.speed - p.v) > MISSED_MPS ? TEXTS.drives(speedLabel(now.speed, unit)) : null;
+  };
   return (
     <section class="sect curve" aria-label={TEXTS.speedOverTime}>
       <h3>
@@ -36,7 +49,7 @@ export function CurveSection({ agent }: { agent: LiveAgent }) {
             {p.hold ? TEXTS.for(seconds(p.hold)) : ''}
           </span>
           <b>{speedLabel(p.v, unit)}</b>
-          <small>{kindOf(p, i, points.length)}</small>
+          <small>{missed(p) ?? kindOf(p, i, points.length)}</small>
         </button>
       ))}
       <div class="row adds">
@@ -66,7 +79,7 @@ function Stops({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const { profile } = editor.curve;
   const path = profile.value?.path;
-  const motion = editor.toldFutures.value?.modes[editor.toldChosen.value]?.motion;
+  const motion = drivenOf(editor);
   const stops = motion ? stopsOf(motion) : [];
   if (!path || !stops.length) return null;
   const line = lineOf(path);

@@ -487,11 +487,7 @@ function Tightest({ asked_m }: { asked_m: number }) {
   const [least] = [...(made?.corners ?? [])].sort((a, b) => a.radius_m - b.radius_m);
   if (!made || !least || least.radius_m > asked_m - 0.05) return null;
   const [a, b] = least.arms.map((arm) => armTitle(made.arms[arm].name));
-  return (
-    <p class="mut short">
-      {TEXTS.tighterCorner(`${num(toLength(least.radius_m), 1)} ${lengthUnit()}`, a, b)}
-    </p>
-  );
+  return <p class="mut short">{TEXTS.tighterCorner(`${num(toLength(least.radius_m), 1)} ${lengthUnit()}`, a, b)}</p>;
 }
 
 function Checks() {

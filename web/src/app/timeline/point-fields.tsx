@@ -1,6 +1,6 @@
 // The point of the speed curve that is in use, in numbers: how fast, for how long, when.
 import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/units';
-import { hardestBraking } from '../../model/profile';
+import { hardestBraking } from '../../model/motion';
 import { topSpeed } from '../../model/domain';
 import { useApp } from '../parts/app-context';
 import { CurveMisfit } from './curve-misfit';
