@@ -127,6 +127,12 @@ journeys('variants', (stage) => {
     await e.key('Control+z');
     await e.settled();
     assert.equal((await cards(e)).find((c) => c.id === 5).starred, false);
+    // Where two are kept they are the two that are compared.
+    await take(e, 5);
+    await e.key('Control+d');
+    await e.key('c');
+    await e.page.waitForSelector('.insp .ih:has-text("Compare")');
+    assert.match(await e.text('.insp .ih'), /Variant [35] and variant [35]/);
   });
 
   it('runs all pictures on the clock of the playhead', { timeout: 90_000 }, async () => {

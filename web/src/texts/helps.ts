@@ -144,7 +144,7 @@ export const HELPS = table('helps', {
   starredOnes: 'Starred ones come first and stay',
   aNameOfYour: 'A name of your own; empty for what differs',
   takesItOut: 'Takes it out of the strip; can be undone',
-  pressItOnTwo: 'Press it on two cards: both on one picture, and where they part',
+  pressItOnTwo: 'The two that are kept, else press it on two cards: both on one picture, and where they part',
   aFileEachThose: 'A file each; those that are kept, or all of them',
   theOtherOne: 'The other one comes to the left',
   fromOneOfThe: 'From one of the listed moments to the next',

@@ -544,9 +544,17 @@ export class Variants {
 
   // -------------------------------------------------------------- two of them
 
-  /** The first time it is remembered, the second time the two stand side by side. */
+  /**
+   * The first time it is remembered, the second time the two stand side by side; one of two that are kept stands
+   * beside the other at once.
+   */
   compareWith(id: number): void {
     const first = this.#picked.peek() ?? this.shown.peek();
+    const kept = this.within('kept').map((c) => c.id);
+    if (this.#picked.peek() === null && kept.length === 2 && kept.includes(id)) {
+      this.compare(kept[0], kept[1]);
+      return;
+    }
     if (first === null || first === id) {
       const taken = this.#picked.peek() !== id;
       this.#picked.value = taken ? id : null;

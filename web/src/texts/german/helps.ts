@@ -148,7 +148,7 @@ export const german: Said<typeof HELPS> = {
   starredOnes: 'Die mit Stern kommen zuerst und bleiben',
   aNameOfYour: 'Ein eigener Name; leer: was sie unterscheidet',
   takesItOut: 'Nimmt sie aus der Leiste; lässt sich rückgängig machen',
-  pressItOnTwo: 'Auf zwei Varianten drücken: beide in einem Bild, und wo sie sich trennen',
+  pressItOnTwo: 'Die beiden behaltenen, sonst auf zwei Varianten drücken: beide in einem Bild, und wo sie sich trennen',
   aFileEachThose: 'Je eine Datei; die behaltenen oder alle',
   theOtherOne: 'Die andere kommt nach links',
   fromOneOfThe: 'Von einer der genannten Stellen zur nächsten',
