@@ -31,7 +31,7 @@ export const TEXTS = table('inspector', {
   licence: (licence: string) => `Licence: ${licence}`,
   score: 'Score',
   collisionsPer: 'Collisions per road user',
-  leastTimeToCollision: 'Least time to collision, log too',
+  leastTimeToCollision: 'Least time to collision straight on, log too',
   noneOnTheWay: 'none on the way',
   leastGapInTime: 'Least gap in time, log too',
   goalsReached: 'Goals reached',

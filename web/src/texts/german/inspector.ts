@@ -33,7 +33,7 @@ export const german: Said<typeof TEXTS> = {
   licence: (licence: string) => `Lizenz: ${licence}`,
   score: 'Bewertung',
   collisionsPer: 'Zusammenstöße je Verkehrsteilnehmer',
-  leastTimeToCollision: 'Kürzeste Zeit bis zum Zusammenstoß, auch Aufzeichnung',
+  leastTimeToCollision: 'Kürzeste Zeit bis zum Zusammenstoß geradeaus, auch Aufzeichnung',
   noneOnTheWay: 'keine auf dem Weg',
   leastGapInTime: 'Kleinste Zeitlücke, auch Aufzeichnung',
   goalsReached: 'Erreichte Ziele',
