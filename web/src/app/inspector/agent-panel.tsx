@@ -1,6 +1,6 @@
 // The inspector of one road user: verdict on the goal, start, goal, six futures, who changed.
-import type { ComponentChildren } from 'preact';
-import { useRef } from 'preact/hooks';
+import type { ComponentChildren, RefObject } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
 import { retold, seconds } from '../../model/units';
@@ -141,6 +141,8 @@ function NameField({ agent }: { agent: LiveAgent }) {
 
 /** What is locked is shown, not changed. */
 function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChildren }) {
+  const fields = useRef<HTMLFieldSetElement>(null);
+  useSteady(fields);
   const locked = useComputed(() => agent.value.locked).value;
   return (
     <>
@@ -153,11 +155,29 @@ function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChil
           </ActionButton>
         </div>
       ) : null}
-      <fieldset class="fields" disabled={locked}>
+      <fieldset ref={fields} class="fields" disabled={locked}>
         {children}
       </fieldset>
     </>
   );
+}
+
+/** Who works in the panel keeps the fields under the hand, however many lines the verdict above them takes. */
+function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
+  useEffect(() => {
+    const within = fields.current!;
+    const panel = within.closest<HTMLElement>('.insp');
+    const start = within.querySelector<HTMLElement>('.startsec');
+    if (!panel || !start) return undefined;
+    let was = start.offsetTop;
+    const watch = new ResizeObserver(() => {
+      const by = start.offsetTop - was;
+      was += by;
+      if (by && panel.matches(':hover, :focus-within')) panel.scrollTop += by;
+    });
+    watch.observe(within);
+    return () => watch.disconnect();
+  }, [fields]);
 }
 
 /** A note of one's own, and what it does while others change. */

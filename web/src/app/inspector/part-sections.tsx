@@ -30,7 +30,7 @@ import { SAYS_WHERE } from '../../texts/language';
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
   return (
-    <section class="sect" aria-label={TEXTS.start}>
+    <section class="sect startsec" aria-label={TEXTS.start}>
       <h3>
         <span class="mkr" />
         {TEXTS.start}
