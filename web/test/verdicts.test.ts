@@ -99,7 +99,7 @@ describe('verdicts', () => {
 
   it('are never good in the headline while something is wrong with the one shown', () => {
     for (const kind of FAULT_KINDS)
-      for (const goal of [true, false]) {
+      for (const goal of [8, null]) {
         const bad = mode({ faults: [fault(kind, { with: '2', extent: 3 })] });
         const said = headline(futures([mode({ manoeuvre: 'straight' }), bad]), 1, goal, who)!;
         expect(said.mark, kind).not.toBe('ok');
@@ -109,41 +109,48 @@ describe('verdicts', () => {
   });
 
   it('are summed up by the worst of the one shown, and by who does what', () => {
-    expect(headline(six(), 0, true, who)).toEqual({
+    expect(headline(six(), 0, 8, who)).toEqual({
       mark: 'rule',
       title: 'Reached, over the median at 3.2 s',
       words: 'A, B, C and D drive over it. E gets there by the road. F does not get there.',
       at: 3.2,
     });
-    expect(headline(six(true), 0, true, who)).toMatchObject({
+    expect(headline(six(true), 0, 8, who)).toMatchObject({
       mark: 'collision',
       title: 'Reached, hits Car 2 at 5.4 s',
       words: 'A hits Car 2. B, C and D drive over the median. E gets there by the road. F does not get there.',
     });
-    expect(headline(six(), 4, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
-    expect(headline(six(), 5, true, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
+    expect(headline(six(), 4, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
+    expect(headline(six(), 5, 8, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
   });
 
   it('are green only where nothing is wrong', () => {
     const good = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight' })]);
-    expect(headline(good, 0, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two', words: '' });
+    expect(headline(good, 0, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two', words: '' });
     const stops = futures([
       mode({ manoeuvre: 'straight' }),
       mode({ manoeuvre: 'straight' }),
       mode({ stopAt: 4, faults: [fault('goal_missed', { extent: 20 })] }),
     ]);
-    expect(headline(stops, 0, true, who)).toMatchObject({
+    expect(headline(stops, 0, 8, who)).toMatchObject({
       title: 'Reached in A, B',
       words: 'C stops.',
     });
     // Nothing is said of futures that nobody has judged.
-    expect(headline(futures([mode()]), 0, true, who)).toBeNull();
-    expect(headline(good, 0, false, who)).toBeNull();
+    expect(headline(futures([mode()]), 0, 8, who)).toBeNull();
+    expect(headline(good, 0, null, who)).toBeNull();
+  });
+
+  it('say nothing of a goal that lies after what is worked out', () => {
+    const good = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight' })]);
+    expect(headline(good, 0, 14, who)).toBeNull();
+    const bad = futures([mode({ faults: [fault('over_median')] })]);
+    expect(headline(bad, 0, 14, who)!.title).toBe('Over the median at 3.2 s');
   });
 
   it('say "only" where all six break the rule', () => {
     const all = futures([1, 2, 3].map(() => mode({ faults: [fault('over_median')] })));
-    expect(headline(all, 0, true, who)).toMatchObject({
+    expect(headline(all, 0, 8, who)).toMatchObject({
       title: 'Only over the median at 3.2 s',
       words: 'All three drive over it.',
     });
@@ -429,15 +436,15 @@ describe('events', () => {
   it('of futures that stay as they are are judged anew when somebody else comes into their way', () => {
     const own = car(scene);
     const f = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight', stopAt: 2 })]);
-    expect(headline(f, 0, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two' });
+    expect(headline(f, 0, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two' });
     const standing = (x: number) => heldStill({ ...start, x: start.x + x, speed: 0 }, 91);
     const there = (x: number) => [{ agent: scene.agents.get('2')!, motion: standing(x) }];
     const met = metAnew(own, f, there(40));
     expect(met.modes.map((m) => m.about!.faults.map((x) => [x.kind, x.with]))).toEqual([[['collision', '2']], []]);
     expect(met.modes[0].sent!.faults).toHaveLength(1);
     expect(met.modes[1]).toBe(f.modes[1]);
-    expect(headline(met, 0, true, who)!.title).toMatch(/^Reached, hits Car 2 at 3\.\d s$/);
-    expect(headline(met, 1, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
+    expect(headline(met, 0, 8, who)!.title).toMatch(/^Reached, hits Car 2 at 3\.\d s$/);
+    expect(headline(met, 1, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
     // Gone again, nothing is left of it; one that did not change is not looked at; nobody meets itself.
     expect(metAnew(own, met, there(400)).modes[0].about!.faults).toEqual([]);
     expect(metAnew(own, met, [])).toBe(met);

@@ -23,9 +23,9 @@ export function askedAfter(
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
     const rest = others === 'all' ? free(scene) : others;
-    if (!rest.length) return 'known';
     // Past its 9 s a picked future goes on only where it is kept beside everybody else's.
     if (scene.length > GOAL_TIME) return { agents: rest, react: false, step, kept: new Set(picked) };
+    if (!rest.length) return 'known';
     // It is kept as it is; whoever meets it answers it, and all others go on as they do.
     const { id } = subject;
     const react = picked.length > 1 || others !== 'all' ? rest : true;

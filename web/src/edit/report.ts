@@ -1,7 +1,7 @@
 // What a change led to, in sentences for the toast and for screen readers.
 import type { Change } from '../model/changes';
 import { counted, type TrafficEvent } from '../model/events';
-import { nameIn, type Scene } from '../model/scene';
+import { goalTimeOf, nameIn, type Scene } from '../model/scene';
 import { num, seconds } from '../model/units';
 import { headline } from '../model/verdict-words';
 import type { Editor, Step } from './editor';
@@ -42,7 +42,7 @@ export function spokenVerdict(editor: Editor, step: Step): string {
   const f = editor.futures.peek();
   const scene = editor.scene.peek();
   if (!a || !f || !scene || a.id !== step.agent) return '';
-  const said = headline(f, editor.chosen.peek(), a.goal.pos !== null, { type: a.type, nameOf: nameIn(scene) });
+  const said = headline(f, editor.chosen.peek(), goalTimeOf(a), { type: a.type, nameOf: nameIn(scene) });
   return said ? `${said.title}.` : '';
 }
 

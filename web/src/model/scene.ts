@@ -165,6 +165,9 @@ export function startPose(a: Agent): Pose | null {
 /** The speed curve in force: one belongs to a picked future, and is gone when that is. */
 export const profileOf = (a: Agent): Profile | null => (a.chosen === null ? null : a.profile);
 
+/** When somebody is to be at its goal, seconds; null where no place is asked for. */
+export const goalTimeOf = (a: Agent): number | null => (a.goal.pos ? a.goal.time : null);
+
 export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
 
 const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);

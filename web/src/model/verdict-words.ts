@@ -11,7 +11,7 @@ import {
 } from './about';
 import { LETTERS, type Futures } from './futures';
 import type { LaneMap } from './lanemap';
-import { endPose } from './motion';
+import { endPose, endsBefore, lastStep, STEP_S } from './motion';
 import type { AgentType } from './scene';
 import { acceleration, metres, seconds } from './units';
 import { TEXTS } from '../texts/verdicts';
@@ -68,18 +68,28 @@ const SIX = ['', TEXTS.one, TEXTS.two, TEXTS.three, TEXTS.four, TEXTS.five, TEXT
 
 const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
-/** What is to be said of the futures of one, of which `chosen` is shown; null where nothing is worth it. */
-export function headline(f: Futures, chosen: number, hasGoal: boolean, who: Walker): Headline | null {
+/**
+ * What is to be said of the futures of one, of which `chosen` is shown; null where nothing is worth it. `goalTime`:
+ * when it is to be at its goal, seconds; null where no place is asked for.
+ */
+export function headline(f: Futures, chosen: number, goalTime: number | null, who: Walker): Headline | null {
+  const hasGoal = goalTime !== null;
   const about = f.modes[chosen]?.about;
   if (!about) return null;
   const mark = markOf(about);
   const words = whoDoesWhat(f, chosen, hasGoal, who);
-  if (mark === 'ok') return hasGoal ? { mark, title: reachedBy(f), words, at: null } : null;
+  const isOpen = (i: number): boolean => hasGoal && endsBefore(f.modes[i].motion, goalTime);
+  if (mark === 'ok') {
+    if (!hasGoal || isOpen(chosen)) return null;
+    const open = good(f).filter(isOpen);
+    const all = open.length ? [words, openWords(f, open)].filter(Boolean).join(' ') : words;
+    return { mark, title: reachedBy(f, open), words: all, at: null };
+  }
   const [worst] = about.faults;
   const word = headlineWord(worst, who.nameOf);
   const at = TEXTS.at(seconds(worst.time));
   const missed = about.faults.find((x) => x.kind === 'goal_missed');
-  const toGoal = hasGoal && !missed;
+  const toGoal = hasGoal && !missed && !isOpen(chosen);
   if (worst.kind === 'goal_missed') return { mark, title: TEXTS.ofTheGoal(upper(word)), words, at: worst.time };
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
   const title =
@@ -97,11 +107,20 @@ export interface Walker {
   readonly nameOf: NameOf;
 }
 
-/** Those that reach the goal with nothing wrong. */
-function reachedBy(f: Futures): string {
-  const good = f.modes.flatMap((m, i) => (m.about && markOf(m.about) === 'ok' ? [LETTERS[i]] : []));
-  if (good.length === f.modes.length && good.length > 1) return TEXTS.reachedInAll(SIX[good.length]);
-  return TEXTS.reachedIn(good.join(', '));
+/** Those with nothing wrong. */
+const good = (f: Futures): number[] => f.modes.flatMap((m, i) => (m.about && markOf(m.about) === 'ok' ? [i] : []));
+
+/** Those of them that reach the goal; of `open` ones that is not known yet. */
+function reachedBy(f: Futures, open: readonly number[]): string {
+  const there = good(f).filter((i) => !open.includes(i));
+  if (there.length === f.modes.length && there.length > 1) return TEXTS.reachedInAll(SIX[there.length]);
+  return TEXTS.reachedIn(there.map((i) => LETTERS[i]).join(', '));
+}
+
+/** Futures that nobody follows are worked out for a first while alone. */
+function openWords(f: Futures, open: readonly number[]): string {
+  const until = seconds(lastStep(f.modes[open[0]].motion) * STEP_S);
+  return TEXTS.workedOutUpTo(and(open.map((i) => LETTERS[i])), open.length, until);
 }
 
 // -------------------------------------------------------------- who does what

@@ -17,6 +17,8 @@ export const TEXTS = table('verdicts', {
   reached: (word: string, at: string) => `Reached, ${word}${at}`,
   reachedInAll: (six: string) => `Reached in all ${six}`,
   reachedIn: (good: string) => `Reached in ${good}`,
+  workedOutUpTo: (letters: string, n: number, until: string) =>
+    `${letters} ${n > 1 ? 'are' : 'is'} worked out up to ${until}.`,
   and: (list: string, at: undefined | string) => `${list} and ${at}`,
   all: (six: string, many: string) => `All ${six} ${many}.`,
   doNot: 'do not',

@@ -180,6 +180,11 @@ impl<'a> Judge<'a> {
             return None;
         }
         let due_s = actor.goal.time_s.unwrap_or(f64::INFINITY);
+        // A future that is known for a first part of the scene alone says nothing of a goal after it.
+        let known = actor.track.last_valid_step()? + 1;
+        if due_s > known as f64 * STEP_S && known < self.input.steps.end {
+            return None;
+        }
         let time_s = due_s.min(self.input.steps.end.saturating_sub(1) as f64 * STEP_S);
         let state = near(actor, time_s)?;
         Some(new(FaultKind::GoalMissed, (time_s, time_s), state, error.position_m))
@@ -258,6 +263,27 @@ mod tests {
         assert_eq!(passes(1.95), [FaultKind::Collision]);
         assert_eq!(passes(2.1), [FaultKind::NearMiss]);
         assert!(passes(2.6).is_empty());
+    }
+
+    #[test]
+    fn a_goal_after_what_is_known_of_a_future_is_not_missed() {
+        let map = LaneMap::default();
+        let drivable = Drivable::new(&map);
+        let misses = |steps: usize, due_s: f64| {
+            let mut me = straight("a", CAR, (0.0, 0.0), 0.0, 10.0);
+            me.goal = crate::Goal {
+                position: Some(Vec2::new(140.0, 0.0)),
+                time_s: Some(due_s),
+                ..crate::Goal::default()
+            };
+            let judge = Judge::new(&map, &[], &drivable, 0..steps);
+            judge.alone(&me).iter().any(|f| f.kind == FaultKind::GoalMissed)
+        };
+        // It is known for 9 s of the scene.
+        assert!(!misses(151, 14.0));
+        assert!(misses(151, 9.0));
+        // Nothing comes after what is known: it ends short of its goal.
+        assert!(misses(91, 14.0));
     }
 
     #[test]

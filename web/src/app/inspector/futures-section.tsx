@@ -4,7 +4,8 @@ import { markOf, type Mark } from '../../model/about';
 import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
 import type { Command } from '../../model/commands';
 import { takePin, unpin } from '../../model/pins';
-import { hasGoal, nameIn, type Agent, type Pin, type Scene } from '../../model/scene';
+import { endsBefore } from '../../model/motion';
+import { goalTimeOf, hasGoal, nameIn, type Agent, type Pin, type Scene } from '../../model/scene';
 import { seconds } from '../../model/units';
 import { placeWord } from '../../model/verdict-words';
 import { verdictsHold } from '../../edit/goal-verdict';
@@ -197,9 +198,10 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
-    const about = verdictsHold(editor) ? editor.toldFutures.value?.modes[index]?.about : null;
-    const m = about ? markOf(about) : null;
-    return m === 'ok' && !agent.value.goal.pos ? null : m;
+    const told = verdictsHold(editor) ? editor.toldFutures.value?.modes[index] : null;
+    const m = told?.about ? markOf(told.about) : null;
+    const due = goalTimeOf(agent.value);
+    return m === 'ok' && (due === null || endsBefore(told!.motion, due)) ? null : m;
   }).value;
   return mark ? (
     <span class={`mk ${mark}`} role="img" aria-label={MARK_WORDS[mark]}>

@@ -6,7 +6,7 @@ import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
 import { distances, endPose, endsBefore, hardestBraking, poseAt, STEP_S, type Motion } from '../../model/motion';
-import { nameIn, type Agent } from '../../model/scene';
+import { goalTimeOf, nameIn, type Agent } from '../../model/scene';
 import { stopsOf } from '../../model/profile';
 import { acceleration, metres, seconds, speedLabel } from '../../model/units';
 import { headline } from '../../model/verdict-words';
@@ -121,7 +121,7 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.futures.value;
   if (!f || !verdictsHold(e)) return null;
   const who = { type: a.type, nameOf: nameIn(e.scene.value!) };
-  const said = headline(f, e.chosen.value, a.goal.pos !== null, who);
+  const said = headline(f, e.chosen.value, goalTimeOf(a), who);
   if (!said) return null;
   const { mark, title, words, at } = said;
   if (mark === 'ok' && isGoalOfLog(a)) return AS_RECORDED;

@@ -18,6 +18,8 @@ export const german: Said<typeof TEXTS> = {
   reached: (word: string, at: string) => `Erreicht, ${word}${at}`,
   reachedInAll: (n: string) => `In allen ${n} erreicht`,
   reachedIn: (good: string) => `Erreicht in ${good}`,
+  workedOutUpTo: (letters: string, n: number, until: string) =>
+    `${letters} ${n > 1 ? 'sind' : 'ist'} bis ${until} berechnet.`,
   and: (list, at) => `${list} und ${at}`,
   all: (six, many) => `Alle ${six} ${many}.`,
   doNot: 'nicht',
