@@ -70,3 +70,32 @@ fn thresholds_decide_what_is_said_and_change_no_motion() {
     let refused = server.send(&Request::new("POST", "/v1/generate").json(&body)).unwrap();
     assert_eq!((refused.status, &refused.json()["errors"][0]["pointer"]), (422, &json!("/thresholds/gap_m")));
 }
+
+#[test]
+fn a_kept_future_goes_on_past_its_end_where_nobody_is_asked() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let first = ask(&server, &json!({}));
+    let mut scene = server.send(&Request::new("GET", "/v1/scenes/demo-crossing")).unwrap().json();
+    scene["generated"] = first["generated"].clone();
+    scene["generated"]["samples"] = first["samples"].clone();
+    let asked = |more: &Value| {
+        let mut body = json!({"scene": scene, "agents": [], "seed": 3});
+        body.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        server.send(&Request::new("POST", "/v1/generate").json(&body)).unwrap()
+    };
+    let longer = asked(&json!({"horizon_s": 15}));
+    assert_eq!(longer.status, 200, "{}", longer.text());
+    let longer = longer.json();
+    let agents = longer["samples"][0]["agents"].as_object().unwrap();
+    assert_eq!(agents.keys().collect::<Vec<_>>(), ["5"]);
+    let modes = agents["5"]["modes"].as_array().unwrap();
+    let chosen = first["samples"][0]["agents"]["5"]["chosen"].as_u64().unwrap() as usize;
+    let xs = |mode: &Value| mode["x_m"].as_array().unwrap().clone();
+    let before = xs(&first["samples"][0]["agents"]["5"]["modes"][chosen]);
+    assert_eq!((modes.len(), xs(&modes[0]).len()), (1, 150));
+    assert_eq!(xs(&modes[0])[..90], before[..]);
+    // Within one window there is nothing to be worked out.
+    let refused = asked(&json!({}));
+    assert_eq!((refused.status, &refused.json()["errors"][0]["pointer"]), (422, &json!("/agents")));
+}

@@ -75,7 +75,8 @@ function whoIsAsked(
 function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): Asked {
   const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   const kept = new Set(mine.filter((id) => !open.includes(id)));
-  return open.length ? { agents: open, react: false, step, kept } : 'known';
+  // A picked future goes on past its 9 s, also where nobody else is asked.
+  return open.length || scene.length > GOAL_TIME ? { agents: open, react: false, step, kept } : 'known';
 }
 
 /** Everybody is drawn anew but those that take a pinned future: these go on as they do, and the others see it. */

@@ -1637,7 +1637,7 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate.
+             * @description Road users to regenerate; nobody where futures that the scene keeps are only to go on past their end.
              * @default all
              */
             agents?: components["schemas"]["Who"];

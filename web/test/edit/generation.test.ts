@@ -1,6 +1,6 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { clearGoal, setGoal, setOthers } from '../../src/model/commands';
+import { clearGoal, setGoal, setLength, setOthers } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
@@ -123,6 +123,17 @@ describe('a pick among futures', () => {
     expect(generator.last.options.shown).toBeUndefined();
     expect(Object.keys(asked())).toEqual(['1']);
     expect(asked()['1']).toMatchObject({ chosen: 0, modes: [{ probability: six('1').modes[2].probability }] });
+  });
+
+  it('asks how it goes on past its 9 s, also where nobody else is asked', () => {
+    editor.run(setOthers('log'));
+    const asked9 = generator.asked.length;
+    pick(2);
+    expect(generator.asked.length).toBe(asked9);
+    editor.run(setLength(editor.scene.peek()!, 15));
+    pick(1);
+    expect(generator.last.options).toMatchObject({ agents: [], react: false, horizon_s: 15 });
+    expect(Object.keys(asked())).toEqual(['1']);
   });
 
   it('changes only those that say whom they answer', () => {
