@@ -1,6 +1,6 @@
 // Who does something else than before, how much, and why.
-import { distances, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
-import type { MotionSet } from './futures';
+import { distances, endsBefore, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
+import type { Future, MotionSet } from './futures';
 import type { Pose } from './geometry';
 import type { ReactionJson } from './json';
 import { answersAhead, guessReaction, reactionWords, type Answered, type Reaction } from './reaction';
@@ -43,9 +43,24 @@ export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   return scene.length > GOAL_TIME ? straightOn(m, Math.round(scene.duration / STEP_S)) : m;
 }
 
-function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
+/** The future that a road user follows, where it follows one. */
+function followed(set: MotionSet, a: Agent): Future | undefined {
   const f = set.driving.has(a.id) ? set.futures.get(a.id) : undefined;
-  if (f?.modes.length) return f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)].motion;
+  return f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
+}
+
+/** Is somebody at its goal in time, as it goes now? Null where nobody has said. */
+export function meetsGoal(set: MotionSet, a: Agent): boolean | null {
+  const future = followed(set, a);
+  if (future?.about && !endsBefore(future.motion, a.goal.time))
+    return !future.about.faults.some((f) => f.kind === 'goal_missed');
+  const reach = set.reach.get(a.id);
+  return reach ? reach.status === 'reached' : null;
+}
+
+function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
+  const future = followed(set, a);
+  if (future) return future.motion;
   // Until the generator has decided, who was put here stands there.
   if (a.placed || (doing(scene, a) === 'still' && a.type !== 'other')) {
     if (staysAway(scene, a)) return nowhere;

@@ -1,6 +1,6 @@
 // What differs between two variants: who does another thing, since when, and what comes of it.
 import { compareMarks } from './about';
-import { motionOf } from './changes';
+import { meetsGoal, motionOf } from './changes';
 import { summary, counted, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
 import { toLocal, type Vec } from './geometry';
@@ -125,8 +125,9 @@ function deedWords(d: Deed): string {
 
 function goals(left: Side, right: Side): Row[] {
   const words = (s: Side, id: string): string => {
-    const r = s.set.reach.get(id);
-    return r ? (r.status === 'reached' ? TEXTS.reached : TEXTS.missed) : TEXTS.notKnown;
+    const a = s.scene.agents.get(id);
+    const met = a ? meetsGoal(s.set, a) : null;
+    return met === null ? TEXTS.notKnown : met ? TEXTS.reached : TEXTS.missed;
   };
   return [...left.scene.agents.values()]
     .filter((a) => a.goal.pos)

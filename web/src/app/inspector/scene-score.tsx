@@ -1,7 +1,7 @@
 // The scene in four figures: how often somebody is hit, how close it gets, how many goals are reached, how far from
 // the log.
 import { counted } from '../../model/events';
-import { comparedWithLog } from '../../model/changes';
+import { comparedWithLog, meetsGoal } from '../../model/changes';
 import { canChange } from '../../model/scene';
 import { metres, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
@@ -28,7 +28,7 @@ function figures(e: Editor): (readonly [string, string])[] {
   const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
   const hits = counted(e.events.value).filter((ev) => ev.kind === 'collision').length;
   const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
-  const reached = goals.filter((a) => set.reach.get(a.id)?.status === 'reached').length;
+  const reached = goals.filter((a) => meetsGoal(set, a)).length;
   const far = all.flatMap((a) =>
     set.driving.has(a.id) ? (comparedWithLog(a, e.motionFor(a), scene.duration) ?? []) : [],
   );

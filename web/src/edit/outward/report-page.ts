@@ -1,5 +1,5 @@
 // One page about a scene, to be read and printed: the picture, who is there, what happens, and how it was made.
-import { findChanges, motionOf } from '../../model/changes';
+import { findChanges, meetsGoal, motionOf } from '../../model/changes';
 import { counted, type TrafficEvent } from '../../model/events';
 import type { MotionSet } from '../../model/futures';
 import type { Vec } from '../../model/geometry';
@@ -41,7 +41,7 @@ export function reportPage(r: ReportOf): string {
   const own = counted(r.events);
   const words = wordsOf(r);
   const asked = all.filter((a) => touched(a) && canChange(a));
-  const reached = asked.filter((a) => a.goal.pos && r.motion.reach.get(a.id)?.status !== 'unreachable');
+  const reached = asked.filter((a) => a.goal.pos && meetsGoal(r.motion, a) !== false);
   const goals = asked.filter((a) => a.goal.pos);
   const facts: [string, string][] = [
     [TEXTS.roadUsers, String(all.length)],
