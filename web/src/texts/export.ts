@@ -28,6 +28,7 @@ export const TEXTS = table('export', {
   saving: 'Saving …',
   thisViewAtS: (time: string) => `this view at ${time} s`,
   whatHappensIn: 'What happens in a few lines, with this picture and all events.',
+  report: 'report',
   reportPage: 'Report page',
   toReadNotToEdit: 'to read, not to edit',
   whatYouSeeFor: 'What you see, for slides.',

@@ -3,6 +3,7 @@ import { table } from './table';
 
 export const TEXTS = table('report-page', {
   roadUsers: 'Road users',
+  variant: 'Variant',
   asked: 'With something asked of them',
   goalsReached: 'Goals reached',
   of: (reached: number, all: number) => `${reached} of ${all}`,

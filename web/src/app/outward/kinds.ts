@@ -32,9 +32,9 @@ const FINE = 2;
 export const ofServer = (formats: readonly FormatInfo[]): Kind[] =>
   outFormats(formats).map((f) => ({ ...f, make: (c) => exported(c, f.id) }));
 
-const named = (c: Context, blob: Blob, ending: string): ExportedFile => ({
+const named = (c: Context, blob: Blob, ending: string, what = ''): ExportedFile => ({
   blob,
-  name: `${slug(c.editor.scene.peek()?.name)}.${ending}`,
+  name: `${slug([c.editor.scene.peek()?.name, what].filter(Boolean).join(' '))}.${ending}`,
   losses: [],
 });
 
@@ -66,12 +66,13 @@ export function ofScreen(c: Context): Kind[] {
           scene,
           motion: editor.motion.peek(),
           events: editor.events.peek(),
+          variant: c.variants.card(c.variants.shown.peek())?.name ?? null,
           unit: editor.speedUnit.peek(),
           picture,
           time,
           origin: originOf(c),
         });
-        return named(c, new Blob([page], { type: 'text/html' }), 'html');
+        return named(c, new Blob([page], { type: 'text/html' }), 'html', TEXTS.report);
       },
     },
     {

@@ -4,7 +4,7 @@ import { counted, type TrafficEvent } from '../../model/events';
 import type { MotionSet } from '../../model/futures';
 import type { Vec } from '../../model/geometry';
 import { endPose } from '../../model/motion';
-import { canChange, startPose, touched, type Agent, type Scene } from '../../model/scene';
+import { canChange, changedByHand, hasGoal, startPose, type Agent, type Scene } from '../../model/scene';
 import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/units';
 import { LANGUAGE } from '../../texts/language';
 import { resultCode } from '../../model/result-code';
@@ -15,6 +15,8 @@ export interface ReportOf {
   readonly scene: Scene;
   readonly motion: MotionSet;
   readonly events: readonly TrafficEvent[];
+  /** What the variant that is shown is called; null where none is. */
+  readonly variant: string | null;
   readonly unit: SpeedUnit;
   /** Data address of the picture. */
   readonly picture: string;
@@ -40,10 +42,11 @@ export function reportPage(r: ReportOf): string {
   const all = [...scene.agents.values()];
   const own = counted(r.events);
   const words = wordsOf(r);
-  const asked = all.filter((a) => touched(a) && canChange(a));
+  const asked = all.filter((a) => isAsked(a) && canChange(a));
   const reached = asked.filter((a) => a.goal.pos && meetsGoal(r.motion, a) !== false);
   const goals = asked.filter((a) => a.goal.pos);
   const facts: [string, string][] = [
+    ...(r.variant === null ? [] : [[TEXTS.variant, r.variant] as [string, string]]),
     [TEXTS.roadUsers, String(all.length)],
     [TEXTS.asked, String(asked.length)],
     [TEXTS.goalsReached, goals.length ? TEXTS.of(reached.length, goals.length) : TEXTS.noneSet],
@@ -83,10 +86,16 @@ function eventTable(events: readonly TrafficEvent[]): string {
   return `<table>${head(TEXTS.when, TEXTS.what, TEXTS.who, TEXTS.where('m'), '')}${rows.join('')}</table>`;
 }
 
-/** What everybody does otherwise than in the log, in words. */
+/** Is something asked of a road user? Who was put here is asked nothing by that alone. */
+const isAsked = (a: Agent): boolean =>
+  a.placed ? hasGoal(a.goal) || a.goal.via.length > 0 || a.chosen !== null : changedByHand(a);
+
+/** What everybody does otherwise than in the log, or for somebody else where there is none, in words. */
 function wordsOf({ scene, motion }: ReportOf): ReadonlyMap<string, string> {
   const log = { ...motion, driving: new Set<string>() };
-  return new Map(findChanges(scene, log, motion, new Set()).map((c) => [c.id, c.words]));
+  const told = (id: string): boolean => !scene.agents.get(id)!.placed || !!motion.reactions?.has(id);
+  const changes = findChanges(scene, log, motion, new Set()).filter((c) => told(c.id));
+  return new Map(changes.map((c) => [c.id, c.words]));
 }
 
 function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
@@ -102,5 +111,5 @@ function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
     end ? place([end.x, end.y]) : '',
     words ?? (a.parked ? TEXTS.parked : ''),
   ];
-  return `<tr${touched(a) ? ' class="asked"' : ''}>${cells.map(cell).join('')}</tr>`;
+  return `<tr${isAsked(a) ? ' class="asked"' : ''}>${cells.map(cell).join('')}</tr>`;
 }

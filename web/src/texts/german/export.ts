@@ -30,6 +30,7 @@ export const german: Said<typeof TEXTS> = {
   saving: 'Sichert …',
   thisViewAtS: (time) => `diese Ansicht bei ${time} s`,
   whatHappensIn: 'Was geschieht, in wenigen Zeilen, mit diesem Bild und allen Ereignissen.',
+  report: 'Bericht',
   reportPage: 'Bericht',
   toReadNotToEdit: 'zum Lesen, nicht zum Ändern',
   whatYouSeeFor: 'Was zu sehen ist, für Folien.',

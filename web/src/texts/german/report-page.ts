@@ -3,6 +3,7 @@ import type { Said } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   roadUsers: 'Verkehrsteilnehmer',
+  variant: 'Variante',
   asked: 'Davon mit Vorgaben',
   goalsReached: 'Erreichte Ziele',
   of: (reached, all) => `${reached} von ${all}`,
