@@ -20,7 +20,7 @@ import type { ToolName } from './gestures/tools';
 import { Layers, type LayerName } from './layers';
 import { Notices } from './notices';
 import { Placement } from './placement';
-import { SpeedCurve } from './speed-curve';
+import { lostCurve, SpeedCurve, type LostCurve } from './speed-curve';
 import { Playhead } from './playhead';
 import { Deck } from './rounds/deck';
 import { TEXTS } from '../texts/generation';
@@ -87,6 +87,8 @@ export interface Step {
   readonly everybody?: boolean;
   /** The motions stand, only what counts in them is another thing. */
   readonly counting?: boolean;
+  /** The speed curve of whom it is about has gone out of force with it. */
+  readonly curve?: LostCurve;
 }
 
 /** Why the document can be looked at only, and the way out. */
@@ -340,7 +342,8 @@ export class Editor {
   run(command: Command): void {
     if (!this.#history || this.#refused()) return;
     const before = this.#history.scene;
-    this.#committed(this.#history.run(command), before, command.name, null);
+    const after = this.#history.run(command);
+    this.#committed(after, before, this.#history.undoName ?? command.name, null);
   }
 
   undo(): void {
@@ -421,8 +424,10 @@ export class Editor {
       }
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
+    const curve = agent === null || undo ? null : lostCurve(before.agents.get(agent), scene.agents.get(agent));
     this.onCommit?.(scene, {
       ...{ name, agent, several, undo },
+      ...(curve ? { curve } : {}),
       ...(everybody && !counting ? { everybody } : {}),
       ...(counting ? { counting } : {}),
     });

@@ -311,9 +311,17 @@ export class Reception {
     const changes = editor.changes.peek();
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent || step.several ? changes.length : null });
     if (step.undo) return;
+    const { agent, curve } = step;
+    // Its own answer says what came of both.
+    if (agent && curve === 'fits' && editor.curve.takeUp(agent, true)) return;
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();
-    editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
+    const keep = agent && curve ? { label: TEXTS.keepItsCurve, run: () => void editor.curve.takeUp(agent, false) } : null;
+    editor.notices.show({
+      text: `${outcome(step, scene, changes, events)}${keep ? ` ${TEXTS.itsCurveIsOff}` : ''}`,
+      undo: true,
+      ...(keep ? { action: keep } : {}),
+    });
     const said = [spokenOutcome(step, scene, changes, events), spokenVerdict(editor, step)];
     editor.notices.say(said.filter(Boolean).join(' '));
     const collision = spokenCollision(events);

@@ -38,6 +38,18 @@ const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?
 const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPlace | undefined =>
   all.filter((p) => Math.abs(p.s - s) <= within).sort((p, q) => Math.abs(p.s - s) - Math.abs(q.s - s))[0];
 
+/** A curve that has gone out of force: it still fits what is asked, or the new goal says otherwise. */
+export type LostCurve = 'fits' | 'open';
+
+/** What a change of somebody has done to its speed curve; null where nothing. */
+export function lostCurve(was: Agent | undefined, now: Agent | undefined): LostCurve | null {
+  if (!was || !now?.profile || !profileOf(was) || profileOf(now)) return null;
+  const [p, q] = [was.goal, now.goal];
+  const sameGoal = p.pos === q.pos && p.heading === q.heading && p.speed === q.speed && p.time === q.time;
+  const sameStart = was.start.pos === now.start.pos && was.start.heading === now.start.heading;
+  return sameGoal && (sameStart || !q.pos) ? 'fits' : 'open';
+}
+
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
   readonly #point = signal<number | null>(null);
@@ -248,11 +260,26 @@ export class SpeedCurve {
     this.editor.run(setCurve(a, null, null));
   }
 
-  #run(a: Agent, profile: Profile, goalTime?: number): void {
+  /**
+   * Draws the speeds of the selected one, which a change has put out of force, on the way that is likeliest now: as
+   * part of that change where it `joins`. False where that cannot be.
+   */
+  takeUp(id: string, joins: boolean): boolean {
+    const a = this.editor.agent.peek();
+    const drawn = a?.id === id && a.chosen === null ? a.profile : null;
+    const begun = drawn && this.#begun();
+    if (!a || !drawn || !begun) return false;
+    const [first, last] = [begun.points[0], begun.points[begun.points.length - 1]];
+    const between = drawn.points.slice(1).filter((p) => p.t <= last.t + 1e-6);
+    this.#run(a, { path: begun.path, points: [{ ...drawn.points[0], v: first.v }, ...between] }, undefined, joins);
+    return true;
+  }
+
+  #run(a: Agent, profile: Profile, goalTime?: number, joins = false): void {
     const { editor } = this;
     this.#show(a, profile);
     this.#inHand.value = null;
-    editor.run(setCurve(a, editor.chosen.peek(), profile, goalTime));
+    editor.run({ ...setCurve(a, editor.chosen.peek(), profile, goalTime), joins });
     const before = this.#before.peek();
     this.#before.value = before && { ...before, key: sceneKey(editor.scene.peek()!) };
   }

@@ -30,6 +30,8 @@ export interface Command {
   invert(scene: Scene): Command;
   /** Same kind of change on the same thing: the later one may replace this one within a short time. */
   readonly fold?: string;
+  /** What follows from the step before: it becomes part of that, under its name. */
+  readonly joins?: boolean;
 }
 
 const PATCHABLE = [
@@ -135,10 +137,10 @@ export const setVias = (a: Agent, all: readonly Via[], name: string, fold?: stri
 
 /** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
 export function recorded(a: Agent): AgentPatch {
-  if (a.placed) return { goal: freeGoal(), chosen: null };
+  if (a.placed) return { goal: freeGoal(), chosen: null, profile: null };
   const kind: AgentPatch = kindChanged(a) ? { type: a.logType, subtype: a.logSubtype, ...kindOfLog(a) } : {};
   const [length, width] = a.logSize;
-  return { start: logStartSpec(a.logStart), goal: freeGoal(), chosen: null, length, width, ...kind };
+  return { start: logStartSpec(a.logStart), goal: freeGoal(), chosen: null, profile: null, length, width, ...kind };
 }
 
 function kindOfLog(a: Agent): Pick<Agent, 'kind' | 'name'> {

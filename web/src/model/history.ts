@@ -117,7 +117,9 @@ export class History {
 
   /** Does a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {
-    return this.#done(command.name, command.apply(this.scene), this.camera(), command.fold);
+    const joined = command.joins ? this.#last() : null;
+    const name = joined?.name ?? command.name;
+    return this.#done(name, command.apply(this.scene), this.camera(), command.fold, joined);
   }
 
   /** The document as it is elsewhere takes the place of this one, as a step that can be taken back. */
@@ -126,12 +128,12 @@ export class History {
     else this.#done(name, scene, this.camera());
   }
 
-  #done(name: string, after: Scene, from: Camera | null, fold?: string): Scene {
+  #done(name: string, after: Scene, from: Camera | null, fold?: string, joined: HistoryStep | null = null): Scene {
     const before = this.scene;
     if (after === before) return before;
     this.scene = after;
     const at = this.now();
-    const last = fold === undefined ? null : this.#foldInto(fold, at);
+    const last = joined ?? (fold === undefined ? null : this.#foldInto(fold, at));
     const diff = diffOf(last ? applyDiff(before, last.diff, 'back') : before, after);
     const added: HistoryStep = {
       id: last?.id ?? this.#next++,
@@ -153,12 +155,17 @@ export class History {
     return after;
   }
 
+  /** The step that was done last, where nothing comes after it. */
+  #last(): HistoryStep | null {
+    const last = this.step(this.#head);
+    return last && !this.#ahead.has(last.id) ? last : null;
+  }
+
   /** The step that the next one of its kind becomes part of. */
   #foldInto(fold: string, at: number): HistoryStep | null {
-    const last = this.step(this.#head);
+    const last = this.#last();
     const f = this.#folds;
-    const folds = last && f?.id === last.id && f.fold === fold && at - f.at < FOLD_MS && !this.#ahead.has(last.id);
-    return folds ? last : null;
+    return last && f?.id === last.id && f.fold === fold && at - f.at < FOLD_MS ? last : null;
   }
 
   // -------------------------------------------------------------- a drag

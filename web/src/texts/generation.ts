@@ -19,6 +19,8 @@ export const TEXTS = table('generation', {
   sixFuturesMost: (best: string, likely: number) => `Six futures. Most likely: ${best}, ${likely} percent.`,
   aValueIsOutside: (min: string, max: string) => `A value is outside ${min} to ${max}.`,
   toS: (window: number, min: number) => `${window} to ${min} s`,
+  keepItsCurve: 'Keep its speed curve',
+  itsCurveIsOff: 'Its speed curve is off.',
   itHitsAt: (other: string, time: string) => ` It hits ${other} at ${time}.`,
   othersChanged: (n: number, step: string) =>
     plural(n, { one: `${step}. ${n} other changed.`, other: `${step}. ${n} others changed.` }),

@@ -1,13 +1,13 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { clearGoal, setGoal, setLength, setOthers } from '../../src/model/commands';
+import { clearGoal, setGoal, setLength, setOthers, setSize } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
 import { nameAll } from '../../src/model/names';
-import { nameIn } from '../../src/model/scene';
+import { nameIn, profileOf } from '../../src/model/scene';
 import { judged } from '../standin/judged.mjs';
 import { draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
@@ -101,6 +101,45 @@ describe('a change', () => {
     rest();
     expect(editor.motion.peek().futures.has('1')).toBe(true);
     expect(generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
+  });
+});
+
+describe('a speed curve', () => {
+  const speeds = () => profileOf(editor.agent.peek()!)?.points.map((p) => p.v);
+  const answered = () => {
+    rest();
+    generator.last.on.final(finalOf('1'), 5);
+  };
+
+  beforeEach(() => {
+    editor.select('1');
+    generator.last.on.final(finalOf('1'), 5);
+    editor.curve.add(4, 0, 2);
+    answered();
+    expect(speeds()).toHaveLength(3);
+  });
+
+  it('is drawn on the new way when a change asks nothing else of the speed, within the same step', () => {
+    const { depth } = editor.history!;
+    editor.run(setSize(editor.agent.peek()!, 5, 2));
+    expect(speeds()).toBeUndefined();
+    answered();
+    expect(speeds()).toHaveLength(3);
+    expect([editor.history!.depth, editor.undoName.peek()]).toEqual([depth + 1, 'Size of Car 1 changed']);
+    editor.undo();
+    expect([speeds()?.length, editor.agent.peek()!.length]).not.toEqual([3, 5]);
+    editor.redo();
+    expect([speeds()?.length, editor.agent.peek()!.length]).toEqual([3, 5]);
+  });
+
+  it('that a new goal speaks against is off, which is said, and can be kept', () => {
+    goalFor('1');
+    answered();
+    expect(speeds()).toBeUndefined();
+    const { text, action } = editor.notices.toast.peek()!;
+    expect(text).toMatch(/Its speed curve is off\.$/);
+    action!.run();
+    expect(speeds()).toHaveLength(3);
   });
 });
 

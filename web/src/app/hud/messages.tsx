@@ -69,22 +69,21 @@ export function Toast() {
           {TEXTS.undo}
           <KeyCaps of="Ctrl+Z" />
         </button>
-      ) : (
-        [action, second].map((a) =>
-          a ? (
-            <button
-              key={a.label}
-              type="button"
-              class="btn"
-              onClick={() => {
-                notices.hide();
-                a.run();
-              }}
-            >
-              {a.label}
-            </button>
-          ) : null,
-        )
+      ) : null}
+      {[action, second].map((a) =>
+        a ? (
+          <button
+            key={a.label}
+            type="button"
+            class="btn"
+            onClick={() => {
+              notices.hide();
+              a.run();
+            }}
+          >
+            {a.label}
+          </button>
+        ) : null,
       )}
     </div>
   );

@@ -22,6 +22,8 @@ export const german: Said<typeof TEXTS> = {
     `Sechs Zukünfte. Am wahrscheinlichsten: ${best}, ${likely} Prozent.`,
   aValueIsOutside: (min, max) => `Ein Wert liegt nicht zwischen ${min} und ${max}.`,
   toS: (window, min) => `${window} bis ${min} s`,
+  keepItsCurve: 'Tempokurve behalten',
+  itsCurveIsOff: 'Seine Tempokurve gilt nicht mehr.',
   itHitsAt: (other, time) => ` Zusammenstoß mit ${other} bei ${time}.`,
   othersChanged: (n, step) =>
     plural(n, { one: `${step}. ${n} anderer änderte sich.`, other: `${step}. ${n} andere änderten sich.` }),
