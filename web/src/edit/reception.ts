@@ -316,7 +316,8 @@ export class Reception {
     if (agent && curve === 'fits' && editor.curve.takeUp(agent, true)) return;
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();
-    const keep = agent && curve ? { label: TEXTS.keepItsCurve, run: () => void editor.curve.takeUp(agent, false) } : null;
+    const keep =
+      agent && curve ? { label: TEXTS.keepItsCurve, run: () => void editor.curve.takeUp(agent, false) } : null;
     editor.notices.show({
       text: `${outcome(step, scene, changes, events)}${keep ? ` ${TEXTS.itsCurveIsOff}` : ''}`,
       undo: true,
