@@ -64,11 +64,6 @@ const onPointed = (run: (c: Context, a: Agent, i: number) => void): Pick<Action,
   },
 });
 
-function take({ editor }: Context, a: Agent, i: number): void {
-  const command = a.chosen === i ? null : moves.pickFuture(editor, a, i);
-  if (command) editor.run(command);
-}
-
 function viaInHand({ editor }: Context): { a: Agent; i: number } | null {
   const a = editor.agent.value;
   const i = editor.viaInHand.value;
@@ -225,7 +220,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.chooseThisFuture,
     icon: 'check',
     help: 'playbackFollowsIt',
-    ...onPointed(take),
+    ...onPointed((c, a, i) => moves.takeFuture(c.editor, a, i)),
   },
   {
     id: 'future-play',
@@ -233,7 +228,7 @@ export const goal = inGroup('goal', [
     icon: 'play',
     help: 'fromTheBeginning',
     ...onPointed((c, a, i) => {
-      take(c, a, i);
+      moves.takeFuture(c.editor, a, i);
       c.editor.setTime(0);
       c.editor.playhead.play();
     }),

@@ -163,10 +163,20 @@ export function keepInView(c: Opening): void {
   };
 }
 
-/** The menu of what is selected, at the first of them; else that of the ground, in the middle. */
+/**
+ * The menu of what is selected: beside the button that was pressed for it, else at the first of them; where nobody is
+ * selected that of the ground, in the middle.
+ */
 export function openMenu(c: Context): void {
   const { editor, stage, ui } = c;
   const [first, ...more] = editor.chosenOnes;
+  const button = document.activeElement?.closest('[data-action="menu"]')?.getBoundingClientRect();
+  if (first && button) {
+    const { left, top } = stage.element.getBoundingClientRect();
+    const at = { x: button.left - left, y: button.bottom - top };
+    ui.openContextMenu({ ...at, on: more.length ? 'several' : 'road-user' });
+    return;
+  }
   if (first) reveal(c, [first.id]);
   const p = first && poseShown(editor, first);
   const v = stage.view;

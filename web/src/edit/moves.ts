@@ -169,6 +169,13 @@ export function pickFuture(e: Editor, a: Agent, index: number | null): Command |
   return choose(a, index, LETTERS[index ?? 0]);
 }
 
+/** Another future is taken, where it is another; of who is locked it is said why not. */
+export function takeFuture(e: Editor, a: Agent, index: number): void {
+  const command = a.chosen === index ? null : pickFuture(e, a, index);
+  if (command) e.run(command);
+  else if (a.locked) e.notices.show({ text: TEXTS.allAreLocked(1) });
+}
+
 export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
 
 /** The three ways out of a goal that cannot be reached. */

@@ -255,9 +255,15 @@ export class SpeedCurve {
   /** The future as the generator had it. */
   clear(): void {
     const a = this.editor.agent.peek();
-    if (!a || !profileOf(a)) return;
+    if (!a || !profileOf(a) || this.#isLocked(a)) return;
     this.#point.value = null;
     this.editor.run(setCurve(a, null, null));
+  }
+
+  /** Of who is locked it is said that it stays as it is. */
+  #isLocked(a: Agent): boolean {
+    if (a.locked) this.editor.notices.show({ text: TEXTS.allAreLocked(1) });
+    return a.locked;
   }
 
   /**
@@ -277,6 +283,7 @@ export class SpeedCurve {
 
   #run(a: Agent, profile: Profile, goalTime?: number, joins = false): void {
     const { editor } = this;
+    if (this.#isLocked(a)) return;
     this.#show(a, profile);
     this.#inHand.value = null;
     editor.run({ ...setCurve(a, editor.chosen.peek(), profile, goalTime), joins });

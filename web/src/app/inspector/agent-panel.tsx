@@ -167,13 +167,13 @@ function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
   useEffect(() => {
     const within = fields.current!;
     const panel = within.closest<HTMLElement>('.insp');
-    const start = within.querySelector<HTMLElement>('.startsec');
-    if (!panel || !start) return undefined;
-    let was = start.offsetTop;
+    const below = () => within.querySelector<HTMLElement>('.curve, .startsec');
+    let [first, was] = [below(), below()?.offsetTop ?? 0];
     const watch = new ResizeObserver(() => {
-      const by = start.offsetTop - was;
-      was += by;
-      if (by && panel.matches(':hover, :focus-within')) panel.scrollTop += by;
+      const now = below();
+      const by = now && now === first ? now.offsetTop - was : 0;
+      [first, was] = [now, now?.offsetTop ?? 0];
+      if (by && panel?.matches(':hover, :focus-within')) panel.scrollTop += by;
     });
     watch.observe(within);
     return () => watch.disconnect();

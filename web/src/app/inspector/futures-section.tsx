@@ -9,7 +9,7 @@ import { goalTimeOf, hasGoal, nameIn, type Agent, type Pin, type Scene } from '.
 import { seconds } from '../../model/units';
 import { placeWord } from '../../model/verdict-words';
 import { verdictsHold } from '../../edit/goal-verdict';
-import { pickFuture } from '../../edit/moves';
+import { takeFuture } from '../../edit/moves';
 import { pinnedAt, pinsApart, togglePin, type ShownPin } from '../../edit/pins';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -88,10 +88,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const percent = useComputed(() => `${percents(editor.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
   const title = useComputed(() => inWords(editor.resting.value, mode.value));
   const checked = useComputed(() => String(editor.toldChosen.value === index));
-  const pick = () => {
-    const command = agent.peek().chosen === index ? null : pickFuture(editor, agent.peek(), index);
-    if (command) editor.run(command);
-  };
+  const pick = () => takeFuture(editor, agent.peek(), index);
   const point = () => editor.pointAt({ future: index });
   const leave = () => editor.pointAt({});
   const pin = useComputed(() => pinnedAt(editor, index)).value;

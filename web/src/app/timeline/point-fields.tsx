@@ -18,7 +18,7 @@ export function PointFields() {
   const agent = editor.agent.value;
   const i = curve.point.value;
   const p = i === null ? undefined : curve.points.value[i];
-  if (!agent || i === null || !p || !curve.profile.value) return null;
+  if (!agent || agent.locked || i === null || !p || !curve.profile.value) return null;
   const unit = editor.unitOf(agent);
   const now = () => curve.points.value[i] ?? p;
   // Of what is in hand, too.

@@ -4,7 +4,7 @@ import { canChange, startPose, type Agent } from '../../model/scene';
 import { freeOnes, lockedWords } from '../copying';
 import type { Grip } from '../editor';
 import type { FrameHandle } from '../hit';
-import { pickFuture } from '../moves';
+import { takeFuture } from '../moves';
 import { addVia, roomForVia } from '../vias';
 import { roadWay } from '../ways-out';
 import type { Chart, State } from './chart';
@@ -160,8 +160,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
         putVia(chart, a, press, hit.index);
         break;
       }
-      const command = a && a.chosen !== hit.index ? pickFuture(editor, a, hit.index) : null;
-      if (command) editor.run(command);
+      if (a) takeFuture(editor, a, hit.index);
       break;
     }
     case 'pinned':
