@@ -21,7 +21,8 @@ export function outcome(
   const hit = own && other ? TEXTS.itHitsAt(other.name, seconds(own.time)) : '';
   if (step.several && n > 0) return TEXTS.othersChanged(n, step.name);
   if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
-  if (n === 0) return `${step.name}.${hit || (hits.length ? '' : TEXTS.nobodyElseHad)}`;
+  const alone = scene.agents.size < 2;
+  if (n === 0) return `${step.name}.${hit || (hits.length || alone ? '' : TEXTS.nobodyElseHad)}`;
   return TEXTS.othersChangedAndHit(n, step.name, hit);
 }
 

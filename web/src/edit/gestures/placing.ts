@@ -2,6 +2,7 @@
 import type { Vec } from '../../model/geometry';
 import { KIND_WORDS, countWords, type PlacedKind } from '../../model/kinds';
 import type { Newcomer } from '../../model/newcomer';
+import { startPose } from '../../model/scene';
 import { metres } from '../../model/units';
 import { alongLine, ghostsFor, overArea, snapNewcomer } from '../placing';
 import { freeShift, inTheWay, standing } from '../room';
@@ -18,9 +19,18 @@ export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading
   const scene = editor.scene.peek();
   if (!scene) return;
   const { view } = surface;
-  editor.placement.pointAt(scene, kind, view.from(at.x, at.y), view.z, chart.modifiers.alt, heading);
+  const place = view.from(at.x, at.y);
+  if (heading === undefined && isOnSelected(editor, place)) editor.placement.show(null);
+  else editor.placement.pointAt(scene, kind, place, view.z, chart.modifiers.alt, heading);
   surface.invalidate('overlay');
 };
+
+/** On who was just put there no other is meant: a hand that rests there need not be told that it is taken. */
+function isOnSelected(editor: Editor, [x, y]: Vec): boolean {
+  const a = editor.agent.peek();
+  const p = a?.placed ? startPose(a) : null;
+  return !!a && !!p && Math.hypot(x - p.x, y - p.y) < a.length / 2;
+}
 
 /** Puts the ghost into the scene. Where somebody stands it asks first, and names the nearest free place. */
 export function placeGhost(editor: Editor): void {
