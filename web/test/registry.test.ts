@@ -3,6 +3,8 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { ACTIONS, actionForKey } from '../src/actions/registry';
 import { HELPS } from '../src/texts/helps';
+import { TEXTS as PALETTE } from '../src/texts/palette';
+import { german as GERMAN } from '../src/texts/german/palette';
 import type { Action } from '../src/actions/action';
 import { caps, keyOf } from '../src/actions/keys';
 
@@ -21,6 +23,13 @@ describe('action registry', () => {
       expect(HELPS[a.help].trim(), a.id).not.toBe('');
       expect(a.label, a.id).not.toMatch(/!|\b(agent|sample|rollout|ground truth|denoising)\b/i);
     }
+  });
+
+  it('is found by other words as well, each for an action that there is', () => {
+    const ids = new Set(ACTIONS.map((a) => a.id));
+    for (const texts of [PALETTE.alsoCalled, GERMAN.alsoCalled])
+      expect(Object.keys(texts).filter((id) => !ids.has(id))).toEqual([]);
+    expect(Object.keys(GERMAN.alsoCalled)).toEqual(Object.keys(PALETTE.alsoCalled));
   });
 
   it('uses no key twice', () => {

@@ -85,7 +85,8 @@ export const TEXTS = table('hud', {
     plural(adapted, { one: `${adapted} other adapted`, other: `${adapted} others adapted` }),
   ready: 'Ready',
   mapReadyLanes: (count: number) => `Map ready · ${count} lanes`,
-  readyRoadUsers: (size: number) => `Ready · ${size} road users`,
+  readyRoadUsers: (size: number) =>
+    plural(size, { one: `Ready · ${size} road user`, other: `Ready · ${size} road users` }),
   logShownDashed: (edited: number, size: number) => `Log shown dashed · ${edited} of ${size} road users edited`,
   done: 'Done',
   zoom: 'Zoom',

@@ -30,7 +30,7 @@ export const TEXTS = table('imports', {
   copyDetails: 'Copy details',
   chooseAnother: 'Choose another file',
   scenes: (n: number) => `${n} scenes`,
-  roadUsers: (count: number) => `${count} road users`,
+  roadUsers: (count: number) => plural(count, { one: `${count} road user`, other: `${count} road users` }),
   whichColumnIs: 'which column is what?',
   inPartTag: 'in part',
   notAScene: 'not a scene',

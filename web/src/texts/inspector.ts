@@ -10,7 +10,7 @@ export const TEXTS = table('inspector', {
   nothingSelected: 'Nothing selected',
   nobodyIsHere: 'Nobody is here yet',
   inThisScene: 'In this scene',
-  roadUsers: (count: number) => `${count} road users`,
+  roadUsers: (count: number) => plural(count, { one: `${count} road user`, other: `${count} road users` }),
   events: 'Events',
   nextS: (duration: string) => `next ${duration} s`,
   othersTitle: 'Others',

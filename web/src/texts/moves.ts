@@ -29,7 +29,7 @@ export const TEXTS = table('moves', {
   giveItMoreTime: 'Give it more time',
   startFaster: 'Start faster',
   startSlower: 'Start slower',
-  roadUsers: (count: number) => `${count} road users`,
+  roadUsers: (count: number) => plural(count, { one: `${count} road user`, other: `${count} road users` }),
   moved: (whoWords: string) => `${whoWords} moved`,
   turned: (whoWords: string) => `${whoWords} turned`,
   mirrored: (whoWords: string) => `${whoWords} mirrored`,

@@ -1,4 +1,4 @@
-import { table } from './table';
+import { plural, table } from './table';
 
 export const TEXTS = table('scenes', {
   today: (clock: string) => `today ${clock}`,
@@ -15,7 +15,7 @@ export const TEXTS = table('scenes', {
   examples: 'Examples',
   recorded: 'Recorded',
   newName: 'New name',
-  roadUsers: (n: number) => `${n} road users`,
+  roadUsers: (n: number) => plural(n, { one: `${n} road user`, other: `${n} road users` }),
   nobodyYet: 'nobody yet',
   or: 'or ',
   recordedWithin: 'recorded',

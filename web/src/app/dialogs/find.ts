@@ -30,6 +30,7 @@ const MOST_RECENT = 4;
 /** Groups that stand under the name of the selected road user. */
 const FOR_AGENT: readonly Group[] = ['goal', 'rounds', 'move', 'edit'];
 const SCENES = TEXTS.scenes;
+const ALSO_CALLED: Readonly<Record<string, string>> = TEXTS.alsoCalled;
 
 export function find(c: Context, typed: string): Entry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
@@ -78,7 +79,7 @@ function actions(c: Context, words: readonly string[]): Entry[] {
   for (const a of ACTIONS) {
     const moves = a.group === 'move';
     if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves) || a.onOffer?.(c) === false) continue;
-    const said = moves ? a.label : `${a.label} ${HELPS[a.help]}`;
+    const said = moves ? a.label : `${a.label} ${HELPS[a.help]} ${ALSO_CALLED[a.id] ?? ''}`;
     if (words.length && !fit(said, words)) continue;
     const can = possible(c, a);
     out.push({
