@@ -8,6 +8,7 @@ import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
 import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
+import type { Way } from '../model/scene-diff';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
 import { type SpeedUnit, toldIn, walkingUnit } from '../model/units';
@@ -224,7 +225,7 @@ export class Editor {
   onCommit: ((scene: Scene, step: Step) => void) | null = null;
   onSelect: ((id: string | null) => void) | null = null;
   /** Undo and redo went over a step. */
-  onTravel: ((step: HistoryStep, way: 'back' | 'forth') => void) | null = null;
+  onTravel: ((step: HistoryStep, way: Way) => void) | null = null;
   /** A map that was being made has given way to a scene; what is handed over goes on with it. */
   onMapPutAway: ((reopen: () => void) => void) | null = null;
   /** Where the picture looks; kept with every step. */
@@ -392,7 +393,7 @@ export class Editor {
     return lock !== null;
   }
 
-  #travel(move: (h: History) => HistoryStep | null, way: 'back' | 'forth'): void {
+  #travel(move: (h: History) => HistoryStep | null, way: Way): void {
     const before = this.#history?.scene;
     const step = this.#history && !this.#refused() ? move(this.#history) : null;
     if (!step || !this.#history || !before) return;
@@ -404,7 +405,7 @@ export class Editor {
   }
 
   /** `way`: where one travelled in the history to come here; null for a new step. */
-  #committed(scene: Scene, before: Scene, name: string, way: 'back' | 'forth' | 'there' | null): void {
+  #committed(scene: Scene, before: Scene, name: string, way: Way | 'there' | null): void {
     const undo = way !== null;
     const changed = changedAgents(before, scene);
     const agent = changed.length === 1 ? changed[0] : null;

@@ -50,6 +50,7 @@ function Nothing() {
 function About({ scene }: { scene: Scene }) {
   const { editor, form } = useApp();
   const others = useComputed(() => OTHERS_DO[editor.resting.value?.others ?? 'react']);
+  const span = useComputed(() => TEXTS.nextS(num(editor.resting.value?.duration ?? 0, 0)));
   return (
     <>
       <Head note={scene.agents.size ? TEXTS.nothingSelected : TEXTS.nobodyIsHere} />
@@ -73,7 +74,7 @@ function About({ scene }: { scene: Scene }) {
       <section class="sect">
         <h3>
           {TEXTS.events}
-          <small>{TEXTS.nextS(num(scene.duration, 0))}</small>
+          <small>{span}</small>
         </h3>
         <EventList most={FIRST_EVENTS} />
         <ActionButton id="what-counts" class="counts" icon="" />

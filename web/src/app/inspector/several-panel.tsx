@@ -2,7 +2,7 @@
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { KIND_WORDS, kindsWords, PLACED_KINDS } from '../../model/kinds';
-import { doing, hasGoal, startPose, type Agent, type AgentType, type Others } from '../../model/scene';
+import { doing, hasGoal, type Agent, type AgentType, type Others } from '../../model/scene';
 import { metres, seconds, speedLabel } from '../../model/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
@@ -317,31 +317,28 @@ function Who({ those }: { those: Live }) {
         <small>{gap === null ? '' : TEXTS.smallestGap(metres(gap, 1))}</small>
       </h3>
       <ClosestLine those={those} />
-      {shown.map((a) => {
-        const p = startPose(a);
-        return (
-          <button
-            key={a.id}
-            type="button"
-            class="whorow"
-            title={TEXTS.selectThisOne}
-            onPointerEnter={() => editor.pointAt({ agent: a.id })}
-            onPointerLeave={() => editor.pointAt({})}
-            onClick={(e) => {
-              if (e.shiftKey) editor.toggleSelected(a.id);
-              else {
-                editor.select(a.id);
-                c.reveal([a.id]);
-              }
-            }}
-          >
-            <span class={`dot t-${a.parked ? 'parked' : a.type}`} />
-            <span class="grow">{a.name}</span>
-            {a.locked ? <Icon name="lock" size={12} /> : null}
-            <span class="mut">{p ? speedLabel(p.speed, editor.unitOf(a)) : ''}</span>
-          </button>
-        );
-      })}
+      {shown.map((a) => (
+        <button
+          key={a.id}
+          type="button"
+          class="whorow"
+          title={TEXTS.selectThisOne}
+          onPointerEnter={() => editor.pointAt({ agent: a.id })}
+          onPointerLeave={() => editor.pointAt({})}
+          onClick={(e) => {
+            if (e.shiftKey) editor.toggleSelected(a.id);
+            else {
+              editor.select(a.id);
+              c.reveal([a.id]);
+            }
+          }}
+        >
+          <span class={`dot t-${a.parked ? 'parked' : a.type}`} />
+          <span class="grow">{a.name}</span>
+          {a.locked ? <Icon name="lock" size={12} /> : null}
+          <SpeedNow agent={a} />
+        </button>
+      ))}
       {more > 0 ? (
         <button type="button" class="whorow mut" onClick={() => perform(c, 'zoom-selection')}>
           {TEXTS.andMore(more)}
@@ -349,4 +346,14 @@ function Who({ those }: { those: Live }) {
       ) : null}
     </section>
   );
+}
+
+/** How fast somebody is where the playhead is, as it stands on the picture. */
+function SpeedNow({ agent }: { agent: Agent }) {
+  const { editor } = useApp();
+  const words = useComputed(() => {
+    const p = poseShown(editor, agent);
+    return p ? speedLabel(p.speed, editor.unitOf(agent)) : '';
+  });
+  return <span class="mut">{words}</span>;
 }
