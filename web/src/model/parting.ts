@@ -143,16 +143,17 @@ function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[]
   // Where there are too many the worst are told, and of these the first, whichever side they are on.
   const events = [left, right]
     .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))
-    .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time)
-    .map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
-  // What happens in both the same way is no parting.
-  const own = events.filter((e) => !events.some((o) => o !== e && sameBut(o, e)));
+    .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time);
+  // What happens in both, if not quite as close, is no parting.
+  const alone = events.filter((m) => !events.some((o) => o !== m && sameMeeting(o.e, m.e)));
+  const own = alone.map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
   const ways = parted.map((p) => wayOf(left, right, p));
   return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
 }
 
-const after = (words: string): string => words.slice(words.indexOf(':'));
-const sameBut = (a: Moment, b: Moment): boolean => after(a.words) === after(b.words) && Math.abs(a.time - b.time) < 0.5;
+/** The same happens to the same ones at about the same time. */
+const sameMeeting = (p: TrafficEvent, q: TrafficEvent): boolean =>
+  p.what === q.what && p.a.id === q.a.id && p.b?.id === q.b?.id && Math.abs(p.time - q.time) < 0.5;
 
 function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Parted): Moment {
   const p = poseAt(m, t)!,

@@ -2,7 +2,7 @@ import { table } from './table';
 
 export const TEXTS = table('parting', {
   events: 'Events',
-  smallestGap: 'Smallest gap',
+  smallestGap: 'Smallest gap in time',
   leastTimeToCollision: 'Least time to collision',
   goes: (way: string) => `goes ${way}`,
   standsS: (waits: string) => `stands ${waits} s`,

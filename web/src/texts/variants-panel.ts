@@ -21,7 +21,7 @@ export const TEXTS = table('variants-panel', {
   nameOfVariant: (id: number) => `Name of variant ${id}`,
   compare: 'Compare',
   sides: { first: 'first', left: 'left', right: 'right' },
-  variantAndVariant: (id: number, id2: number) => `Variant ${id} and variant ${id2}`,
+  variantAndVariant: (one: string, other: string) => `Variant ${one} and variant ${other}`,
   endTheComparison: 'End the comparison',
   whenTheyPart: 'When they part',
   clickToGoThere: 'click to go there',

@@ -2,7 +2,7 @@
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/units';
 import type { Moment } from '../../model/parting';
-import type { Compared } from '../../edit/variants/cards';
+import type { Compared, WholeCard } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -22,7 +22,7 @@ export default function ComparePanel() {
         </div>
         <div class="grow">
           <h2>{TEXTS.compare}</h2>
-          <p>{TEXTS.variantAndVariant(left.id, right.id)}</p>
+          <p>{TEXTS.variantAndVariant(calledOf(left), calledOf(right))}</p>
         </div>
         <button type="button" class="btn i" aria-label={TEXTS.endTheComparison} onClick={() => c.variants.endCompare()}>
           <Icon name="x" size={16} />
@@ -33,8 +33,12 @@ export default function ComparePanel() {
           <thead>
             <tr>
               <td />
-              <th scope="col">{left.id}</th>
-              <th scope="col">{right.id}</th>
+              <th scope="col" title={left.name}>
+                {left.id}
+              </th>
+              <th scope="col" title={right.name}>
+                {right.id}
+              </th>
             </tr>
           </thead>
           <tbody>
@@ -64,9 +68,16 @@ export default function ComparePanel() {
         <p class="sec">{sameWords(now)}</p>
       </section>
       <footer class="sect foot">
-        <ActionButton id="export-variants" class="line" icon="">
+        <button
+          type="button"
+          class="btn line"
+          onClick={() => {
+            c.variants.setScope('pair');
+            c.ui.openDialog('export');
+          }}
+        >
           {TEXTS.exportBoth}
-        </ActionButton>
+        </button>
         <ActionButton id="swap-variants" class="line" icon="">
           {TEXTS.swapSides}
         </ActionButton>
@@ -74,6 +85,9 @@ export default function ComparePanel() {
     </>
   );
 }
+
+/** Its number, and what somebody called it. */
+const calledOf = ({ id, variant }: WholeCard): string => [id, variant.called].filter(Boolean).join(' ');
 
 function MomentRow({ moment: m }: { moment: Moment }) {
   const c = useApp();

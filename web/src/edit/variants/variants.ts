@@ -459,9 +459,9 @@ export class Variants {
     });
   }
 
-  /** The next export is about several: the two that are compared, else those that are kept, else all. */
+  /** The next export is about several: those that are kept, else all. */
   aimExport(): void {
-    this.#scope.value = this.#pair.peek() ? 'pair' : this.within('kept').length ? 'kept' : 'all';
+    this.setScope(this.within('kept').length ? 'kept' : 'all');
   }
 
   setScope(scope: Scope): void {

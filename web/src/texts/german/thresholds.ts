@@ -11,12 +11,14 @@ export const german: Said<typeof TEXTS> = {
   braking: 'Starkes Bremsen über',
   steering: 'Starkes Lenken über',
   usually: (value) => `üblich ${value}`,
-  timeMeans: 'Die Zeit ist die bis zum Zusammenstoß, wenn beide so weitermachen.',
+  timeMeans:
+    'Es zählt, wer sich näher kommt und träfe, wenn beide so weitermachten. Wer auf eigener Linie daneben vorbeifährt, zählt nicht, auch nicht Leute zu Fuß untereinander.',
   resetAll: 'Wieder wie üblich',
   reset: 'Es zählt wieder, was üblich ist',
   gapNow: (value) => `Beinahe-Unfälle zählen unter ${value} m`,
   timeNow: (value) => `Beinahe-Unfälle zählen unter ${value} s`,
   brakingNow: (value) => `Bremsen zählt über ${value} m/s²`,
   steeringNow: (value) => `Lenken zählt über ${value} m/s²`,
-  countsBelow: (time, gap) => `Zählt als Beinahe-Unfall unter ${time} oder ${gap}.`,
+  countsBelow: (time, gap) =>
+    `Zählt als Beinahe-Unfall unter ${time} oder ${gap}, wenn sich beide sonst träfen.`,
 };

@@ -23,7 +23,7 @@ export const german: Said<typeof TEXTS> = {
   nameOfVariant: (id) => `Name der Variante ${id}`,
   compare: 'Vergleich',
   sides: { first: 'erste', left: 'links', right: 'rechts' },
-  variantAndVariant: (id, id2) => `Variante ${id} und Variante ${id2}`,
+  variantAndVariant: (one, other) => `Variante ${one} und Variante ${other}`,
   endTheComparison: 'Vergleich beenden',
   whenTheyPart: 'Wo sie sich trennen',
   clickToGoThere: 'Klick führt dorthin',
