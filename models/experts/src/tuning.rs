@@ -149,6 +149,15 @@ tuning! {
         /// Aside on foot.
         aside_on_foot_m = 0.8, off 0.0;
     }
+    /// How fast those go of whom the networks know enough: beyond, what they say counts less and less, and the ways
+    /// and paces of the anchors are all.
+    speeds: SpeedTuning {
+        /// All that was learned counts up to here, m/s. Where six futures of a car alone on a straight motorway
+        /// begin to leave its lane. 2026-11-26.
+        known_mps = 21.0, off 1e3;
+        /// Nothing of it from here on, m/s. 2026-11-26.
+        unknown_mps = 24.0, off 2e3;
+    }
     /// What the mode in the middle of what may happen is made of.
     middle: MiddleTuning {
         /// Share of what was learned in it, the rest is its anchor's own base: recorded road users keep nearer

@@ -6,9 +6,10 @@ use crate::features::agent::{AgentPlan, plan};
 use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
+use crate::tuning::SpeedTuning;
 use scene::geometry::direction;
 use scene::motion::{Gear, Kind};
-use scene::{AgentId, AgentType, State};
+use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
 
 /// Off a lane's middle by more than this, a vehicle is beside the lane, metres.
 const BESIDE_LANE_M: f64 = 1.4;
@@ -36,6 +37,8 @@ pub(super) struct Actor {
     pub(super) stays_probability: f64,
     /// A vehicle that starts within the road's edges.
     pub(super) keeps_to_the_road: bool,
+    /// Share of what the networks say that counts.
+    familiar: f32,
 }
 
 /// Modes by falling probability.
@@ -115,7 +118,23 @@ impl Actor {
             stays_parked: false,
             stays_probability: 0.0,
             keeps_to_the_road: false,
+            familiar: 1.0,
         }
+    }
+
+    /// Goes faster than the networks have seen anybody go, they are heeded less.
+    pub(super) fn heeds(&mut self, tuning: &SpeedTuning) {
+        let mean_mps = |anchor: &Anchor| anchor.base[HORIZON_STEPS] / (HORIZON_STEPS as f64 * STEP_S);
+        let anchors = self.plan.anchors.iter().map(mean_mps);
+        let speed_mps = anchors.fold(self.plan.model.start_speed_mps(), f64::max);
+        let SpeedTuning { known_mps, unknown_mps } = *tuning;
+        self.familiar = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
+    }
+
+    /// What counts of what the networks say of its modes.
+    pub(super) fn heeded(&self, mut modes: Modes) -> Modes {
+        modes.as_flattened_mut().iter_mut().for_each(|value| *value *= self.familiar);
+        modes
     }
 
     /// One that was asked for, or that has no motion of its own to keep.

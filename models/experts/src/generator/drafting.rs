@@ -72,7 +72,8 @@ impl Window<'_> {
         finite(&output.residual[row], 0, &actor.id)?;
         let sure = actor.plan.target.position.is_some();
         let temperature = if sure { 1.0 } else { self.tuning().probability.temperature };
-        let mut modes = output.residual[row];
+        actor.heeds(&self.tuning().speeds);
+        let mut modes = actor.heeded(output.residual[row]);
         let mut probability = softmax(&output.log_prob[row], temperature);
         if self.request.stages.parted {
             let tuning = &self.tuning().duplicates;
@@ -156,7 +157,7 @@ impl Window<'_> {
         for (batch, result) in self.batches.iter().zip(results) {
             for (i, modes) in batch.actors.iter().zip(result?) {
                 finite(&modes, step, &self.actors[*i].id)?;
-                self.drafts[*i].refined(modes);
+                self.drafts[*i].refined(self.actors[*i].heeded(modes));
             }
         }
         // A first sample that is chosen does without: choice and guidance clear it, and its user waits.

@@ -3,6 +3,7 @@
 use super::start::errors_at;
 use super::{LaneGraph, Leg, Polyline, Pose, Route};
 use crate::Vec2;
+use crate::geometry::cross;
 
 /// Distance between the points of a route's path, metres.
 const STEP_M: f64 = 1.0;
@@ -15,14 +16,33 @@ pub(super) struct Hop {
     pub lane: usize,
     pub from_m: f64,
     pub to_m: f64,
-    /// Length over which the path moves here from the lane before, which lies beside; zero where the lane
-    /// before simply ends here, metres.
+    /// Length from `from_m` over which the path still moves here from a lane beside, metres: longer than the hop
+    /// where that goes on in the next one, zero where the lane before simply ends here.
     pub change_m: f64,
+    /// The lane before ends here; otherwise it lies beside.
+    pub follows: bool,
+}
+
+/// A move from a lane to the one beside that takes more than one hop: its offset is kept across the new lanes.
+struct Moving {
+    /// Of the lane that is left, positive left, metres.
+    offset_m: f64,
+    total_m: f64,
+    gone_m: f64,
+}
+
+impl Moving {
+    /// The place on a move that is at `pose` of the new lane `further_m` on.
+    fn at(&self, pose: Pose, further_m: f64) -> Vec2 {
+        let heading = pose.direction();
+        let left = self.offset_m * (1.0 - smooth((self.gone_m + further_m) / self.total_m));
+        pose.position + left * Vec2::new(-heading.y, heading.x)
+    }
 }
 
 impl Hop {
     pub fn along(lane: usize, from_m: f64, to_m: f64) -> Self {
-        Self { lane, from_m, to_m, change_m: 0.0 }
+        Self { lane, from_m, to_m, change_m: 0.0, follows: true }
     }
 
     pub fn length_m(&self) -> f64 {
@@ -34,6 +54,7 @@ impl Hop {
 fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
     let mut points: Vec<Vec2> = Vec::new();
     let (mut starts, mut length) = (Vec::with_capacity(hops.len()), 0.0);
+    let mut moving: Option<Moving> = None;
     for (i, hop) in hops.iter().enumerate() {
         starts.push(length);
         let path = &graph.lanes()[hop.lane].path;
@@ -42,17 +63,35 @@ fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
             length += points.last().map_or(0.0, |last| (p - last).norm());
             points.push(p);
         };
-        if let (Some(before), true) = (i.checked_sub(1).map(|k| hops[k]), change_m > 0.0) {
-            let beside = &graph.lanes()[before.lane].path;
-            let pieces = change_m.ceil().max(1.0) as usize;
-            for k in 0..=pieces {
-                let share = k as f64 / pieces as f64;
-                let from = beside.extrapolate(before.to_m + share * change_m).position;
-                let to = path.position_at(hop.from_m + share * change_m);
-                add(from + smooth(share) * (to - from));
+        let pieces = change_m.ceil().max(1.0) as usize;
+        let shares = (0..=pieces).map(|k| k as f64 / pieces as f64);
+        let before = i.checked_sub(1).map(|k| hops[k]).filter(|_| change_m > 0.0 && !hop.follows);
+        let beside = before.map(|before| (&graph.lanes()[before.lane].path, before.to_m));
+        if let Some((beside, left_m)) = beside {
+            moving = None;
+            if hop.change_m > hop.length_m() {
+                let onto = path.sample(hop.from_m);
+                let away = beside.extrapolate(left_m).position - onto.position;
+                let offset_m = cross(onto.direction(), away);
+                moving = Some(Moving { offset_m, total_m: hop.change_m, gone_m: 0.0 });
+            } else {
+                for share in shares.clone() {
+                    let from = beside.extrapolate(left_m + share * change_m).position;
+                    let to = path.position_at(hop.from_m + share * change_m);
+                    add(from + smooth(share) * (to - from));
+                }
             }
         }
-        path.slice(hop.from_m + change_m, hop.to_m).points().iter().copied().for_each(&mut add);
+        if let Some(moving) = moving.as_mut().filter(|_| change_m > 0.0) {
+            for share in shares {
+                add(moving.at(path.sample(hop.from_m + share * change_m), share * change_m));
+            }
+            moving.gone_m += change_m;
+        }
+        // The middle of the lane is reached.
+        if hop.change_m <= hop.length_m() {
+            path.slice(hop.from_m + change_m, hop.to_m).points().iter().copied().for_each(&mut add);
+        }
     }
     (points, starts)
 }

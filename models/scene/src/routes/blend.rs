@@ -2,6 +2,7 @@
 
 use super::assemble::smooth;
 use super::cubic::{self, CURVATURE_WINDOW_M};
+use super::start::errors_at;
 use super::{Polyline, Pose};
 use crate::geometry::cross;
 use crate::{AgentType, Vec2, wrap_angle};
@@ -12,8 +13,12 @@ const STEP_M: f64 = 1.0;
 const FINE_STEP_M: f64 = 0.4;
 /// Travel over which an offset is blended away: this time at the present speed, seconds.
 const BLEND_S: f64 = 3.0;
-/// Longest blend, metres.
+/// Longest blend of an offset that is not felt, metres.
 const MAX_BLEND_M: f64 = 40.0;
+/// Sideways acceleration of a larger one, such as a lane change: what drivers mostly keep to, m/s2. The quintic of
+/// an offset `d` that fades in a time `T` peaks at 5.77 `d` / `T`².
+const SIDEWAYS_MPS2: f64 = 1.5;
+const QUINTIC_PEAK: f64 = 5.77;
 /// Greatest heading difference that a blend across the path can take.
 const BLEND_TURN_RAD: f64 = 0.7;
 /// Share of the comfortable curvature that a blend may add before a cubic is tried instead.
@@ -61,7 +66,9 @@ impl Fade {
 /// How a road user takes to a path.
 #[derive(Clone, Copy, Debug)]
 struct Manner {
-    /// Length of a fade where there is room, metres.
+    /// Speed with which it comes, m/s.
+    speed_mps: f64,
+    /// Length of a fade of a small offset where there is room, metres.
     blend_m: f64,
     /// Shortest fade, metres.
     min_blend_m: f64,
@@ -77,14 +84,21 @@ impl Manner {
         let blend_m = (BLEND_S * speed_mps).clamp(min_blend_m, MAX_BLEND_M);
         let fine = matches!(agent_type, AgentType::Pedestrian | AgentType::Cyclist);
         let step_m = if fine { FINE_STEP_M } else { STEP_M };
-        Self { blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type), step_m }
+        let speed_mps = speed_mps.max(0.0);
+        Self { speed_mps, blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type), step_m }
+    }
+
+    /// Length over which so large an offset fades where there is room, metres.
+    fn fade_m(&self, offset_m: f64) -> f64 {
+        self.blend_m.max(self.speed_mps * (QUINTIC_PEAK * offset_m.abs() / SIDEWAYS_MPS2).sqrt())
     }
 }
 
 /// `path` (a route's, or any lane centre) bent so that it begins exactly at `start` and, with a goal, ends
 /// exactly there. Vehicles keep to the inside of bends.
 ///
-/// The road user's offset and heading fade onto the path over about 3 s of travel, and the goal's fade in
+/// The road user's offset and heading fade onto the path over about 3 s of travel, a lane's width over as much as its
+/// speed asks for, and the goal's fade in
 /// over the last part, both as quintics across the path, so that curvature stays continuous. Where an
 /// offset is too large for that (a heading far off the path's, a tight bend on the inner side), a cubic
 /// leads onto the path or off it. A goal beyond the path's end extends it straight on; a goal that is
@@ -180,7 +194,8 @@ fn onto(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Polyline {
     if room_m < 0.1 {
         return straight();
     }
-    let faded = faded(path, start, manner.blend_m.min(room_m), manner.step_m);
+    let (offset_m, _) = errors_at(start, path.first());
+    let faded = faded(path, start, manner.fade_m(offset_m).min(room_m), manner.step_m);
     let bend = |p: &Polyline| p.max_curvature(0.0, room_m, CURVATURE_WINDOW_M);
     match &faded {
         Some(line) if bend(line) <= bend(path) + BLEND_CURVATURE * manner.curvature => {}

@@ -10,9 +10,11 @@ use std::collections::BinaryHeap;
 
 /// Cost of a lane change beyond its length, metres.
 const CHANGE_COST_M: f64 = 8.0;
-/// Shortest lane change, metres, and the time one takes, seconds.
+/// Shortest lane change, metres, and the time one takes, seconds: sideways drivers mostly stay within 1.6 m/s2.
 const CHANGE_M: f64 = 10.0;
-const CHANGE_S: f64 = 2.5;
+const CHANGE_S: f64 = 3.5;
+/// Lanes that lie side by side for less than this share of it are not changed between.
+const LEAST_CHANGE: f64 = 0.4;
 /// Most lanes settled in one search.
 const MAX_SETTLED: usize = 4_096;
 
@@ -77,6 +79,9 @@ pub(super) fn shortest(
     let lanes = graph.lanes();
     let change_m = (CHANGE_S * speed_mps).max(CHANGE_M);
     let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
+    // Who begins beside the lane under it is on its way there first; who would leave its own at once begins so.
+    let on_lane_m = start.s_m + if start.beside { change_m } else { 0.0 };
+    let leaves_at_once = |left_m: f64| !start.beside && left_m < start.s_m + 1.0;
     let mut heap = BinaryHeap::from([Open(Entered { hop: first, cost: 0.0, before: None })]);
     let mut settled: Vec<Entered> = Vec::new();
     let mut done = vec![[false; 2]; lanes.len()];
@@ -102,11 +107,16 @@ pub(super) fn shortest(
         }
         let (length, cost) = (to_m - from_m, state.cost);
         for next in lanes[lane].successors.iter().filter(|n| lanes[**n].carries(agent_type)) {
-            let hop = Hop::along(*next, 0.0, lanes[*next].path.length_m());
+            let left_over_m = (state.hop.change_m - length).max(0.0);
+            let hop = Hop { change_m: left_over_m, ..Hop::along(*next, 0.0, lanes[*next].path.length_m()) };
             heap.push(Open(Entered { hop, cost: cost + length, before: Some((at, to_m)) }));
         }
         for beside in lanes[lane].beside().filter(|b| b.same_direction && lanes[b.lane].carries(agent_type)) {
-            if let Some((left_m, hop)) = change(graph, &state.hop, beside, change_m) {
+            let first = state.before.is_none();
+            let settled_m = if first { on_lane_m } else { from_m + state.hop.change_m };
+            if let Some((left_m, hop)) = change(graph, settled_m, beside, change_m)
+                && !(first && leaves_at_once(left_m))
+            {
                 let cost = cost + left_m - from_m + CHANGE_COST_M;
                 heap.push(Open(Entered { hop, cost, before: Some((at, left_m)) }));
             }
@@ -119,15 +129,18 @@ pub(super) fn shortest(
     found.collect()
 }
 
-/// Change from a lane to the one beside as soon as the two lie side by side: where the lane is left, and
-/// the hop that follows.
-fn change(graph: &LaneGraph, hop: &Hop, beside: &Beside, change_m: f64) -> Option<(f64, Hop)> {
-    let left_m = (hop.from_m + hop.change_m).max(beside.own_m.0);
+/// Change from a lane to the one beside as soon as the two lie side by side beyond `from_m`: where the lane is left,
+/// and the hop that follows.
+fn change(graph: &LaneGraph, from_m: f64, beside: &Beside, change_m: f64) -> Option<(f64, Hop)> {
+    let left_m = from_m.max(beside.own_m.0);
     let from_m = beside.across(left_m)?;
-    let to_m = graph.lanes()[beside.lane].path.length_m();
+    let lane = &graph.lanes()[beside.lane];
+    let to_m = lane.path.length_m();
     let room = (beside.own_m.1 - left_m).min(to_m - from_m);
-    let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(room) };
-    (room >= 0.5 * change_m).then_some((left_m, hop))
+    // Lanes are recorded in short pieces: a change goes on in the next one.
+    let most_m = if lane.successors.is_empty() { room } else { f64::INFINITY };
+    let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(most_m), follows: false };
+    (room >= LEAST_CHANGE * change_m).then_some((left_m, hop))
 }
 
 /// Hops from the start to settled state `at`, ending at `goal_s_m` of its lane.

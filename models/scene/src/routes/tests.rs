@@ -233,6 +233,35 @@ fn lane_changes_lead_to_the_lane_beside() {
 }
 
 #[test]
+fn lane_changes_are_as_long_as_the_speed_asks() {
+    // In pieces that are shorter than a change at speed, as recorded lanes are.
+    let pieces = |name: &str, y: f64| {
+        let piece = |i: usize| {
+            let x = -200.0 + 40.0 * i as f64;
+            let mut lane = lane(format!("{name} {i}"), line(v(x, y), v(x + 40.0, y)));
+            lane.successors = if i < 9 { vec![format!("{name} {}", i + 1)] } else { vec![] };
+            lane
+        };
+        (0..10).map(piece).collect::<Vec<_>>()
+    };
+    let graph = LaneGraph::new(&map([pieces("right", 0.0), pieces("left", 3.5)].concat()));
+    for speed_mps in [8.0, 14.0, 20.0, 27.0] {
+        let (pose, goal) = (Pose::xyh(-150.0, 0.0, 0.0), v(-150.0 + 7.0 * speed_mps, 3.5));
+        let asked = GoalQuery { speed_mps, ..query(pose, goal, Some(0.0)) };
+        let routes = routes_to_goal(&graph, &asked);
+        let end = EndPose { position: goal, heading_rad: Some(0.0) };
+        let path = base_path(&routes[0].route.path, pose, speed_mps, AgentType::Vehicle, Some(end));
+        let sharpest = path.curvatures(2.0).into_iter().map(f64::abs).fold(0.0, f64::max);
+        let sideways_mps2 = sharpest * speed_mps * speed_mps;
+        assert!(sideways_mps2 < 2.0, "{sideways_mps2} at {speed_mps}");
+        // To stay in one's lane is no change.
+        let asked = GoalQuery { goal: v(goal.x, 0.0), ..asked };
+        let route = &routes_to_goal(&graph, &asked)[0].route;
+        assert!(route.path.points().iter().all(|p| p.y.abs() < 1e-6), "{speed_mps}");
+    }
+}
+
+#[test]
 fn graphs_are_shared_between_threads() {
     fn shared<T: Send + Sync>(_: &T) {}
     shared(&LaneGraph::new(&crossing()));

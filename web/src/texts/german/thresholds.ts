@@ -19,6 +19,5 @@ export const german: Said<typeof TEXTS> = {
   timeNow: (value) => `Beinahe-Unfälle zählen unter ${value} s`,
   brakingNow: (value) => `Bremsen zählt über ${value} m/s²`,
   steeringNow: (value) => `Lenken zählt über ${value} m/s²`,
-  countsBelow: (time, gap) =>
-    `Zählt als Beinahe-Unfall unter ${time} oder ${gap}, wenn sich beide sonst träfen.`,
+  countsBelow: (time, gap) => `Zählt als Beinahe-Unfall unter ${time} oder ${gap}, wenn sich beide sonst träfen.`,
 };
