@@ -7,6 +7,7 @@ export const TEXTS = table('variants', {
   cannotBeAsked: (name: string) => `${name} cannot be asked for all of that.`,
   valuesThereIs: (n: number, room: number) => `${n} values; there is room for ${room}.`,
   variantsMade: (n: number) => plural(n, { one: `${n} variant made`, other: `${n} variants made` }),
+  keepWhatWas: 'Keep what was there, too',
   noVariantMade: 'No variant made',
   moreWouldBeAlike: (made: string) => `${made}: more would be alike. A higher diversity helps.`,
   otherRoadUsers: 'Other road users were here when it was made. Undo brings them back.',

@@ -122,13 +122,14 @@ impl Actor {
         }
     }
 
-    /// Goes faster than the networks have seen anybody go, they are heeded less.
+    /// Who goes, or must go, faster than the networks have seen anybody go heeds them less.
     pub(super) fn heeds(&mut self, tuning: &SpeedTuning) {
+        let Self { plan, familiar, .. } = self;
         let mean_mps = |anchor: &Anchor| anchor.base[HORIZON_STEPS] / (HORIZON_STEPS as f64 * STEP_S);
-        let anchors = self.plan.anchors.iter().map(mean_mps);
-        let speed_mps = anchors.fold(self.plan.model.start_speed_mps(), f64::max);
+        let asked_mps = plan.anchors.first().filter(|_| plan.target.position.is_some()).map_or(0.0, mean_mps);
+        let speed_mps = plan.model.start_speed_mps().max(asked_mps);
         let SpeedTuning { known_mps, unknown_mps } = *tuning;
-        self.familiar = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
+        *familiar = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
     }
 
     /// What counts of what the networks say of its modes.

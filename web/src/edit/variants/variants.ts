@@ -87,7 +87,7 @@ interface Made {
 
 const USUAL_COUNT = 6;
 /** That so many of them were kept. */
-const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept } as const;
+const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept, present: () => TEXTS.keptAsAVariant } as const;
 const NONE: readonly Card[] = Object.freeze([]);
 
 /** Cards of a round, each as the document in which it is taken. */
@@ -342,6 +342,10 @@ export class Variants {
     const { editor } = this;
     const { notices } = editor;
     const now = editor.scene.peek()!;
+    const motion = editor.motion.peek();
+    // Work that is none of the variants gives way to the first of them: it can be kept beside them.
+    const isWork = this.shown.peek() === null && !motion.stale && editor.touchedIds(now).length > 0;
+    const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
     if (takes.length && takes[0].scene.roster === now.roster) {
       this.#keepSets(takes);
       const states = takes.map((t) => stateOfVariant(t.scene, subject));
@@ -352,9 +356,10 @@ export class Variants {
     const n = takes.length;
     if (!n && stopped) return;
     const made = n ? TEXTS.variantsMade(n) : TEXTS.noVariantMade;
+    const keep = { label: TEXTS.keepWhatWas, run: () => this.keepTakes([was], null, 'present') };
+    const text = stopped || n === wanted ? `${made}.` : TEXTS.moreWouldBeAlike(made);
     if (why) notices.show({ text: why });
-    else if (stopped || n === wanted) notices.show({ text: `${made}.`, undo: n > 0 });
-    else notices.show({ text: TEXTS.moreWouldBeAlike(made), undo: n > 0 });
+    else notices.show({ text, undo: n > 0, ...(n && isWork ? { action: keep } : {}) });
     notices.say(`${made}.`);
   }
 

@@ -9,6 +9,7 @@ export const german: Said<typeof TEXTS> = {
   cannotBeAsked: (name) => `${name} kann nicht alles davon.`,
   valuesThereIs: (n, room) => `${n} Werte; Platz ist für ${room}.`,
   variantsMade: (n) => plural(n, { one: `${n} Variante gemacht`, other: `${n} Varianten gemacht` }),
+  keepWhatWas: 'Was da war, auch behalten',
   noVariantMade: 'Keine Variante gemacht',
   moreWouldBeAlike: (made) => `${made}: weitere wären gleich. Eine höhere Vielfalt hilft.`,
   otherRoadUsers: 'Als sie entstand, waren andere Verkehrsteilnehmer hier. Rückgängig bringt sie zurück.',
