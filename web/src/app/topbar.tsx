@@ -96,6 +96,7 @@ function Title() {
     if (editor.layouts.isNew.value) return TEXTS.notSaved;
     if (editor.dragging.value) return TEXTS.dragging;
     if (!scene) return '';
+    if (editor.lock.value) return TEXTS.readOnly;
     const saved = saving.state.value;
     return saved === 'example' && isRecorded(scene.source) ? TEXTS.recordedScene : SAVED[saved];
   });

@@ -203,7 +203,8 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     const speed = a.goal.speed === null ? null : nearest.speed;
     out.push({
       label: TEXTS.useNearestReachable,
-      note: metres(gets, 0),
+      // A speed that was fixed goes with it: that is said.
+      note: [TEXTS.afterWay(metres(gets, 0)), ...(speed === null ? [] : [speedLabel(speed, unit)])].join(', '),
       icon: 'flag',
       primary: true,
       command: goalStep(

@@ -22,6 +22,7 @@ export const TEXTS = table('moves', {
   startOfFree: (field_word: string, name: string) => `Start ${field_word} of ${name} free`,
   startOfFixed: (field_word: string, name: string) => `Start ${field_word} of ${name} fixed`,
   goalOfSet: (name: string) => `Goal of ${name} set`,
+  afterWay: (way: string) => `after ${way}`,
   useNearestReachable: 'Use nearest reachable',
   goalOfMovedTo: (name: string) => `Goal of ${name} moved to the nearest reachable point`,
   leaveTheHeading: 'Leave the heading free',

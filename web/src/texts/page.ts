@@ -17,6 +17,7 @@ export const TEXTS = table('page', {
   example: 'Example',
   saved: 'Saved',
   saving: 'Saving …',
+  readOnly: 'Read-only',
   savedOnThisComputer: 'Saved on this computer',
   changedElsewhere: 'Changed elsewhere',
   noRoomToSave: 'No room to save',

@@ -17,6 +17,8 @@ export function Coach() {
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
+      // What can only be looked at is not dragged.
+      editor.lock.value === null &&
       !editor.dragging.value &&
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&

@@ -24,6 +24,7 @@ export const german: Said<typeof TEXTS> = {
   startOfFree: (field_word, name) => `${field_word} am Start von ${name} frei`,
   startOfFixed: (field_word, name) => `${field_word} am Start von ${name} fest`,
   goalOfSet: (name) => `Ziel von ${name} gesetzt`,
+  afterWay: (way: string) => `nach ${way}`,
   useNearestReachable: 'Nächsten erreichbaren nehmen',
   goalOfMovedTo: (name) => `Ziel von ${name} zum nächsten erreichbaren Punkt verschoben`,
   leaveTheHeading: 'Richtung frei lassen',

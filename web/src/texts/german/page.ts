@@ -18,6 +18,7 @@ export const german: Said<typeof TEXTS> = {
   example: 'Beispiel',
   saved: 'Gesichert',
   saving: 'Sichert …',
+  readOnly: 'Nur zum Ansehen',
   savedOnThisComputer: 'Hier gesichert',
   changedElsewhere: 'Anderswo geändert',
   noRoomToSave: 'Kein Platz zum Sichern',
