@@ -120,12 +120,13 @@ export function generatedJson(
   if (!Object.keys(agents).length) return null;
   return {
     input_sha256: '',
-    stale: false,
     weights: {},
     seed: scene.seed,
     request: { steps: DEFAULTS.steps, diversity: scene.diversity },
     created_at: '1970-01-01T00:00:00Z',
     ...head,
+    // The server cannot know that a picked future still answers what is asked; who writes it here does.
+    stale: false,
     chosen_sample: 0,
     samples: [{ agents }],
   };
