@@ -72,30 +72,28 @@ fn thresholds_decide_what_is_said_and_change_no_motion() {
 }
 
 #[test]
-fn a_kept_future_goes_on_past_its_end_where_nobody_is_asked() {
+fn a_picked_future_goes_on_past_its_end() {
     let server = Server::start(&[]).unwrap();
     server.wait_ready().unwrap();
     let first = ask(&server, &json!({}));
     let mut scene = server.send(&Request::new("GET", "/v1/scenes/demo-crossing")).unwrap().json();
     scene["generated"] = first["generated"].clone();
     scene["generated"]["samples"] = first["samples"].clone();
-    let asked = |more: &Value| {
-        let mut body = json!({"scene": scene, "agents": [], "seed": 3});
-        body.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        server.send(&Request::new("POST", "/v1/generate").json(&body)).unwrap()
+    let futures = |answer: &Value| answer["samples"][0]["agents"]["5"].clone();
+    let xs = |answer: &Value| {
+        let chosen = futures(answer)["chosen"].as_u64().unwrap() as usize;
+        futures(answer)["modes"][chosen]["x_m"].as_array().unwrap().clone()
     };
-    let longer = asked(&json!({"horizon_s": 15}));
-    assert_eq!(longer.status, 200, "{}", longer.text());
-    let longer = longer.json();
-    let agents = longer["samples"][0]["agents"].as_object().unwrap();
-    assert_eq!(agents.keys().collect::<Vec<_>>(), ["5"]);
-    let modes = agents["5"]["modes"].as_array().unwrap();
-    let chosen = first["samples"][0]["agents"]["5"]["chosen"].as_u64().unwrap() as usize;
-    let xs = |mode: &Value| mode["x_m"].as_array().unwrap().clone();
-    let before = xs(&first["samples"][0]["agents"]["5"]["modes"][chosen]);
-    assert_eq!((modes.len(), xs(&modes[0]).len()), (1, 150));
-    assert_eq!(xs(&modes[0])[..90], before[..]);
-    // Within one window there is nothing to be worked out.
-    let refused = asked(&json!({}));
-    assert_eq!((refused.status, &refused.json()["errors"][0]["pointer"]), (422, &json!("/agents")));
+    for replan_s in [3, 9] {
+        let asked = json!({"scene": scene, "agents": ["5"], "pinned": ["5"], "seed": 3, "horizon_s": 15,
+            "replan_interval_s": replan_s, "react": true});
+        let reply = server.send(&Request::new("POST", "/v1/generate").json(&asked)).unwrap();
+        assert_eq!(reply.status, 200, "{}", reply.text());
+        let longer = xs(&reply.json());
+        assert_eq!(longer.len(), 150, "re-planned every {replan_s} s");
+        assert_eq!(longer[..90], xs(&first)[..], "re-planned every {replan_s} s");
+        // It does not stop at the end of what was picked.
+        let far_m = longer[149].as_f64().unwrap() - longer[89].as_f64().unwrap();
+        assert!(far_m.abs() > 1.0, "{far_m} m");
+    }
 }

@@ -30,7 +30,7 @@ use experts::request::{DEFAULTS, ShownLast};
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
 use scene::score::Thresholds;
-use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
+use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -135,7 +135,7 @@ pub struct GenerateRequest {
     /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
     #[serde(default)]
     background: bool,
-    /// Road users to regenerate; nobody where futures that the scene keeps are only to go on past their end.
+    /// Road users to regenerate.
     #[serde(default = "everyone")]
     agents: Who,
     /// Who else answers to them.
@@ -512,11 +512,7 @@ impl GenerateRequest {
                 Some(ids)
             }
         };
-        // In later windows who keeps a future goes on past its end, also where nobody is asked anything.
-        let keeps = || scene.generated.as_ref().is_some_and(|g| !g.samples.is_empty());
-        let window_s = self.replan_interval_s.unwrap_or(HORIZON_STEPS as f64 * STEP_S);
-        let goes_on = self.horizon_s > window_s && keeps();
-        if agents.as_ref().is_some_and(BTreeSet::is_empty) && !goes_on {
+        if agents.as_ref().is_some_and(BTreeSet::is_empty) {
             return Err(Problem::field("/agents", Code::InvalidField, "\"all\" or at least one id expected"));
         }
         let react = match &self.react {

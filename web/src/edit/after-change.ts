@@ -23,12 +23,11 @@ export function askedAfter(
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
     const rest = others === 'all' ? free(scene) : others;
-    // Past its 9 s a picked future goes on only where it is kept beside everybody else's.
-    if (scene.length > GOAL_TIME) return { agents: rest, react: false, step, kept: new Set(picked) };
-    if (!rest.length) return 'known';
+    // Past its 9 s the generator says how it goes on.
+    if (!rest.length && scene.length <= GOAL_TIME) return 'known';
     // It is kept as it is; whoever meets it answers it, and all others go on as they do.
     const { id } = subject;
-    const react = picked.length > 1 || others !== 'all' ? rest : true;
+    const react = rest.length > 0 && (picked.length > 1 || others !== 'all' ? rest : true);
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
   const held = heldIn(scene, known);
@@ -75,8 +74,8 @@ function whoIsAsked(
 function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): Asked {
   const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   const kept = new Set(mine.filter((id) => !open.includes(id)));
-  // A picked future goes on past its 9 s, also where nobody else is asked.
-  return open.length || scene.length > GOAL_TIME ? { agents: open, react: false, step, kept } : 'known';
+  if (open.length) return { agents: open, react: false, step, kept };
+  return scene.length > GOAL_TIME ? { agents: mine, pinned: mine, react: false, step, kept } : 'known';
 }
 
 /** Everybody is drawn anew but those that take a pinned future: these go on as they do, and the others see it. */

@@ -3,7 +3,6 @@ import { motionOf } from '../model/changes';
 import { DEFAULTS } from '../model/domain';
 import type { AgentFuturesJson, ReactionJson } from '../model/json';
 import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
-import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
 import { firstPose } from '../model/read';
 import { metAnew, withMeetingsOf, type Changed } from '../model/rejudge';
@@ -99,8 +98,9 @@ function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFutur
     const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
     return withNames(f, naming(scene, a));
   }
-  // A picked future comes back longer than it was; the other five stand as they are.
-  const longer = { ...picked, motion: motionFrom(json.modes[0], start) };
+  // A picked future comes back longer than it was, and judged to its end; the other five stand as they are.
+  const [read] = readFutures(json, start, 1, 1, a.type === 'pedestrian').modes;
+  const longer = { ...picked, motion: read.motion, about: read.about ?? picked.about, sent: read.sent };
   return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
 }
 

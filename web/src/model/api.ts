@@ -1637,7 +1637,7 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate; nobody where futures that the scene keeps are only to go on past their end.
+             * @description Road users to regenerate.
              * @default all
              */
             agents?: components["schemas"]["Who"];

@@ -171,7 +171,7 @@ describe('a pick among futures', () => {
     expect(generator.asked.length).toBe(asked9);
     editor.run(setLength(editor.scene.peek()!, 15));
     pick(1);
-    expect(generator.last.options).toMatchObject({ agents: [], react: false, horizon_s: 15 });
+    expect(generator.last.options).toMatchObject({ agents: ['1'], pinned: ['1'], react: false, horizon_s: 15 });
     expect(Object.keys(asked())).toEqual(['1']);
   });
 

@@ -127,7 +127,8 @@ impl<'g> Window<'g> {
             actor
         });
         self.batches = self.encode(&mut actors)?;
-        for actor in &mut actors {
+        // In a later window it has come to the end of what was picked.
+        for actor in actors.iter_mut().filter(|_| !later) {
             actor.pinned = self.request.pinned.get(&actor.id).cloned();
         }
         self.actors = actors;

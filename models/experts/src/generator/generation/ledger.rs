@@ -44,6 +44,15 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// What it did up to `steps` after the call's start while it followed a motion that was known.
+    fn catch_up(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
+        let track = &base.agents[agent].track;
+        let from = self.absent + self.executed.len() + 1;
+        self.executed.extend((from..=steps).filter_map(|i| track.at(request.start_step + i).copied()));
+    }
+}
+
 /// All that a call writes down on its way to the answer.
 #[derive(Default)]
 pub(super) struct Ledger {
@@ -102,6 +111,7 @@ impl Ledger {
             Some(known) => Progress { parked: known.parked && decided.rests(), answers: false, ..known },
             None => first_of(window, actor, decided, later, before(base, request, agent, span.start), &reach),
         };
+        progress.catch_up(request, base, agent, span.start);
         progress.executed.extend(decided.motion().states.iter().skip(1).take(span.len()).map(State::from));
         // What was asked lies behind after the goal: the verdict stands.
         if due(request, agent) > span.start as isize {
@@ -138,6 +148,13 @@ impl Ledger {
         progress.ahead = answered.states.iter().skip(there).copied().collect();
         progress.answers = true;
         self.progress.insert(agent, progress);
+    }
+
+    /// Writes down that somebody followed a picked future up to `steps` after the call's start.
+    pub(super) fn followed(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
+        if let Some(progress) = self.progress.get_mut(&agent) {
+            progress.catch_up(request, base, agent, steps);
+        }
     }
 
     /// Ends a sample: one continuous future each. The first one says what became of everybody's conditions;

@@ -220,6 +220,11 @@ impl<'g> Generation<'g> {
     }
 
     fn finish_sample(&mut self) -> Result<(), GenerateError> {
+        for agent in self.roster.with(|part| part == Part::Picked) {
+            let last = self.request.horizon_steps;
+            let ends = self.roster.pick_ends(agent).map_or(last, |step| step - 1 - self.request.start_step);
+            self.ledger.followed(&self.request, &self.windows.base, agent, last.min(ends));
+        }
         let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {

@@ -17,8 +17,8 @@ use std::sync::Arc;
 pub(super) enum Part {
     /// It was asked for.
     Asked,
-    /// It was asked for, and a person picked its future: it is planned around in the first window and is
-    /// background after it.
+    /// It was asked for, and a person picked its future: it is planned around in the first window, is background
+    /// after it, and plans on from its end.
     Picked,
     /// It may answer those that were asked for.
     MayReact,
@@ -136,15 +136,30 @@ impl Roster {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
+    /// Nothing is known of a road user that keeps its motion from scene step `step` on.
+    fn known_until(&self, agent: usize, step: usize) -> bool {
+        self.guessed[agent].is_some_and(|g| g.step <= step)
+    }
+
+    /// A road user still follows the future that was picked for it when a window begins at scene step `step`.
+    pub(super) fn follows_its_pick(&self, agent: usize, step: usize) -> bool {
+        self.part(agent) == Part::Picked && !self.known_until(agent, step + 1)
+    }
+
+    /// Scene steps of which a picked future speaks; `None` of anybody else, and where nothing comes after it.
+    pub(super) fn pick_ends(&self, agent: usize) -> Option<usize> {
+        self.guessed[agent].filter(|_| self.part(agent) == Part::Picked).map(|g| g.step)
+    }
+
     /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
     /// knows who got futures in earlier windows of the sample; `parked` is left to the caller.
     pub(super) fn in_window(&self, number: usize, world: &World<'_>, end: usize, ledger: &Ledger) -> Cast {
         let first = number == 0;
         let acted = &ledger.acted();
-        // A picked future is background after the first window, like any other motion that is kept.
-        let asked = self.with(|part| part == Part::Asked || (part == Part::Picked && first));
+        // A picked future is background after the first window, like any other motion that is kept, up to its end.
+        let asked = self.with(Part::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
         let mut acting: BTreeSet<usize> = asked.collect();
-        let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
+        let known_until = |i: usize, step: usize| self.known_until(i, step);
         // Who drives its own way at another pace does so as long as there is one.
         let mut resumed = ledger.answering();
         resumed.retain(|i, _| !known_until(*i, end));

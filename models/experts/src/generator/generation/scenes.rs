@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// kept, what it does in the window), and what was fixed about starts is behind.
 pub(super) fn reached(base: &Scene, roster: &Roster, ledger: &Ledger, step: usize) -> Scene {
     let agents = base.agents.iter().enumerate().map(|(i, agent)| {
-        let progress = ledger.progress(i);
+        let progress = ledger.progress(i).filter(|_| !roster.follows_its_pick(i, step));
         let mut states: Vec<Option<State>> = match progress {
             Some(progress) => vec![progress.executed.last().copied()],
             None => (step..=step + HORIZON_STEPS).map(|at| agent.track.at(at).copied()).collect(),
