@@ -120,6 +120,11 @@ journeys('looking', (stage) => {
   it('shows limits, reach and conflict zones, and remembers what is shown', { timeout: 60_000 }, async () => {
     const { e } = await selected(stage, { reducedMotion: 'reduce' });
     const pressed = (name) => e.page.locator(`.menu [data-action="layer-${name}"]`).getAttribute('aria-pressed');
+    // Who turns in the crossing has its way crossed by others.
+    const turning = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.speed > 2 && /turning left/.test(u.words));
+    await e.choose(turning.id);
+    await leave(e);
+    await e.settled();
     for (const [key, name] of [
       ['Shift+M', 'limits'],
       ['Shift+H', 'reach'],
