@@ -45,7 +45,7 @@ export async function carOnTheMove(e) {
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5).sort((a, b) => b.speed - a.speed);
   return find(e, cars, (who) => {
     const far = distance(who.start, who.end);
-    if (far < 15 || far > 110) return `goes ${far.toFixed(0)} m`;
+    if (far < 15 || far > 95) return `goes ${far.toFixed(0)} m`;
     return turn(who.start.heading, who.end.heading) < 0.2 || 'turns';
   });
 }

@@ -173,7 +173,9 @@ function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
       const now = below();
       const by = now && now === first ? now.offsetTop - was : 0;
       [first, was] = [now, now?.offsetTop ?? 0];
-      if (by && panel?.matches(':hover, :focus-within')) panel.scrollTop += by;
+      // The verdict itself stays in sight: no more than the head gives way.
+      const most = Math.max(panel?.scrollTop ?? 0, within.offsetTop);
+      if (by && panel?.matches(':hover, :focus-within')) panel.scrollTop = Math.min(panel.scrollTop + by, most);
     });
     watch.observe(within);
     return () => watch.disconnect();
