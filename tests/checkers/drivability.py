@@ -123,7 +123,7 @@ def main():
         drawn, filled, made = (FOLDER / f"{template}{end}.json" for end in ("-map", "-filled", ""))
         run("map", "--template", template, "-o", drawn, "--force")
         run("place", drawn, "--density", density, "--types", "vehicle=1", "--seed", "3", "-o", filled, "--force")
-        run("generate", filled, "--seed", "5", "-o", made, "--force")
+        run("generate", filled, "--seed", "6", "-o", made, "--force")
         scene = json.loads(made.read_text())
         file = made.with_suffix(".xml")
         run("convert", made, "--to", "commonroad", "-o", file, "--force")
