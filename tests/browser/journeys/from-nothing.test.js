@@ -94,7 +94,7 @@ journeys('from nothing', (stage) => {
       await e.settled();
       if (/collision/.test(await said.getAttribute('class')))
         assert.match(await said.innerText(), new RegExp(`hits ${first.name} at \\d\\.\\d s`, 'i'));
-      else assert.match(await e.text('.insp'), new RegExp(`${first.name}\\b`));
+      else assert.match(await e.text('section[aria-label="Others that changed"]'), new RegExp(`${first.name}\\b`));
       await e.key('Control+z');
       await e.settled();
     }
