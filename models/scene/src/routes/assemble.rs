@@ -3,7 +3,6 @@
 use super::start::errors_at;
 use super::{LaneGraph, Leg, Polyline, Pose, Route};
 use crate::Vec2;
-use crate::geometry::cross;
 
 /// Distance between the points of a route's path, metres.
 const STEP_M: f64 = 1.0;
@@ -71,8 +70,7 @@ fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
             moving = None;
             if hop.change_m > hop.length_m() {
                 let onto = path.sample(hop.from_m);
-                let away = beside.extrapolate(left_m).position - onto.position;
-                let offset_m = cross(onto.direction(), away);
+                let (offset_m, _) = errors_at(beside.extrapolate(left_m), onto);
                 moving = Some(Moving { offset_m, total_m: hop.change_m, gone_m: 0.0 });
             } else {
                 for share in shares.clone() {

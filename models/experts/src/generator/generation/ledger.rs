@@ -42,9 +42,7 @@ impl Progress {
         let (intermediate, ahead) = (Vec::new(), Vec::new());
         Self { futures, executed, absent, parked, reach, intermediate, answers, ahead }
     }
-}
 
-impl Progress {
     /// What it did up to `steps` after the call's start while it followed a motion that was known.
     fn catch_up(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
         let track = &base.agents[agent].track;

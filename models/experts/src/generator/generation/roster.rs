@@ -159,10 +159,9 @@ impl Roster {
         // A picked future is background after the first window, like any other motion that is kept, up to its end.
         let asked = self.with(Part::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
         let mut acting: BTreeSet<usize> = asked.collect();
-        let known_until = |i: usize, step: usize| self.known_until(i, step);
         // Who drives its own way at another pace does so as long as there is one.
         let mut resumed = ledger.answering();
-        resumed.retain(|i, _| !known_until(*i, end));
+        resumed.retain(|i, _| !self.known_until(*i, end));
         for (i, ahead) in &mut resumed {
             carry_on(ahead, &self.base.agents[*i].track.states);
         }
@@ -173,11 +172,11 @@ impl Roster {
             // Nothing is left to keep for those whose log ends in what this window executes.
             let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
             let ended = new(Part::MayReact).chain(new(Part::Arrives)).filter(seen);
-            let ended = ended.filter(|i| known_until(*i, end));
+            let ended = ended.filter(|i| self.known_until(*i, end));
             let ended: Vec<usize> = ended.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             may_react.retain(|i| !ended.contains(i));
             acting.extend(ended);
-            let over = new(Part::Continues).filter(|i| known_until(*i, world.step + 1));
+            let over = new(Part::Continues).filter(|i| self.known_until(*i, world.step + 1));
             let over: Vec<usize> = over.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             acting.extend(over);
         }
