@@ -31,7 +31,7 @@ const following = (motions: Record<string, Motion>, reactions: Record<string, Re
     }),
   ),
   driving: new Set(Object.keys(motions)),
-  reactions: new Map(Object.entries(reactions)),
+  answering: new Map(Object.entries(reactions).map(([id, said]) => [id, { said }])),
 });
 
 const steady = along(() => 10);

@@ -1,4 +1,5 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
+import { thoseWhoAnswer } from '../model/answering';
 import type { MotionSet } from '../model/futures';
 import { takenPin } from '../model/pins';
 import { canChange, doing, GOAL_TIME, touchedIn, type Scene } from '../model/scene';
@@ -8,12 +9,17 @@ import type { Wanted } from './question';
 /** `nothing`: nobody is asked anything any more. `known`: the motions are there and only to be scored. */
 export type Asked = Wanted | 'nothing' | 'known';
 
-export function askedAfter(
-  editor: Editor,
-  scene: Scene,
-  step: Step,
-  known: MotionSet['futures'] = editor.motion.peek().futures,
-): Asked {
+export function askedAfter(editor: Editor, scene: Scene, step: Step, set: MotionSet = editor.motion.peek()): Asked {
+  const asked = whatIsAsked(scene, step, set);
+  if (typeof asked === 'string' || asked.agents === 'all') return asked;
+  return { ...asked, anew: thoseWhoAnswer(scene, set, [...asked.agents, ...changedBy(step)]) };
+}
+
+/** Whom a step is about. */
+const changedBy = (step: Step): Iterable<string> => (step.agent ? [step.agent] : (step.several ?? []));
+
+function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
+  const known = set.futures;
   if (step.everybody) return everybodyAnew(scene, step, known);
   const mine = touchedIn(scene);
   if (!mine.length) return 'nothing';
@@ -31,9 +37,7 @@ export function askedAfter(
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
   const held = heldIn(scene, known);
-  const asked = whoIsAsked(scene, mine, known, subject ? [subject.id] : (step.several ?? [])).filter(
-    (id) => !held.has(id),
-  );
+  const asked = whoIsAsked(scene, mine, known, [...changedBy(step)]).filter((id) => !held.has(id));
   if (!asked.length && held.size) {
     // A pinned future stays as it is, whatever else is drawn anew: others answer it as any that is picked.
     const rest = others === 'all' ? free(scene) : others;

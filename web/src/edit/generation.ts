@@ -2,7 +2,8 @@
 // answer after a change. What becomes of the answers is in `reception.ts`.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
-import type { MotionSet } from '../model/futures';
+import { thoseWhoAnswer } from '../model/answering';
+import { emptyMotion, type MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
 import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
@@ -119,7 +120,8 @@ export class Generation implements Previews {
     const scene = this.editor.scene.peek();
     const pose = ++this.#pose;
     if (scene?.others === 'react') this.#foresight.moved(scene);
-    this.#ask({ agents: [id], react: false, step: null }, true, (shown) => {
+    const anew = scene && thoseWhoAnswer(scene, this.editor.motion.peek(), [id]);
+    this.#ask({ agents: [id], react: false, step: null, ...(anew ? { anew } : {}) }, true, (shown) => {
       if (shown || pose === this.#pose) this.#foresight.yielded();
     });
   }
@@ -225,8 +227,7 @@ export class Generation implements Previews {
       this.#ask({ agents: 'all', react: false, step });
       return;
     }
-    const nothing = { futures: new Map(), driving: new Set<string>(), score: null, reach: new Map(), stale: false };
-    editor.answers.settle(scene, { key: sceneKey(scene), ...nothing }, null);
+    editor.answers.settle(scene, emptyMotion(sceneKey(scene)), null);
     void this.score(step);
     const selected = editor.selection.peek();
     if (selected) this.#look(selected);

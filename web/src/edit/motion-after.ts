@@ -1,7 +1,8 @@
 // What everybody does once an answer is there: what was known before, and what the answer says in its place.
 import { motionOf } from '../model/changes';
 import { DEFAULTS } from '../model/domain';
-import type { AgentFuturesJson, ReactionJson } from '../model/json';
+import { asIfNotAsked, toBeGivenUp, type Answering } from '../model/answering';
+import type { AgentFuturesJson } from '../model/json';
 import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
 import type { Naming } from '../model/names';
 import { firstPose } from '../model/read';
@@ -22,7 +23,8 @@ export const naming = (scene: Scene, a: Agent): Naming => ({
   log: isRecorded(scene.source) && !a.placed ? a.log : null,
 });
 
-export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
+export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
+  const before = asIfNotAsked(last, w.anew);
   const answers = futuresOf(before, scene, e, keep);
   const mine = touchedIn(scene);
   // A look at somebody's futures from before the change is no longer true.
@@ -40,7 +42,7 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
   const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
   for (const id of mine) if (futures.has(id)) driving.add(id);
   // What they were judged against has changed with those that are answered.
-  const changed = changedSince(before, { ...before, futures, driving }, scene);
+  const changed = changedSince(last, { ...before, futures, driving }, scene);
   for (const [id, f] of futures) if (!answers.has(id)) futures.set(id, metAnew(scene.agents.get(id)!, f, changed));
   // Those that go on as they did may meet others than before.
   for (const id of score ? mine : []) {
@@ -65,7 +67,7 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
     reach,
     stale: false,
     head: e.generated,
-    reactions: reactionsAfter(before, e),
+    answering: answeringAfter(before, e),
     warnings: readWarnings(e),
   };
 }
@@ -105,11 +107,11 @@ function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFutur
 }
 
 /** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
-function reactionsAfter(before: MotionSet, e: FinalEvent): Map<string, ReactionJson> {
-  const out = new Map(before.reactions);
+function answeringAfter(before: MotionSet, e: FinalEvent): Map<string, Answering> {
+  const out = new Map(before.answering);
   const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
   for (const [id, { reaction }] of Object.entries(agents)) {
-    if (reaction) out.set(id, reaction);
+    if (reaction) out.set(id, { said: reaction, gaveUp: toBeGivenUp(before, id) });
     else out.delete(id);
   }
   return out;

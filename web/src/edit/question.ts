@@ -4,6 +4,7 @@ import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../model/json';
 import type { Futures, MotionSet } from '../model/futures';
 import { doing, GOAL_TIME, profileOf, type Scene } from '../model/scene';
+import { asIfNotAsked } from '../model/answering';
 import { castJson, conditionOf, generatedJson, isEmptyCondition, thresholdsOf, withStill } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
@@ -22,6 +23,8 @@ export interface Wanted {
   readonly step: Step | null;
   /** Those whose futures are kept as they are and count as what the scene does. */
   readonly kept?: ReadonlySet<string>;
+  /** Those that answered an earlier change of this kind: they begin again at what they gave up for it. */
+  readonly anew?: ReadonlySet<string>;
   /** Those of them that others are to answer as if they had been asked for. */
   readonly pinned?: readonly string[];
   readonly unscored?: boolean;
@@ -109,7 +112,7 @@ export class Questions {
     if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag asks sixty times a second about the same surroundings.
     const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));
-    const rest = JSON.stringify([scene.others, does, scene.roster, [...(w.kept ?? [])]]);
+    const rest = JSON.stringify([scene.others, does, scene.roster, [...(w.kept ?? [])], [...(w.anew ?? [])]]);
     const last = this.#last.get(w.step !== null);
     if (last && last.set === set && last.rest === rest) return { scene: last.scene };
     const written = this.#written(scene, set, w, map);
@@ -117,8 +120,9 @@ export class Questions {
     return { scene: written };
   }
 
-  #written(scene: Scene, set: MotionSet, w: Wanted, map: MapJson | MapRef): SceneJson {
+  #written(scene: Scene, now: MotionSet, w: Wanted, map: MapJson | MapRef): SceneJson {
     const raw = this.file.raw!;
+    const set = asIfNotAsked(now, w.anew);
     const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
     const moving = new Set(this.editor.touchedIds(scene));
     const cast = castJson(scene);

@@ -109,5 +109,5 @@ export class SceneFile {
 
 function answersIn(scene: Scene, m: MotionSet): GeneratedJson | null {
   const driving = [...m.futures].filter(([id]) => m.driving.has(id));
-  return m.stale ? null : generatedJson(scene, driving, m.head);
+  return m.stale ? null : generatedJson(scene, driving, m.head, m.answering);
 }

@@ -1,5 +1,6 @@
 // Who does something else than before, how much, and why.
 import { distances, endsBefore, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
+import { asIfNotAsked } from './answering';
 import type { Future, MotionSet } from './futures';
 import type { Pose } from './geometry';
 import type { ReactionJson } from './json';
@@ -84,6 +85,8 @@ function standing(scene: Scene, a: Agent): Motion {
 
 interface Moved {
   readonly agent: Agent;
+  /** Whom it answered and answers no more. */
+  readonly released: Agent | undefined;
   readonly before: Motion;
   readonly after: Motion;
 }
@@ -100,7 +103,12 @@ export function findChanges(
   for (const agent of scene.agents.values()) {
     const m0 = motionOf(scene, before, agent),
       m1 = motionOf(scene, after, agent);
-    if (m0 !== m1) moved.push({ agent, before: m0, after: m1 });
+    if (m0 === m1) continue;
+    // Whoever answers again is compared with what it does otherwise: it may answer as it did the last time.
+    const [was, is] = [before.answering.get(agent.id), after.answering.get(agent.id)];
+    const own = is?.gaveUp === undefined ? m0 : motionOf(scene, asIfNotAsked(after, new Set([agent.id])), agent);
+    const released = was && !is ? scene.agents.get(was.said.cause) : undefined;
+    moved.push({ agent, released, before: own, after: m1 });
   }
   const causes: Answered[] = moved.map(({ agent, after: motion }) => ({
     id: agent.id,
@@ -109,7 +117,7 @@ export function findChanges(
     asked: except.has(agent.id),
   }));
   return moved
-    .filter(({ agent: { id } }) => !except.has(id) && after.driving.has(id))
+    .filter(({ agent: { id } }) => !except.has(id) && (after.driving.has(id) || before.answering.has(id)))
     .flatMap((m) => changeOf(scene, after, m, causes, unit) ?? [])
     .sort((x, y) => y.lost - x.lost || y.size - x.size);
 }
@@ -119,14 +127,14 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   const { d: size } = furthest(before, after, scene.duration);
   const lost = secondsLost(before, after);
   if (size <= LEAST_M && Math.abs(lost) <= LEAST_S) return null;
-  const said = set.reactions?.get(a.id);
-  const reaction = said
-    ? readReaction(scene, set, after, said)
-    : guessReaction(a, before, after, scene.duration, causes, lost);
+  const said = set.answering.get(a.id)?.said;
+  const guess = () => (m.released ? null : guessReaction(a, before, after, scene.duration, causes, lost));
+  const reaction = said ? readReaction(scene, set, after, said) : guess();
   const at = reaction?.time ?? furthest(before, after, scene.duration).t;
-  const place = reaction?.place ?? poseAt(after, at);
+  const place = reaction?.place ?? poseAt(after, at) ?? poseAt(before, at);
   if (!place) return null;
-  const words = reaction ? reactionWords(a, reaction, unit) : TEXTS.workedOutAnew;
+  const alone = m.released ? TEXTS.noLongerAnswers(m.released.name) : TEXTS.workedOutAnew;
+  const words = reaction ? reactionWords(a, reaction, unit) : alone;
   const { id, name } = a;
   return { id, name, reaction, words, size, lost: reaction?.delay ?? lost, before, after, at, place };
 }

@@ -1,5 +1,6 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
-import type { AgentFuturesJson, ReactionJson } from './json';
+import type { Answering } from './answering';
+import type { AgentFuturesJson } from './json';
 import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
 import type { Point, Pose, Vec } from './geometry';
 import { motionFrom, type Motion } from './motion';
@@ -238,8 +239,8 @@ export interface MotionSet {
   readonly stale: boolean;
   /** The one road user whose futures still hold while the rest is out of date: another of its six was picked. */
   readonly fresh?: string | null;
-  /** Why those that answer others do so. */
-  readonly reactions?: ReadonlyMap<string, ReactionJson>;
+  /** Those that answer others: why, and what they gave up for it. */
+  readonly answering: ReadonlyMap<string, Answering>;
   /** Unlikely things that were done anyway, by road user. */
   readonly warnings?: ReadonlyMap<string, readonly string[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */
@@ -252,6 +253,7 @@ export const emptyMotion = (key: string): MotionSet => ({
   driving: new Set(),
   score: null,
   reach: new Map(),
+  answering: new Map(),
   stale: false,
 });
 

@@ -1,4 +1,5 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
+import { readAnswering, type Answering } from './answering';
 import { readProfile } from './profile';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
@@ -216,17 +217,19 @@ export function readSample(json: SceneJson, scene: Scene, index: number): Motion
   const agents = g?.samples?.[index]?.agents;
   if (!g || !agents) return null;
   const futures = new Map<string, Futures>();
+  const answering = new Map<string, Answering>();
   for (const [id, f] of Object.entries(agents)) {
     const a = scene.agents.get(id),
       start = a && firstPose(a, f);
     if (a && start && f.modes?.length) {
       const onFoot = a.type === 'pedestrian';
       futures.set(id, withNames(readFutures(f, start, 1, 1, onFoot), { onFoot, nameOf: nameIn(scene) }));
+      if (f.reaction) answering.set(id, readAnswering(scene, a, f.reaction));
     }
   }
   if (!futures.size) return null;
   const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));
-  return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), head };
+  return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), answering, head };
 }
 
 /** What a file keeps of a variant's motion; null where it keeps nothing. */

@@ -9,6 +9,7 @@ import type {
   MapJson,
   MapRef,
   PinJson,
+  ReactionJson,
   SampleJson,
   SceneJson,
   StartJson,
@@ -111,11 +112,14 @@ export function generatedJson(
   scene: Scene,
   futures: Iterable<readonly [string, Futures]>,
   head?: Readonly<Record<string, unknown>>,
+  answering?: MotionSet['answering'],
 ): GeneratedJson | null {
   const agents: Record<string, AgentFuturesJson> = {};
   for (const [id, f] of futures) {
     const a = scene.agents.get(id);
-    if (a && f.modes.length) agents[id] = futuresJson(f, Math.min(f.modes.length - 1, a.chosen ?? f.chosen));
+    if (!a || !f.modes.length) continue;
+    const json = futuresJson(f, Math.min(f.modes.length - 1, a.chosen ?? f.chosen));
+    agents[id] = { ...json, ...reactionOf(answering, id) };
   }
   if (!Object.keys(agents).length) return null;
   return {
@@ -132,6 +136,11 @@ export function generatedJson(
   };
 }
 
+function reactionOf(answering: MotionSet['answering'] | undefined, id: string): { reaction?: ReactionJson } {
+  const reaction = answering?.get(id)?.said;
+  return reaction ? { reaction } : {};
+}
+
 /** What everybody does in a variant; of those who were asked nothing the one way that they take. */
 export function variantSample(scene: Scene, set: MotionSet): SampleJson {
   const agents: SampleJson['agents'] = {};
@@ -139,7 +148,8 @@ export function variantSample(scene: Scene, set: MotionSet): SampleJson {
     const [a, f] = [scene.agents.get(id), set.futures.get(id)];
     if (!a || !f?.modes.length) continue;
     const chosen = Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
-    agents[id] = touched(a) ? futuresJson(f, chosen) : futuresJson({ ...f, modes: [f.modes[chosen]] }, 0);
+    const json = touched(a) ? futuresJson(f, chosen) : futuresJson({ ...f, modes: [f.modes[chosen]] }, 0);
+    agents[id] = { ...json, ...reactionOf(set.answering, id) };
   }
   return { agents };
 }

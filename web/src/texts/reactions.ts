@@ -2,6 +2,7 @@ import { table } from './table';
 
 export const TEXTS = table('reactions', {
   workedOutAnew: 'worked out anew',
+  noLongerAnswers: (whom: string) => `no longer reacts to ${whom}`,
   movesDifferently: 'Moves differently from the log.',
   endsFacingAnother: 'Ends facing another way than in the log.',
   getsLessFar: (way: string) => `Gets ${way} less far than in the log.`,

@@ -1,13 +1,17 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { clearGoal, setGoal, setLength, setOthers, setSize } from '../../src/model/commands';
+import { clearGoal, resetAgent, setGoal, setLength, setOthers, setSize } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
+import { asIfNotAsked, thoseWhoAnswer } from '../../src/model/answering';
+import { emptyMotion } from '../../src/model/futures';
+import { readGenerated, readScene } from '../../src/model/read';
+import { generatedJson, writeScene } from '../../src/model/write';
 import { nameAll } from '../../src/model/names';
-import { nameIn, profileOf } from '../../src/model/scene';
+import { nameIn, profileOf, withAgents } from '../../src/model/scene';
 import { judged } from '../standin/judged.mjs';
 import { draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
@@ -180,15 +184,66 @@ describe('a pick among futures', () => {
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     expect(editor.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
     expect(editor.changes.peek().map((c) => [c.id, c.reaction?.cause.id])).toEqual([['2', '1']]);
-    const before = editor.motion.peek();
     expect([editor.futures.peek()!.modes.length, editor.chosen.peek()]).toEqual([6, 2]);
-    const sent = asked;
+  });
+
+  it('is answered from the log on, whatever was picked before', () => {
+    const told = () => editor.changes.peek().map((c) => [c.id, c.words]);
+    pick(2);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    const [[, first]] = told();
     pick(3);
-    // Whoever answered the other one is asked about as it drives now.
-    expect(Object.keys(sent()).sort()).toEqual(['1', '2']);
+    expect(Object.keys(asked())).toEqual(['1']);
+    // It answers as it did: that is said again, and not that nobody had to change.
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    expect(told()).toEqual([['2', first]]);
+    pick(4);
     generator.last.on.final(finalWith({}), 5);
-    expect(editor.motion.peek().futures.get('2')).toBe(before.futures.get('2'));
-    expect(editor.changes.peek()).toEqual([]);
+    expect(editor.motion.peek().driving).toEqual(new Set(['1']));
+    expect(told()).toEqual([['2', 'no longer reacts to Car 1']]);
+    // A third one's change leaves those alone that answer another.
+    pick(3);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    editor.select('3');
+    generator.last.on.final(finalOf('3'), 5);
+    pick(1);
+    expect(Object.keys(asked()).sort()).toEqual(['1', '2', '3']);
+    generator.last.on.final(finalWith({}), 5);
+    expect([...editor.motion.peek().driving].sort()).toEqual(['1', '2', '3']);
+    // Nothing is asked of the first one any more: it follows its log, and nobody answers it.
+    editor.run(resetAgent(editor.scene.peek()!.agents.get('1')!));
+    rest();
+    expect(Object.keys(asked())).toEqual(['3']);
+  });
+
+  it('leaves who answers free again when the scene is read from a file', () => {
+    pick(2);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    const scene = editor.scene.peek()!;
+    const { futures, answering } = editor.motion.peek();
+    const written = writeScene(json, scene, generatedJson(scene, futures, undefined, answering));
+    const read = readGenerated(written, readScene(written))!;
+    expect(read.answering.get('2')).toMatchObject({ said: { cause: '1', kind: 'waits' }, gaveUp: null });
+    expect(thoseWhoAnswer(scene, read, ['1'])).toEqual(new Set(['2']));
+    expect(thoseWhoAnswer(scene, read, ['3'])).toEqual(new Set());
+  });
+
+  it('gives back to one that was put here what it did before it answered', () => {
+    const scene = editor.scene.peek()!;
+    const placed = { ...scene.agents.get('2')!, placed: true };
+    const there = withAgents(scene, [placed]);
+    pick(2);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    const { futures } = editor.motion.peek();
+    const own = { futures: futures.get('1')! };
+    const { said } = editor.motion.peek().answering.get('2')!;
+    const answering = new Map([['2', { said, gaveUp: own }]]);
+    const set = { ...emptyMotion(''), futures, driving: new Set(['2']), answering };
+    const again = asIfNotAsked(set, thoseWhoAnswer(there, set, ['1']));
+    expect([again.futures.get('2'), again.driving.has('2'), again.answering.size]).toEqual([own.futures, true, 0]);
+    // Nobody knows what it did: it goes on as it does.
+    const unknown = { ...set, answering: new Map([['2', { said }]]) };
+    expect(thoseWhoAnswer(there, unknown, ['1'])).toEqual(new Set());
   });
 
   it('leaves those that were picked before as they are', () => {

@@ -93,7 +93,7 @@ const isAsked = (a: Agent): boolean =>
 /** What everybody does otherwise than in the log, or for somebody else where there is none, in words. */
 function wordsOf({ scene, motion }: ReportOf): ReadonlyMap<string, string> {
   const log = { ...motion, driving: new Set<string>() };
-  const told = (id: string): boolean => !scene.agents.get(id)!.placed || !!motion.reactions?.has(id);
+  const told = (id: string): boolean => !scene.agents.get(id)!.placed || motion.answering.has(id);
   const changes = findChanges(scene, log, motion, new Set()).filter((c) => told(c.id));
   return new Map(changes.map((c) => [c.id, c.words]));
 }

@@ -95,7 +95,7 @@ export class Maker {
     const own = subject !== null && dealt ? new Map(usual.futures).set(subject, dealt) : usual.futures;
     const base = { ...usual, futures: withTaken(scene, own) };
     const step: Step = { name: '', agent: subject, undo: false, ...(subject === null && scene.drawn ? EVERYBODY : {}) };
-    const asked = askedAfter(this.editor, scene, step, base.futures);
+    const asked = askedAfter(this.editor, scene, step, base);
     if (typeof asked === 'string') return { scene, set: await this.#scored(scene, base) };
     return { scene, set: await this.#answered(scene, base, asked) };
   }

@@ -3,6 +3,7 @@ import type { Said } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   workedOutAnew: 'neu berechnet',
+  noLongerAnswers: (whom) => `muss nicht mehr auf ${whom} achten`,
   movesDifferently: 'Bewegt sich anders als aufgezeichnet.',
   endsFacingAnother: 'Endet in anderer Richtung als aufgezeichnet.',
   getsLessFar: (way) => `Kommt ${way} weniger weit als aufgezeichnet.`,
