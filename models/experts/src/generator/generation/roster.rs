@@ -163,7 +163,13 @@ impl Roster {
         let mut resumed = ledger.answering();
         resumed.retain(|i, _| !self.known_until(*i, end));
         for (i, ahead) in &mut resumed {
-            carry_on(ahead, &self.base.agents[*i].track.states);
+            let agent = &self.base.agents[*i];
+            let agent_type = world.conditions[*i].kind_of(agent);
+            // What is guessed of it goes straight on, whatever the road does.
+            let until =
+                self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
+            let way = &agent.track.states[..agent.track.states.len().min(until)];
+            carry_on(ahead, way, &world.graph, agent_type);
         }
         acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
         let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));

@@ -1,6 +1,6 @@
 //! What is in the way along a course, and when.
 
-use super::course::{Course, Moving};
+use super::course::{BEYOND_M, Course, Moving};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
@@ -11,8 +11,6 @@ use scene::{HORIZON_STEPS, Size, Vec2};
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
-/// How far beyond its course somebody may get, metres.
-const BEYOND_M: f64 = 15.0;
 /// Boxes come no nearer than this, metres: a little more than what the choice calls close.
 const CLEAR_M: f64 = CLOSE_M + 0.05;
 /// Somebody who is out of the way for less than this, steps, has not left.

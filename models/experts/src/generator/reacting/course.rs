@@ -4,8 +4,9 @@ use crate::planning::STAYS_WITHIN_M;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::{direction, wrap_angle};
 use scene::motion::Trajectory;
+use scene::routes::{LaneGraph, Pose, base_path, best_route_ahead};
 use scene::score::{SweptBoxes, overlap};
-use scene::{HORIZON_STEPS, STEP_S, Size, State, Vec2};
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 
 /// States nearer to each other than this are one place of the path, metres: what stands and trembles stays.
 const GRAIN_M: f64 = 0.3;
@@ -15,6 +16,10 @@ const MOST_BRIDGED: usize = 10;
 const LOOK_AHEAD_M: f64 = 6.0;
 /// Slower than this it stood or set off, m/s.
 const SETTING_OFF_MPS: f64 = 2.0;
+/// How far beyond its course somebody may get who goes no faster, metres.
+pub(super) const BEYOND_M: f64 = 15.0;
+/// How much further somebody gets who hurries: a share of its way.
+const HURRIED: f64 = 0.3;
 /// Every third step is looked at for meetings, as in the choice.
 pub(super) const STRIDE: usize = 3;
 
@@ -108,7 +113,10 @@ pub(super) struct Course {
     pub(super) states: Vec<State>,
     /// Metres along the path, one a state.
     pub(super) along_m: Vec<f64>,
+    /// Those of the motion, and how the road goes on from them where that is known.
     places: Vec<Place>,
+    /// How many of them are the motion's own.
+    own: usize,
 }
 
 impl Course {
@@ -142,7 +150,31 @@ impl Course {
                 }
             }
         }
-        (last.along_m >= shortest_m).then_some(Self { enters, states, along_m, places })
+        let own = places.len();
+        (last.along_m >= shortest_m).then_some(Self { enters, states, along_m, places, own })
+    }
+
+    /// The same, with the likeliest way that the road goes on beyond it: whoever hurries gets there.
+    pub(super) fn led_on(mut self, graph: &LaneGraph, agent_type: AgentType) -> Self {
+        let (Some(end), Some(last)) = (self.states.last().copied(), self.places.last().copied()) else {
+            return self;
+        };
+        if agent_type == AgentType::Pedestrian {
+            return self;
+        }
+        let speed_mps = end.speed_mps();
+        let length_m = BEYOND_M + HURRIED * HORIZON_STEPS as f64 * STEP_S * speed_mps;
+        let pose = Pose { position: end.position(), heading_rad: end.heading_rad };
+        let Some(route) = best_route_ahead(graph, pose, agent_type, length_m) else { return self };
+        let path = base_path(&route.path, pose, speed_mps, agent_type, None);
+        let end_m = last.along_m + (end.position() - last.position).norm();
+        let mut heading_rad = last.heading_rad;
+        self.places.extend((1..=path.length_m() as usize).map(|at| {
+            let pose = path.sample(at as f64);
+            heading_rad += wrap_angle(pose.heading_rad - heading_rad);
+            Place { along_m: end_m + at as f64, position: pose.position, heading_rad, speed_mps }
+        }));
+        self
     }
 
     /// Steps after the window's start at which it is there last.
@@ -156,9 +188,9 @@ impl Course {
         self.along_m[i]
     }
 
-    /// Length of the path, metres.
+    /// Length of the motion's path, metres.
     pub(super) fn length_m(&self) -> f64 {
-        self.places.last().map_or(0.0, |p| p.along_m)
+        self.own.checked_sub(1).map_or(0.0, |last| self.places[last].along_m)
     }
 
     /// It goes away before the window ends.
@@ -223,9 +255,16 @@ impl Course {
 /// How somebody who is later than it was takes up its own speed again, m/s2.
 const TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
 
-/// Carries a plan on for a window: along the way that these states have, as fast as they are at each place.
-pub(in crate::generator) fn carry_on(plan: &mut Vec<State>, way: &[Option<State>]) {
+/// Carries a plan on for a window: along the way that these states have and the road goes on, as fast as they are at
+/// each place.
+pub(in crate::generator) fn carry_on(
+    plan: &mut Vec<State>,
+    way: &[Option<State>],
+    graph: &LaneGraph,
+    agent_type: AgentType,
+) {
     let (Some(course), Some(last)) = (Course::of(way, 0.0), plan.last().copied()) else { return };
+    let course = course.led_on(graph, agent_type);
     let apart = |p: &Place| (p.position - last.position()).norm();
     let Some(nearest) = course.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
     let ahead = direction(nearest.heading_rad).dot(&(last.position() - nearest.position));
@@ -276,6 +315,8 @@ fn between(a: &State, b: &State, share: f64) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::LaneMap;
+    use scene::map::Lane;
 
     fn going(speed_mps: f64, steps: usize) -> Vec<Option<State>> {
         let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
@@ -308,9 +349,31 @@ mod tests {
     fn a_plan_is_carried_on_along_the_way_it_is_on() {
         let way = going(8.0, 120);
         let mut plan = vec![State { x_m: 20.0, vx_mps: 2.0, ..State::default() }];
-        carry_on(&mut plan, &way);
+        carry_on(&mut plan, &way, &LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
         assert_eq!(plan.len(), 91);
         assert!((plan[1].x_m - 20.2).abs() < 0.05 && (plan[90].vx_mps - 8.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn beyond_a_course_the_road_goes_on() {
+        // Along x up to 72 m, then to the left about a circle of 20 m.
+        let bend = |i: i32| (f64::from(i) * 0.05 - 0.05).max(0.0);
+        let point = |i: i32| Vec2::new(72.0 + 20.0 * bend(i).sin(), 20.0 * (1.0 - bend(i).cos()));
+        let points: Vec<Vec2> = std::iter::once(Vec2::new(-10.0, 0.0)).chain((0..32).map(point)).collect();
+        let map = LaneMap { lanes: vec![Lane::street("1", points)], ..LaneMap::default() };
+        let graph = LaneGraph::new(&map);
+        let centre = Vec2::new(72.0, 20.0);
+        let course = Course::of(&going(8.0, 91), 0.5).unwrap();
+        assert!((course.place(92.0).0.y).abs() < 1e-6);
+        let led = course.clone().led_on(&graph, AgentType::Vehicle);
+        assert_eq!((led.length_m(), &led.states), (course.length_m(), &course.states));
+        let off_m = |along_m: f64| ((led.place(along_m).0 - centre).norm() - 20.0).abs();
+        assert!([75.0, 80.0, 85.0, 90.0].into_iter().all(|along_m| off_m(along_m) < 0.8));
+        assert!((led.place(92.0).1 - 1.0).abs() < 0.15);
+        // People on foot go straight on, as does everybody where there is no road.
+        let walks = course.clone().led_on(&graph, AgentType::Pedestrian);
+        let nowhere = course.clone().led_on(&LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
+        assert!([walks, nowhere].iter().all(|c| c.place(92.0).0.y.abs() < 1e-6));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What somebody could do instead of the motion that it keeps, and what that costs.
 
 use super::blocks::Block;
-use super::course::{Moving, STRIDE};
+use super::course::{Course, Moving, STRIDE};
 use super::yielding::{Manner, Paced};
 use super::{Answerer, Answerers};
 use scene::score::{SweptBoxes, overlap};
@@ -69,7 +69,7 @@ impl Answerers<'_> {
         all.extend(ahead.iter().flatten());
         let mut best: Option<Way> = None;
         for manner in manners(own) {
-            let way = self.weighed(who, own.behind(&all, manner), manner, changed);
+            let way = self.weighed(who, own.behind(&road.course, &all, manner), manner, changed);
             let Some(way) = way else { continue };
             let free = way.1 == 0.0;
             if best.as_ref().is_none_or(|b| way.0.cost < b.cost - 1e-9) {
@@ -81,8 +81,8 @@ impl Answerers<'_> {
         }
         for pace in FASTER {
             let manner = Manner { pace, accelerate_mps2: HURRIES_MPS2, ..manners(own)[1] };
-            let paced = own.behind(&kept, manner);
-            if !own.hurries_safely(&paced) {
+            let paced = own.behind(&road.course, &kept, manner);
+            if !own.hurries_safely(&road.course, &paced) {
                 continue;
             }
             if let Some((way, _)) = self.weighed(who, paced, manner, changed)
@@ -96,11 +96,11 @@ impl Answerers<'_> {
 
     /// A pace with its cost, and what of that is for meetings; `None` for the kept motion itself.
     fn weighed(&self, who: usize, paced: Paced, manner: Manner, changed: &[Seen<'_>]) -> Option<(Way, f64)> {
-        let own = &self.all[who];
-        if paced.is_own(&own.course) {
+        let (own, course) = (&self.all[who], &self.road(who).course);
+        if paced.is_own(course) {
             return None;
         }
-        let states = paced.states(&own.course);
+        let states = paced.states(course);
         let moving = Moving::of_states(own.course.enters, &states, &own.size);
         let mut meets: f64 = changed.iter().map(|c| self.mitigated(own, &moving, c.moving)).sum();
         let is_changed = |j: usize| changed.iter().any(|c| c.answerer == Some(j));
@@ -160,18 +160,18 @@ impl Answerers<'_> {
 }
 
 impl Answerer {
-    /// Its course behind those of these blocks that it is behind by now, or comes to be by waiting.
-    fn behind(&self, blocks: &[&Block], manner: Manner) -> Paced {
+    /// A course of its behind those of these blocks that it is behind by now, or comes to be by waiting.
+    fn behind(&self, course: &Course, blocks: &[&Block], manner: Manner) -> Paced {
         // Who comes up from behind does not count.
         let counts = |b: &Block| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
         let mut yields: Vec<bool> =
-            blocks.iter().map(|b| counts(b) && !b.comes_behind(self.course.along_at(b.from))).collect();
+            blocks.iter().map(|b| counts(b) && !b.comes_behind(course.along_at(b.from))).collect();
         for _ in 0..MOST_TURNS {
             let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
-            let paced = Paced::behind(&self.course, &waited.collect::<Vec<_>>(), manner);
+            let paced = Paced::behind(course, &waited.collect::<Vec<_>>(), manner);
             let mut turned = false;
             for (block, yields) in blocks.iter().zip(&mut yields).filter(|(b, y)| !**y && counts(b)) {
-                let at = block.from.saturating_sub(self.course.enters);
+                let at = block.from.saturating_sub(course.enters);
                 let along = paced.along_m.get(at).copied().unwrap_or(f64::INFINITY);
                 if !block.comes_behind(along) {
                     *yields = true;
@@ -183,7 +183,7 @@ impl Answerer {
             }
         }
         let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
-        Paced::behind(&self.course, &waited.collect::<Vec<_>>(), manner)
+        Paced::behind(course, &waited.collect::<Vec<_>>(), manner)
     }
 
     /// How much later it is where it has come to; negative for earlier.
@@ -200,8 +200,8 @@ impl Answerer {
     }
 
     /// Going faster than it does breaks no limit in its bends.
-    fn hurries_safely(&self, paced: &Paced) -> bool {
-        let states = paced.states(&self.course);
+    fn hurries_safely(&self, course: &Course, paced: &Paced) -> bool {
+        let states = paced.states(course);
         states.windows(2).all(|w| {
             let turn = wrap_angle(w[1].heading_rad - w[0].heading_rad).abs() / STEP_S;
             let speed = w[1].speed_mps();

@@ -29,11 +29,12 @@ use blocks::{Block, Corridor, closed};
 use course::Course;
 use scene::geometry::obb::OrientedBox;
 use scene::limits::Limits;
+use scene::routes::LaneGraph;
 use scene::score::{SweptBoxes, overlap};
 use scene::{AgentId, AgentType, HORIZON_STEPS, Size, Start, State, Vec2};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// So many road users are looked at by several threads.
 const MANY: usize = 96;
@@ -75,6 +76,8 @@ pub(super) struct Answerer {
 
 /// What somebody follows its course through.
 struct Road {
+    /// Its course, and how the road goes on from there.
+    course: Course,
     corridor: Corridor,
     /// Red lights on its way.
     lights: Vec<Block>,
@@ -85,6 +88,7 @@ pub(super) struct Answerers<'g> {
     all: Vec<Answerer>,
     pub(super) fixed: Vec<Fixed>,
     stop_lines: Vec<StopLine>,
+    graph: Option<Arc<LaneGraph>>,
     tuning: &'g Tuning,
     /// Scene step at which the window starts.
     start_step: usize,
@@ -99,7 +103,8 @@ enum Role {
 impl<'g> Answerers<'g> {
     /// Nobody.
     pub(super) fn none(tuning: &'g Tuning) -> Self {
-        Self { all: Vec::new(), fixed: Vec::new(), stop_lines: Vec::new(), tuning, start_step: 0 }
+        let (all, fixed, stop_lines) = (Vec::new(), Vec::new(), Vec::new());
+        Self { all, fixed, stop_lines, graph: None, tuning, start_step: 0 }
     }
 
     /// Everybody but the actors.
@@ -117,7 +122,8 @@ impl<'g> Answerers<'g> {
         order.sort_by(|a, b| world.scene.agents[*a].id.cmp(&world.scene.agents[*b].id));
         let roles = workers.map_many(MANY, &order, |&index| role(world, request, cast, index));
         let stop_lines = world.stop_lines.clone();
-        let mut out = Self { start_step: world.step, stop_lines, ..Self::none(tuning) };
+        let graph = Some(Arc::clone(&world.graph));
+        let mut out = Self { start_step: world.step, stop_lines, graph, ..Self::none(tuning) };
         for role in roles.into_iter().flatten() {
             match role {
                 Role::Answers(own) => out.all.push(*own),
@@ -131,7 +137,11 @@ impl<'g> Answerers<'g> {
     fn road(&self, who: usize) -> &Road {
         let own = &self.all[who];
         own.road.get_or_init(|| {
-            let corridor = Corridor::of(&own.course, &own.size);
+            let course = match &self.graph {
+                Some(graph) if !own.course.leaves() => own.course.clone().led_on(graph, own.agent_type),
+                _ => own.course.clone(),
+            };
+            let corridor = Corridor::of(&course, &own.size);
             let on_foot = own.agent_type == AgentType::Pedestrian;
             let lines = self.stop_lines.iter().filter(|_| !on_foot);
             let red = lines.filter_map(|line| {
@@ -139,7 +149,7 @@ impl<'g> Answerers<'g> {
                 Some(closed(at_m, |step| line.red() >> step & 1 == 1))
             });
             let lights = red.flatten().collect();
-            Road { corridor, lights }
+            Road { course, corridor, lights }
         })
     }
 
