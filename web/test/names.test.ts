@@ -93,12 +93,50 @@ const modesOf = ({ speed, modes }: Answered): Nameable[] =>
       manoeuvre: manoeuvre as Manoeuvre,
       relations: relations.map((r) => {
         const [kind, other] = r.split(' ');
-        return { kind: kind as RelationKind, with: other, time: 0 };
+        return { kind: kind as RelationKind, with: other, time: 9 };
       }),
     };
     return { motion: motionOf(speed, states), about };
   });
 const namesOf = (list: string): string[] => nameAll(modesOf(ANSWERS[list]), who).map((n) => n.name);
+
+/** Straight on at the speed of each second. */
+const paced = (...speeds: number[]): Motion => {
+  let x = 0;
+  return motionOf(
+    speeds[0],
+    speeds.slice(1).flatMap((v) => [(x += v), 0, 0, v]),
+  );
+};
+
+describe('what a name says of speed', () => {
+  const givingWay = (motion: Motion): Nameable => {
+    const about: About = {
+      faults: [],
+      manoeuvre: 'straight',
+      relations: [{ kind: 'gives_way_to', with: '3', time: 5 }],
+    };
+    return { motion, about };
+  };
+
+  it('is that one waits only where it comes to rest for another, or nearly', () => {
+    const named = (...speeds: number[]) => nameAll([givingWay(paced(...speeds))], who)[0].name;
+    expect(named(8, 6, 3, 0.5, 0, 0, 2, 4, 6, 8)).toBe('Waits for Car 3');
+    expect(named(8, 7, 5, 4, 4, 5, 6, 7, 8, 8)).toBe('Slows for Car 3');
+    // What it stands for after that is something else.
+    expect(named(8, 7, 5, 4, 4, 5, 3, 1, 0, 0)).toBe('Slows for Car 3');
+  });
+
+  it('is no softer braking where nothing brakes', () => {
+    const about: About = { faults: [], manoeuvre: 'straight', relations: [] };
+    const list = [paced(8, 8, 5, 4, 6, 9, 9, 9, 9, 9), paced(8, 8, 8, 8, 8, 7.8, 7.6, 7.5, 7.4, 7.4)];
+    const names = nameAll(
+      list.map((motion) => ({ motion, about })),
+      who,
+    ).map((n) => n.name);
+    expect(names.join()).not.toContain('softer');
+  });
+});
 
 describe('names of what a generator answers', () => {
   it('are made of whom they concern, else of what is done and how', () => {

@@ -212,7 +212,7 @@ describe('names', () => {
     expect(six().modes.map((m) => m.name)).toEqual([
       'Before Car 2',
       'After Car 2',
-      'Waits for Pedestrian 17',
+      'Slows for Pedestrian 17',
       expect.stringMatching(/^After Car 2, /),
       'By the road',
       'Straight on',
@@ -255,7 +255,7 @@ describe('names', () => {
       mode({ manoeuvre: 'straight' }),
     );
     expect(new Set(list).size).toBe(6);
-    expect(list[0]).toBe('Waits for Pedestrian 17');
+    expect(list[0]).toBe('Slows for Pedestrian 17');
     // Where the difference has no room beside the other's name, something else is said.
     expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on, more left']);
     for (const n of list) {

@@ -138,7 +138,7 @@ class NameList {
       .filter(({ by }) => Math.abs(by) >= part)
       .sort((p, q) => Math.abs(q.by) - Math.abs(p.by));
     for (const { t, by } of differs) {
-      const word = by > 0 ? t.more : t.less;
+      const word = by > 0 ? t.more : lessOf(t, i);
       const beyond = (j: number): number => Math.sign(by) * (t.values.get(j)! - t.values.get(i)!);
       const ends = (j: number, end: string): boolean => this.#names[j]!.name.endsWith(end);
       const inOrder = (end: string): boolean =>
@@ -146,7 +146,8 @@ class NameList {
           (j) => !ends(j, ` ${word}`) || (end === word && ends(j, TEXTS.aBit(word)) ? beyond(j) < 0 : beyond(j) > 0),
         );
       if ([TEXTS.aBitFirst(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
-      if (t.short && this.#give(i, c, t.short[by > 0 ? 0 : 1])) return true;
+      const short = by > 0 || word === t.less ? t.short?.[by > 0 ? 0 : 1] : undefined;
+      if (short && this.#give(i, c, short)) return true;
     }
     return false;
   }
@@ -228,13 +229,24 @@ function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
     const name = hit.has(r.with) ? null : who.nameOf(r.with);
     const basis = `${r.kind}:${r.with}`;
     if (!name || out.has(basis)) continue;
-    const word = RELATION_WORDS[r.kind];
+    // Who gives way at speed does not wait.
+    const rolls = r.kind === 'gives_way_to' && !waitsBy(m.motion, r.time, who.onFoot);
+    const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
     const short = shortName(name);
     const forms = [`${word} ${name}`, `${word} ${short}`];
     if (r.kind === 'gives_way_to') forms.push(TEXTS.letsGo(short));
     if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
   }
   return [...out.values()];
+}
+
+/** Slower than walking pace is waiting, m/s. */
+const CRAWLS_M_S = 1.4;
+
+/** Has it stood or crept by a scene time? */
+function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
+  const slow = onFoot ? STANDING_M_S : CRAWLS_M_S;
+  return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
 }
 
 /** A name of its own with the long word cut. */
@@ -338,7 +350,12 @@ interface Trait {
   readonly less: string;
   /** Shorter words for more and for less of it. */
   readonly short?: readonly [more: string, less: string];
+  /** What is said, in place of less, of one that has next to nothing of it. */
+  readonly none?: { readonly below: number; readonly word: string };
 }
+
+const lessOf = ({ values, less, none }: Trait, i: number): string =>
+  none && values.get(i)! < none.below ? none.word : less;
 
 interface Claim {
   readonly i: number;
@@ -348,13 +365,14 @@ interface Claim {
 }
 
 /** Who has most and least of a trait: each beyond all of the others. */
-function extremesOf({ values, least, more, less }: Trait, all: readonly number[]): Claim[] {
+function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
+  const { values, least, more } = trait;
   const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
   const gap = (a: number, b: number): number => (values.get(order[a])! - values.get(order[b])!) / least;
   const last = order.length - 1;
   return [
     { i: order[0], word: more, margins: gap(0, 1) },
-    { i: order[last], word: less, margins: gap(last - 1, last) },
+    { i: order[last], word: lessOf(trait, order[last]), margins: gap(last - 1, last) },
   ].filter((claim) => claim.margins >= 1);
 }
 
@@ -383,6 +401,9 @@ function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): 
   }
   return out;
 }
+
+/** Less than this is no braking, m/s². */
+const BRAKES_MPS2 = 0.4;
 
 /** When it brakes hardest, seconds; nobody is told from those that hardly brake. */
 function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trait {
@@ -438,6 +459,7 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
     {
       ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.harderBraking, TEXTS.softerBraking),
       short: [TEXTS.brakesMore, TEXTS.brakesLess],
+      none: { below: BRAKES_MPS2, word: TEXTS.noBraking },
     },
     turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
   ];

@@ -29,7 +29,9 @@ const MOST_CHANGES: i32 = 3;
 /// What states on consecutive steps do. Where lanes are given, a bend of the road is no turn, and a change of lane is
 /// told.
 pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGraph>) -> Option<Manoeuvre> {
-    let (first, last) = (states.first()?, states.last()?);
+    if states.is_empty() {
+        return None;
+    }
     let shape = Shape::of(states);
     if shape.way_m < STAYS_M {
         return Some(Manoeuvre::Stays);
@@ -49,7 +51,7 @@ pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGra
         return Some(Manoeuvre::Straight);
     }
     let walks = agent_type == AgentType::Pedestrian;
-    let taken = lanes.filter(|_| !walks).and_then(|lanes| taken(lanes, agent_type, first, last));
+    let taken = lanes.filter(|_| !walks).and_then(|lanes| taken(lanes, agent_type, states));
     let Some(taken) = taken else { return Some(turned.unwrap_or(Manoeuvre::Straight)) };
     let changed = match taken.shift {
         0 => None,
@@ -98,13 +100,14 @@ struct Taken {
     junction: bool,
 }
 
-fn taken(lanes: &LaneGraph, agent_type: AgentType, first: &State, last: &State) -> Option<Taken> {
+fn taken(lanes: &LaneGraph, agent_type: AgentType, states: &[State]) -> Option<Taken> {
     let on = |state: &State| -> Vec<LaneHit> {
         let along = |hit: &LaneHit| wrap_angle(hit.heading_rad - state.heading_rad).abs() < ALONG_LANE_RAD;
         lanes.nearest_for(state.position(), ON_LANE_M, agent_type).into_iter().filter(along).collect()
     };
-    let start = on(first).first()?.lane;
-    let ends = on(last);
+    let start = on(states.first()?).first()?.lane;
+    // Where the map ends before the motion does, its last place on a lane says where it went.
+    let ends = states.iter().rev().step_by(STRIDE).map(on).find(|hits| !hits.is_empty())?;
     let nearest = ends.first()?.distance_m;
     // Where ways part or meet, lanes lie upon each other.
     let is_end = |lane: usize| ends.iter().any(|e| e.lane == lane && e.distance_m < nearest + 0.3);
@@ -185,6 +188,8 @@ mod tests {
         let street = street();
         assert_eq!(of(&ride(10.0, 0.0, 0.0), Some(&street)), Manoeuvre::Straight);
         assert_eq!(of(&ride(10.0, 0.0, 3.5), Some(&street)), Manoeuvre::LaneLeft);
+        // The map ends at 140 m.
+        assert_eq!(of(&ride(20.0, 0.0, 3.5), Some(&street)), Manoeuvre::LaneLeft);
         let mut back = ride(10.0, 0.0, -3.5);
         back.iter_mut().for_each(|s| s.y_m += 3.5);
         assert_eq!(of(&back, Some(&street)), Manoeuvre::LaneRight);
