@@ -1,15 +1,21 @@
 // Where one stops on a way, and what lanes are called at a junction.
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { armWords } from '../src/model/arm-names';
 import { pointAt } from '../src/model/geometry';
 import { turnOf, type Lane } from '../src/model/lanemap';
 import type { Path } from '../src/model/profile';
+import type { SceneJson } from '../src/model/json';
+import { readScene } from '../src/model/read';
 import { startPose } from '../src/model/scene';
 import { stopPlaces } from '../src/model/stop-places';
 import { car, crossing } from './helpers';
 
 const scene = crossing();
 const lanes = [...scene.map.lanes.values()];
+
+const example = (id: string): SceneJson =>
+  JSON.parse(readFileSync(new URL(`../../assets/scenes/${id}.json`, import.meta.url), 'utf8')) as SceneJson;
 
 /** Along a lane and on over the junction. */
 function wayOver(lane: Lane): Path {
@@ -65,5 +71,20 @@ describe('lanes at the only junction', () => {
       (l) => !l.inside && l.kind === 'road' && l.prev.some((id) => scene.map.lanes.get(id)?.inside),
     )!;
     expect(armWords(scene.map, out)).toMatch(/^[NESW]+ arm, outbound lane$/);
+  });
+
+  it('are outbound where they lead away from a roundabout, also where that leads to another junction', () => {
+    const { map } = readScene(example('demo-roundabout'));
+    const away = [...map.lanes.values()].filter((l) => {
+      const [start, end] = [pointAt(l.line, 0), pointAt(l.line, l.line.length)];
+      return !l.inside && l.kind === 'road' && Math.hypot(end.x, end.y) > Math.hypot(start.x, start.y) + 10;
+    });
+    const words = away.flatMap((l) => armWords(map, l) ?? []);
+    expect(words.length).toBeGreaterThan(2);
+    expect(words.filter((w) => !/outbound lane$|bus lane$/.test(w))).toEqual([]);
+    // Who drives in may leave by any arm, and a part of the ring is on none.
+    const all = [...map.lanes.values()].filter((l) => !l.inside).map((l) => armWords(map, l));
+    expect(all.filter((w) => w && /turn lane$|^(NE|NW|SE|SW)/.test(w))).toEqual([]);
+    expect(all.filter((w) => w?.endsWith('inbound lane')).length).toBeGreaterThan(3);
   });
 });

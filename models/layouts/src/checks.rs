@@ -70,7 +70,7 @@ pub fn all(draft: &Draft) -> Vec<Check> {
     add(Check::passed(CheckKind::LanesLead, "Every lane leads somewhere"), ends(draft));
     let (vehicle, _) = vehicle(draft.turns);
     add(Check::passed(CheckKind::Turns, &format!("A {vehicle} can turn")), bends(draft));
-    add(Check::passed(CheckKind::Widths, "Nothing is narrower than 2.5 m"), widths(draft));
+    add(Check::passed(CheckKind::Widths, "Every lane is wide enough"), widths(draft));
     if !draft.signals.is_empty() {
         add(Check::passed(CheckKind::SignalsApart, "Signal phases do not meet"), greens(draft));
     }

@@ -61,10 +61,13 @@ function across(lane: Lane, junction: Vec): string | null {
 }
 
 function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
-  const into = reach(map, lane, 'next');
-  const outOf = into.length ? [] : reach(map, lane, 'prev');
-  const ways = into.length ? into : outOf;
-  if (!ways.length) return null;
+  const outFrom = reach(map, lane, 'prev');
+  const onTo = reach(map, lane, 'next');
+  const away = outFrom.length && onTo.length ? leadsAway(lane, junction) : !onTo.length;
+  const into = away ? [] : onTo;
+  const ways = away ? outFrom : onTo;
+  // A part of a ring is on no arm.
+  if (away === null || !ways.length) return null;
   const centre = meanOf(ways.map(middle));
   if (!near(centre, junction)) return null;
   // Seen from the junction a place a little way out says which arm it is, however the road bends further out. At its
@@ -75,10 +78,26 @@ function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
   if (lane.kind === 'bike') return TEXTS.bikeLane(arm);
   if (lane.type === 'bus_lane') return TEXTS.busLane(arm);
   const turns = new Set(into.map(manner));
-  const one = turns.size === 1 ? [...turns][0] : null;
+  // Of a way into a roundabout nobody knows yet where it leads.
+  const after = into.flatMap((l) => l.next.flatMap((id) => map.lanes.get(id) ?? []));
+  const leadsOut = after.every((l) => !l.inside && leadsAway(l, junction) !== null);
+  const one = turns.size === 1 && leadsOut ? [...turns][0] : null;
   if (one === 'left') return TEXTS.leftTurnLane(arm);
   if (one === 'right') return TEXTS.rightTurnLane(arm);
   return into.length ? TEXTS.inboundLane(arm) : TEXTS.outboundLane(arm);
+}
+
+/** A lane that comes no nearer to a place than this and gets no further from it leads round it, metres. */
+const ROUND_M = 3;
+
+/** Does a lane lead away from a place? Null where it leads round it. */
+function leadsAway({ line }: Lane, from: Vec): boolean | null {
+  const far = (at: number): number => {
+    const p = pointAt(line, at);
+    return Math.hypot(p.x - from[0], p.y - from[1]);
+  };
+  const by = far(line.length) - far(0);
+  return Math.abs(by) < ROUND_M ? null : by > 0;
 }
 
 const mean = (v: readonly number[]): number => v.reduce((s, x) => s + x, 0) / v.length;

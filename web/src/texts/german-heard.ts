@@ -52,7 +52,7 @@ const SENTENCES: readonly Heard[] = [
   ],
   [/^Every lane leads somewhere$/, 'Jede Spur führt weiter'],
   [/^A (12 m bus|5 m car) can turn$/, (_, who) => `Ein ${vehicle(who)} kann abbiegen`],
-  [/^Nothing is narrower than ([\d.]+ m)$/, 'Nichts ist schmaler als $1'],
+  [/^Every lane is wide enough$/, 'Jede Spur ist breit genug'],
   [/^Signal phases do not meet$/, 'Ampelphasen widersprechen sich nicht'],
   [/^Lane (\S+) leads nowhere$/, 'Spur $1 führt nirgends hin'],
   [/^Lane (\S+) is reached from nowhere$/, 'Spur $1 ist nicht erreichbar'],
