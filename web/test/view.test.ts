@@ -2,11 +2,13 @@
 import fc from 'fast-check';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { deg, rad, wrapAngle, type Vec } from '../src/model/geometry';
+import { setGoal } from '../src/model/commands';
 import { startPose } from '../src/model/scene';
 import { handlePoints } from '../src/draw/handles';
 import { Recording, Vocabulary } from '../src/draw/recording';
 import { View } from '../src/draw/view';
 import { agentsAt, hitTest, type HitContext } from '../src/edit/hit';
+import { lockAll } from '../src/edit/several';
 import { readLink, writeLink } from '../src/edit/share-link';
 import { Pointer } from './edit/pointer';
 
@@ -194,6 +196,21 @@ describe('a turned picture under the pointer', () => {
         expect(hitTest(context(false), ...tip)).toEqual({ kind: 'grip', grip: { part: 'start', handle: 'speed' } });
       }
     }
+  });
+
+  it('takes hold of the flag of one that is locked, to say so, and of none of its handles', () => {
+    const here = () => p.editor.scene.peek()!.agents.get('1')!;
+    const { x, y, heading } = startPose(here())!;
+    const pos: Vec = [x + 30 * Math.cos(heading), y + 30 * Math.sin(heading)];
+    p.editor.run(setGoal(here(), { ...here().goal, pos }));
+    p.editor.select('1');
+    const flag = () => hitTest(context(false), ...p.view.to(...pos));
+    const free = flag();
+    expect(free).toMatchObject({ kind: 'grip', grip: { part: 'goal', handle: 'body' } });
+    p.editor.run(lockAll([here()], true)!);
+    expect(flag()).toEqual(free);
+    const { knob, tip } = handlePoints(p.view, here(), startPose(here())!);
+    for (const at of [knob, tip]) expect(hitTest(context(false), ...at).kind).not.toBe('grip');
   });
 
   it('drags what it holds with the pointer', () => {

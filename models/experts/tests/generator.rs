@@ -22,6 +22,8 @@ mod planning;
 mod refining;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
+#[path = "generator/taking.rs"]
+mod taking;
 #[path = "generator/via.rs"]
 mod via;
 #[path = "generator/walking.rs"]

@@ -20,6 +20,11 @@ const SAVED: Record<SaveState, string> = {
   off: TEXTS.notSaved,
 };
 
+/** What takes turns while one works: the widest of these is always kept free, so that nothing beside it moves. */
+const USUAL = [TEXTS.example, TEXTS.saved, TEXTS.saving, TEXTS.dragging].reduce((a, b) =>
+  b.length > a.length ? b : a,
+);
+
 export function TopBar() {
   const { editor, form } = useApp();
   const open = useComputed(() => editor.resting.value !== null).value;
@@ -110,7 +115,9 @@ function Title() {
       ) : (
         <NameField key={id} />
       )}
-      <small title={state}>{state}</small>
+      <small title={state} data-room={USUAL}>
+        {state}
+      </small>
     </div>
   );
 }

@@ -69,7 +69,9 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by-road' };
-    const grip = a.locked ? null : gripAt(c, a, x, y);
+    const held = gripAt(c, a, x, y);
+    // The flag of one that is locked is there to be seen: whoever takes hold of it is told.
+    const grip = a.locked && !(held?.part === 'goal' && held.handle === 'body') ? null : held;
     // A bar is small, and a flag or a box behind it can be taken elsewhere.
     const stop = c.stops.find(({ ends }) => awayFrom(ends, x, y) <= (c.touch ? FINGER_PX : 7));
     if (stop && !a.locked && (!grip || grip.handle === 'body')) return { kind: 'stop', point: stop.point };

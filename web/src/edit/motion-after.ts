@@ -43,7 +43,11 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
   for (const id of mine) if (futures.has(id)) driving.add(id);
   // What they were judged against has changed with those that are answered.
   const changed = changedSince(last, { ...before, futures, driving }, scene);
-  for (const [id, f] of futures) if (!answers.has(id)) futures.set(id, metAnew(scene.agents.get(id)!, f, changed));
+  for (const [id, f] of futures) {
+    // Of whom another future is picked all six are judged by what the others do when they are: that stands.
+    if (answers.has(id) || w.pinned?.includes(id)) continue;
+    futures.set(id, metAnew(scene.agents.get(id)!, f, changed));
+  }
   // Those that go on as they did may meet others than before.
   for (const id of score ? mine : []) {
     const f = answers.has(id) ? undefined : futures.get(id);

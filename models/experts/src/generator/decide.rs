@@ -37,6 +37,9 @@ pub(super) struct Decided {
     pub(super) reaction: Option<Reaction>,
     /// Before whom it halts and misses its goal.
     pub(super) blocked_by: Option<AgentId>,
+    /// What the others answer if one of `alternatives` is taken in place of the shown one, one entry each: `None`
+    /// where that makes no difference. Empty where it is not looked at.
+    pub(super) answers: Vec<Option<Vec<Answered>>>,
 }
 
 impl Decided {
@@ -87,7 +90,7 @@ impl Window<'_> {
         }
         let mut causes = self.put_back(&choice, &mut chosen);
         let mut changed = self.changed(&candidates, &chosen);
-        let mut answered = self.answerers.answers(&changed);
+        let mut answered = self.answers(&changed);
         let mut blockers: Vec<Option<AgentId>> = vec![None; self.actors.len()];
         let rounds = if self.request.stages.guidance { MOST_ROUNDS } else { 0 };
         for _ in 0..rounds {
@@ -97,7 +100,7 @@ impl Window<'_> {
             }
             causes = self.put_back(&choice, &mut chosen);
             changed = self.changed(&candidates, &chosen);
-            answered = self.answerers.answers(&changed);
+            answered = self.answers(&changed);
         }
         let count = self.request.modes.max(1);
         let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
@@ -111,19 +114,50 @@ impl Window<'_> {
             let halts = matches!(alternatives[chosen].origin, Origin::Halting(_));
             let blocked_by = blockers[i].clone().filter(|_| halts);
             let agent = actor.plan.present.index;
-            Some(Decided { agent, actor: i, chosen, alternatives, reaction, blocked_by })
+            let answers = self.answers_to_each(i, chosen, &alternatives, &changed);
+            Some(Decided { agent, actor: i, chosen, alternatives, reaction, blocked_by, answers })
         });
         Decisions { actors: actors.collect(), answered }
     }
 
     /// What the actors do, as the others see it.
     fn changed(&self, candidates: &[Vec<Candidate>], chosen: &[usize]) -> Vec<Changed> {
-        let of = |i: usize| {
-            let shown = &candidates[i][chosen[i]];
-            let moving = Moving::of_rollout(&shown.motion.states, &self.actors[i].plan.present.size);
-            Changed { id: self.actors[i].id.clone(), moving, kept: shown.origin == Origin::Kept }
-        };
-        self.indices().into_iter().map(of).collect()
+        self.indices().into_iter().map(|i| self.change(i, &candidates[i][chosen[i]])).collect()
+    }
+
+    fn change(&self, i: usize, taken: &Candidate) -> Changed {
+        let moving = Moving::of_rollout(&taken.motion.states, &self.actors[i].plan.present.size);
+        Changed { id: self.actors[i].id.clone(), moving, kept: taken.origin == Origin::Kept }
+    }
+
+    fn answers(&self, changed: &[Changed]) -> Vec<Answered> {
+        self.answerers.answers(&changed.iter().collect::<Vec<_>>())
+    }
+
+    /// What the others answer to each of an actor's alternatives, all other actors doing what is shown. Only whoever
+    /// was asked for has futures to take.
+    fn answers_to_each(
+        &self,
+        i: usize,
+        chosen: usize,
+        alternatives: &[Candidate],
+        changed: &[Changed],
+    ) -> Vec<Option<Vec<Answered>>> {
+        if self.request.react == React::Nobody
+            || self.actors[i].kept.is_some()
+            || self.world.step > self.request.start_step
+        {
+            return Vec::new();
+        }
+        let shown_is_met = self.answerers.are_met_by(&changed[i].moving.swept);
+        let each: Vec<usize> = (0..alternatives.len()).collect();
+        self.workers().map(&each, |&k| {
+            let other = (k != chosen).then(|| self.change(i, &alternatives[k]))?;
+            let differs = shown_is_met || self.answerers.are_met_by(&other.moving.swept);
+            let seen: Vec<&Changed> =
+                changed.iter().enumerate().map(|(j, c)| if j == i { &other } else { c }).collect();
+            differs.then(|| self.answerers.answers(&seen))
+        })
     }
 
     /// Where somebody who was asked for still meets others, whatever they answer, leaves the road for a goal on it,

@@ -47,6 +47,13 @@ pub struct Other<'a> {
     mover: Mover,
 }
 
+impl Other<'_> {
+    /// Who it is.
+    pub fn id(&self) -> &str {
+        self.actor.id
+    }
+}
+
 impl<'a> Judge<'a> {
     /// `steps` are the scene steps that are looked at, the start of the motions first.
     pub fn new(map: &'a LaneMap, signals: &'a [Signal], drivable: &'a Drivable, steps: Range<usize>) -> Self {

@@ -105,8 +105,7 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const stop = useRef(new AbortController());
   useEffect(() => () => stop.current.abort(), []);
   const made = useFiles(kinds, chosen, stop.current.signal);
-  const words = sought.value.toLowerCase().trim();
-  const shown = kinds.filter((k) => matches(k, words));
+  const shown = within(kinds, sought.value);
   const kind = kinds.find((k) => k.id === chosen.value)!;
   const { editor } = useApp();
   const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.motion.peek()));
@@ -128,6 +127,9 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
             aria-label={TEXTS.findAFormat}
             onInput={(e) => {
               sought.value = e.currentTarget.value;
+              // What is saved is in sight.
+              const found = within(kinds, sought.value);
+              if (found.length && !found.includes(kind)) chosen.value = found[0].id;
             }}
           />
         </label>
@@ -169,8 +171,14 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   );
 }
 
-const matches = ({ label, ending, says, name = '' }: Kind, words: string): boolean =>
-  words.split(/\s+/).every((w) => `${label} ${ending} ${says} ${name}`.toLowerCase().includes(w));
+/** Those that all words of a search are said of. */
+const within = (kinds: readonly Kind[], sought: string): readonly Kind[] => {
+  const words = sought.toLowerCase().trim().split(/\s+/);
+  return kinds.filter(({ label, ending, says, name = '' }) => {
+    const said = `${label} ${ending} ${says} ${name}`.toLowerCase();
+    return words.every((w) => said.includes(w));
+  });
+};
 
 function fileWords({ name, blob, others = [] }: ExportedFile): string {
   const size = [blob, ...others.map((f) => f.blob)].reduce((sum, b) => sum + b.size, 0);

@@ -59,7 +59,7 @@ export class Idle implements State {
     const { editor, parts } = this.chart;
     switch (hit.kind) {
       case 'grip':
-        return CURSORS[hit.grip.handle];
+        return editor.agent.peek()?.locked ? 'pointer' : CURSORS[hit.grip.handle];
       case 'stop':
         return 'grab';
       case 'hold':

@@ -3,7 +3,7 @@
 use super::targets::due;
 use crate::generator::actor::Actor;
 use crate::generator::candidates::Candidate;
-use crate::generator::decide::Decided;
+use crate::generator::decide::{Decided, Decisions};
 use crate::generator::extrapolation::Guessed;
 use crate::generator::reacting::Answered;
 use crate::generator::report::{self, Outcome};
@@ -57,9 +57,15 @@ pub(super) struct Ledger {
     progress: BTreeMap<usize, Progress>,
     pub(super) samples: Vec<Sample>,
     resolved: BTreeMap<AgentId, Resolved>,
+    /// Of the present sample.
+    instead: Instead,
     pub(super) warnings: Vec<Warning>,
     pub(super) timings: Timings,
 }
+
+/// What others would do if a future of a road user were taken that is not shown: by road user and future, who would
+/// do something else and what; `None` is what it does when nobody is in its way.
+pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<Future>)>>;
 
 impl Ledger {
     /// What a road user has done in the present sample, if it got futures.
@@ -146,6 +152,28 @@ impl Ledger {
         progress.ahead = answered.states.iter().skip(there).copied().collect();
         progress.answers = true;
         self.progress.insert(agent, progress);
+    }
+
+    /// Writes down what the others would answer to futures that are not shown.
+    pub(super) fn would_answer(&mut self, window: &Window<'_>, decisions: &Decisions) {
+        let shown = || decisions.answered.iter().map(|a| a.index);
+        for decided in &decisions.actors {
+            for (k, answers) in decided.answers.iter().enumerate() {
+                let Some(answers) = answers else { continue };
+                let who: BTreeSet<usize> = shown().chain(answers.iter().map(|a| a.index)).collect();
+                let future = |agent: usize| {
+                    let answered = answers.iter().find(|a| a.index == agent)?;
+                    window.answer_of(answered).modes.into_iter().next()
+                };
+                let instead = who.into_iter().map(|agent| (agent, future(agent))).collect();
+                self.instead.insert((decided.agent, k), instead);
+            }
+        }
+    }
+
+    /// What was written down of that.
+    pub(super) fn take_instead(&mut self) -> Instead {
+        std::mem::take(&mut self.instead)
     }
 
     /// Writes down that somebody followed a picked future up to `steps` after the call's start.

@@ -212,6 +212,7 @@ impl<'g> Generation<'g> {
         for decided in &decisions.actors {
             self.ledger.follow(&self.request, base, window, decided, span.clone());
         }
+        self.ledger.would_answer(window, &decisions);
         for answered in &decisions.answered {
             self.ledger.answer_of(&self.request, base, window, answered, span.clone());
         }
@@ -227,8 +228,9 @@ impl<'g> Generation<'g> {
         }
         let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        let instead = self.ledger.take_instead();
         if self.request.stages.judged {
-            verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample, &instead);
             if self.ledger.samples.is_empty() {
                 let ways = remedies::by_road(&self.request, world, &self.map, &sample);
                 self.ledger.remedy(ways);

@@ -28,11 +28,8 @@ impl<'a> Standing<'a> {
         shown: &[Actor<'_>],
         futures: usize,
     ) -> Self {
-        let trace = |(agent, shown): (&scene::Agent, &Actor<'_>)| {
-            let at = |step: usize| shown.state(request.start_step + 1 + step).copied();
-            Trace::new(&agent.id, agent.kind(), &shown.size, request.horizon_steps, at)
-        };
-        let traces = request.scene.agents.iter().zip(shown).map(trace).collect();
+        let agents = request.scene.agents.iter().zip(shown);
+        let traces = agents.map(|(agent, shown)| Self::trace(request, agent, shown)).collect();
         Self { request, map, sample, traces, few: futures <= FEW }
     }
 
@@ -43,8 +40,19 @@ impl<'a> Standing<'a> {
         manoeuvre(&future.states, kind, lanes)
     }
 
-    /// How a future of a road user stands to the others.
-    pub(super) fn relations(&self, agent: usize, future: &Future) -> Vec<Relation> {
+    /// What somebody does, to hold futures against.
+    fn trace(request: &Request, agent: &scene::Agent, actor: &Actor<'_>) -> Trace {
+        let at = |step: usize| actor.state(request.start_step + 1 + step).copied();
+        Trace::new(&agent.id, agent.kind(), &actor.size, request.horizon_steps, at)
+    }
+
+    /// How a future of a road user stands to the others, some of whom do something else than they are shown to do.
+    pub(super) fn relations(
+        &self,
+        agent: usize,
+        future: &Future,
+        instead: &[(usize, Actor<'_>)],
+    ) -> Vec<Relation> {
         if !self.few && !self.is_asked(agent) && !self.is_shown(agent, future) {
             return Vec::new();
         }
@@ -53,7 +61,13 @@ impl<'a> Standing<'a> {
         let at = |step: usize| future.states.get(step.checked_sub(late)?).copied();
         let me = Trace::new(shown.id(), shown.agent_type(), shown.size(), late + future.states.len(), at)
             .going_on();
-        relations(&me, &self.traces, first_step)
+        let own = |(i, actor): &(usize, Actor<'_>)| {
+            (*i, Self::trace(self.request, &self.request.scene.agents[*i], actor))
+        };
+        let instead: Vec<(usize, Trace)> = instead.iter().map(own).collect();
+        let others = self.traces.iter().enumerate();
+        let others = others.map(|(i, shown)| instead.iter().find(|(j, _)| *j == i).map_or(shown, |(_, t)| t));
+        relations(&me, others, first_step)
     }
 
     fn is_asked(&self, agent: usize) -> bool {

@@ -1,6 +1,7 @@
 //! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
 //! what the others are shown to do.
 
+use super::ledger::Instead;
 use super::standing::Standing;
 use super::targets::due;
 use crate::generator::KnownMap;
@@ -19,19 +20,25 @@ const AWAY_M: f64 = 25.0;
 const MANY: usize = MODES + 1;
 
 /// Writes down what is said about each future of a sample: what is wrong with it, how it stands to the others, and
-/// what it does.
-pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample: &mut Sample) {
+/// what it does. A future that is not shown is judged by what the others would do if it were taken.
+pub(super) fn judge(
+    request: &Request,
+    map: &KnownMap,
+    workers: &Workers,
+    sample: &mut Sample,
+    instead: &Instead,
+) {
     let scene = &request.scene;
     let steps = request.start_step..request.start_step + request.horizon_steps + 1;
     let judge = Judge::new(&scene.map, &scene.signals, &map.drivable, steps);
     let judge = judge.with_thresholds(request.thresholds);
     let shown: Vec<Actor<'_>> = scene.agents.iter().map(|agent| as_shown(request, sample, agent)).collect();
-    let futures: Vec<(usize, &Future)> = scene
+    let futures: Vec<(usize, usize, &Future)> = scene
         .agents
         .iter()
         .enumerate()
         .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
-        .flat_map(|(i, futures)| futures.modes.iter().map(move |future| (i, future)))
+        .flat_map(|(i, futures)| futures.modes.iter().enumerate().map(move |(k, future)| (i, k, future)))
         .collect();
     let standing = Standing::new(request, map, sample, &shown, futures.len());
     let ground = Ground::of(sample);
@@ -40,14 +47,23 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
         .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
         .map(|actor| judge.other(actor))
         .collect();
-    let found = workers.map_many(MANY, &futures, |&(i, future)| {
+    let found = workers.map_many(MANY, &futures, |&(i, k, future)| {
         let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
         let due_s = (request.start_step as isize + due(request, i)) as f64 * STEP_S;
         actor.goal.time_s = actor.goal.time_s.or(Some(due_s));
+        let instead: Vec<(usize, Actor<'_>)> = instead
+            .get(&(i, k))
+            .into_iter()
+            .flatten()
+            .map(|(j, future)| (*j, as_taken(request, &scene.agents[*j], future.as_ref())))
+            .collect();
+        let relations = standing.relations(i, future, &instead);
+        let instead: Vec<Other<'_>> = instead.into_iter().map(|(_, actor)| judge.other(actor)).collect();
+        let shown = others.iter().filter(|other| instead.iter().all(|own| own.id() != other.id()));
         let mut faults = judge.alone(&actor);
-        faults.extend(judge.among(&actor, others.iter()));
+        faults.extend(judge.among(&actor, shown.chain(&instead)));
         by_weight(&mut faults);
-        About { faults, relations: standing.relations(i, future), manoeuvre: standing.manoeuvre(i, future) }
+        About { faults, relations, manoeuvre: standing.manoeuvre(i, future) }
     });
     let mut found = found.into_iter();
     for agent in &scene.agents {
@@ -60,8 +76,12 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
 
 /// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
 /// its log.
-fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
-    let new = sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen));
+fn as_shown<'a>(request: &'a Request, sample: &'a Sample, agent: &'a Agent) -> Actor<'a> {
+    as_taken(request, agent, sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen)))
+}
+
+/// A road user with a new motion; without one with the future that the scene keeps, or its log.
+fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&'a Future>) -> Actor<'a> {
     let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
     match new.or_else(kept) {
         Some(future) => Actor::of_future(agent, future, &[]),

@@ -50,7 +50,7 @@ impl Answerers<'_> {
     }
 
     /// Who gives up its motion for these changed ones, and how. Whoever is left out keeps it to the last byte.
-    pub(in crate::generator) fn answers(&self, changed: &[Changed]) -> Vec<Answered> {
+    pub(in crate::generator) fn answers(&self, changed: &[&Changed]) -> Vec<Answered> {
         let ways = self.ways(changed);
         let causes = self.causes(changed, &ways);
         let answered = ways.into_iter().zip(causes).enumerate().filter_map(|(i, (way, cause))| {
@@ -74,7 +74,7 @@ impl Answerers<'_> {
     }
 
     /// The first conflict at a time is answered until none is left that somebody can do something about.
-    fn ways(&self, changed: &[Changed]) -> Vec<Option<Way>> {
+    fn ways(&self, changed: &[&Changed]) -> Vec<Option<Way>> {
         let mut ways: Vec<Option<Way>> = vec![None; self.all.len()];
         let mut thoughts = vec![0; self.all.len()];
         loop {
@@ -98,7 +98,7 @@ impl Answerers<'_> {
     }
 
     /// All changed motions as they are by now.
-    fn seen<'a>(&'a self, changed: &'a [Changed], ways: &'a [Option<Way>]) -> Vec<Seen<'a>> {
+    fn seen<'a>(&'a self, changed: &[&'a Changed], ways: &'a [Option<Way>]) -> Vec<Seen<'a>> {
         let asked = changed.iter().map(|c| Seen { answerer: None, kept: c.kept, moving: &c.moving });
         let answering = ways.iter().enumerate().filter_map(|(i, way)| {
             let own = &self.all[i];
@@ -123,7 +123,7 @@ impl Answerers<'_> {
 
     /// Whose changed motion each one's kept motion meets, reached from those that were asked for; `None` for those
     /// that have no cause, or no change.
-    fn causes(&self, changed: &[Changed], ways: &[Option<Way>]) -> Vec<Option<AgentId>> {
+    fn causes(&self, changed: &[&Changed], ways: &[Option<Way>]) -> Vec<Option<AgentId>> {
         let mut sources: Vec<_> = changed.iter().map(|c| (&c.id, &c.moving.swept)).collect();
         sources.extend(self.earlier(ways));
         let kept: Vec<&SweptBoxes> = self.all.iter().map(|a| &a.kept.swept).collect();
