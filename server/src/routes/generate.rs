@@ -135,7 +135,8 @@ pub struct GenerateRequest {
     /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
     #[serde(default)]
     background: bool,
-    /// Road users to regenerate.
+    /// Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
+    /// and give way to each other there.
     #[serde(default = "everyone")]
     agents: Who,
     /// Who else answers to them.
@@ -512,14 +513,15 @@ impl GenerateRequest {
                 Some(ids)
             }
         };
-        if agents.as_ref().is_some_and(BTreeSet::is_empty) {
-            return Err(Problem::field("/agents", Code::InvalidField, "\"all\" or at least one id expected"));
-        }
         let react = match &self.react {
             Reacting::Whether(false) => React::Nobody,
             Reacting::Whether(true) => React::Everyone,
             Reacting::Ids(ids) => React::Only(self.known(scene, "/react", ids)?),
         };
+        if agents.as_ref().is_some_and(BTreeSet::is_empty) && react == React::Nobody {
+            let detail = "\"all\" or at least one id expected, or somebody who reacts";
+            return Err(Problem::field("/agents", Code::InvalidField, detail));
+        }
         let named = agents.as_ref().map_or(0, BTreeSet::len);
         if named as u64 > most_agents {
             let detail = format!("{named} road users to regenerate; at most {most_agents}");

@@ -37,7 +37,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
   const held = heldIn(scene, known);
-  const asked = whoIsAsked(scene, mine, known, [...changedBy(step)]).filter((id) => !held.has(id));
+  const asked = whoIsAsked(scene, mine, known, step).filter((id) => !held.has(id));
   if (!asked.length && held.size) {
     // A pinned future stays as it is, whatever else is drawn anew: others answer it as any that is picked.
     const rest = others === 'all' ? free(scene) : others;
@@ -61,17 +61,15 @@ function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
   return ids.length ? ids : 'nobody';
 }
 
-/** Whom the change is about, and those of whom nothing is known yet; else the first that was ever asked something. */
-function whoIsAsked(
-  scene: Scene,
-  mine: readonly string[],
-  known: ReadonlyMap<string, unknown>,
-  changed: readonly string[],
-): string[] {
-  const open = mine.filter((id) => scene.agents.get(id)!.placed && !known.has(id));
-  const about = changed.filter((id) => mine.includes(id));
+/**
+ * Whom the change is about, and those of whom nothing is known yet. It may be nobody: everybody goes on then, longer or
+ * with others that answer. Where chance is another the first that was ever asked something is drawn anew.
+ */
+function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<string, unknown>, step: Step): string[] {
+  const open = mine.filter((id) => !known.has(id));
+  const about = [...changedBy(step)].filter((id) => mine.includes(id));
   const all = [...new Set([...about, ...open])].filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
-  return all.length ? all : [mine[0]];
+  return all.length || !step.chance ? all : [mine[0]];
 }
 
 /** The others keep to the log or stand: only those that were asked something are worked out. */

@@ -88,6 +88,8 @@ export interface Step {
   readonly everybody?: boolean;
   /** The motions stand, only what counts in them is another thing. */
   readonly counting?: boolean;
+  /** What is left to chance is drawn otherwise. */
+  readonly chance?: boolean;
   /** The speed curve of whom it is about has gone out of force with it. */
   readonly curve?: LostCurve;
 }
@@ -431,6 +433,7 @@ export class Editor {
       ...(curve ? { curve } : {}),
       ...(everybody && !counting ? { everybody } : {}),
       ...(counting ? { counting } : {}),
+      ...(before.seed !== scene.seed || before.diversity !== scene.diversity ? { chance: true } : {}),
     });
   }
 

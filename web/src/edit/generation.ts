@@ -2,7 +2,7 @@
 // answer after a change. What becomes of the answers is in `reception.ts`.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
-import { thoseWhoAnswer } from '../model/answering';
+import { goesOneWay, thoseWhoAnswer } from '../model/answering';
 import { emptyMotion, type MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
 import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
@@ -106,9 +106,10 @@ export class Generation implements Previews {
     const { editor } = this;
     const a = editor.agent.peek();
     const m = editor.motion.peek();
-    if (a && canChange(a) && this.#absence.now) this.#sketch(id, true);
-    if (!a || !canChange(a) || m.futures.has(id) || m.stale) return;
-    this.#ask({ agents: [id], react: false, step: null }, true);
+    const only = a !== null && goesOneWay(m, a);
+    if (a && canChange(a) && this.#absence.now && !only) this.#sketch(id, true);
+    if (!a || !canChange(a) || m.stale || (m.futures.has(id) && !only)) return;
+    this.#ask({ agents: [id], react: false, step: null, drafts: !only }, true);
   }
 
   /** A drag frame: the newest pose, one request on the way and one waiting. */
@@ -220,11 +221,12 @@ export class Generation implements Previews {
     else this.#ask(asked);
   }
 
-  /** Nobody is asked anything: everybody follows the log again, or, past its end, makes a way of their own. */
+  /** Nobody is asked anything: everybody follows the log again and, past its end, goes on by the generator. */
   #pristine(scene: Scene, step: Step): void {
     const { editor } = this;
     if (scene.length > GOAL_TIME && scene.others === 'react') {
-      this.#ask({ agents: 'all', react: false, step });
+      const anew = new Set(editor.motion.peek().driving);
+      this.#ask({ agents: [], react: true, step, anew });
       return;
     }
     editor.answers.settle(scene, emptyMotion(sceneKey(scene)), null);

@@ -71,7 +71,7 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
     reach,
     stale: false,
     head: e.generated,
-    answering: answeringAfter(before, e),
+    answering: answeringAfter(before, e, w.pinned),
     warnings: readWarnings(e),
   };
 }
@@ -111,8 +111,9 @@ function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFutur
 }
 
 /** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
-function answeringAfter(before: MotionSet, e: FinalEvent): Map<string, Answering> {
+function answeringAfter(before: MotionSet, e: FinalEvent, pinned: readonly string[] = []): Map<string, Answering> {
   const out = new Map(before.answering);
+  for (const id of pinned) out.delete(id);
   const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
   for (const [id, { reaction }] of Object.entries(agents)) {
     if (reaction) out.set(id, { said: reaction, gaveUp: toBeGivenUp(before, id) });

@@ -8,11 +8,13 @@ import {
   percents,
   readFutures,
   withNames,
+  withOwnFirst,
   type Futures,
   type KeepOrder,
   type Reach,
 } from '../model/futures';
 import type { Fault } from '../model/about';
+import { goesOneWay } from '../model/answering';
 import { findChanges } from '../model/changes';
 import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/scene';
 import { whyAnother, whyNot } from '../model/verdict-words';
@@ -273,10 +275,14 @@ export class Reception {
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const settled = futuresOf(editor.motion.peek(), scene, e, keep).get(id);
-    if (!settled) return;
+    const known = editor.motion.peek();
+    const answer = futuresOf(known, scene, e, keep).get(id);
+    if (!answer) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
+    const a = scene.agents.get(id)!;
+    const [way] = !dragging && goesOneWay(known, a) ? known.futures.get(id)!.modes : [];
+    const settled = way ? withNames(withOwnFirst(way, answer), naming(scene, a)) : answer;
     const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, this.#withoutThoseWhoAnswer(settled)) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
@@ -301,7 +307,7 @@ export class Reception {
     editor.answers.settle(scene, set, this.#subjects(scene, step), editor.speedUnit.peek());
     hooks.known();
     this.settled(step, ms);
-    if (selected && !set.futures.has(selected)) hooks.look(selected);
+    if (selected && (!set.futures.has(selected) || goesOneWay(set, scene.agents.get(selected)!))) hooks.look(selected);
     if (!set.score) hooks.score(step);
   }
 

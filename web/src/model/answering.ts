@@ -3,7 +3,7 @@
 import type { Futures, MotionSet } from './futures';
 import type { ReactionJson } from './json';
 import { takenPin } from './pins';
-import { GOAL_TIME, touched, type Agent, type Scene } from './scene';
+import { changedByHand, GOAL_TIME, touched, type Agent, type Scene } from './scene';
 
 /** Why somebody gave up the motion that it had, and which. */
 export interface Answering {
@@ -69,6 +69,10 @@ export function toBeGivenUp(set: MotionSet, id: string): GivenUp | null {
   const answering = set.answering.get(id);
   return futures ? { futures, ...(answering ? { answering } : {}) } : null;
 }
+
+/** Is the one way that somebody goes all that is known of it? Whoever answers another is not asked for alternatives. */
+export const goesOneWay = (set: MotionSet, a: Agent): boolean =>
+  !changedByHand(a) && set.driving.has(a.id) && set.futures.get(a.id)?.modes.length === 1;
 
 /** What a file says of those who answer. Without another motion in it they can only have given up their log. */
 export function readAnswering(scene: Scene, a: Agent, said: ReactionJson): Answering {

@@ -1637,7 +1637,8 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate.
+             * @description Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
+             *     and give way to each other there.
              * @default all
              */
             agents?: components["schemas"]["Who"];

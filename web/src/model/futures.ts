@@ -3,7 +3,7 @@ import type { Answering } from './answering';
 import type { AgentFuturesJson } from './json';
 import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
 import type { Point, Pose, Vec } from './geometry';
-import { motionFrom, type Motion } from './motion';
+import { furthestApart, motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
 import { metres, num, retold } from './units';
 import { TEXTS } from '../texts/reach';
@@ -137,6 +137,14 @@ export function keepVerdicts(shown: Futures | null, next: Futures): Futures {
 export function withNames(f: Futures, who: Naming): Futures {
   const names = nameAll(f.modes, who);
   return { ...f, modes: f.modes.map((m, i) => ({ ...m, ...names[i] })) };
+}
+
+/** What somebody does anyway first, in place of the one of these that is most like it. */
+export function withOwnFirst(own: Future, f: Futures): Futures {
+  const off = f.modes.map((m) => furthestApart(own.motion, m.motion));
+  const like = f.modes[off.indexOf(Math.min(...off))];
+  const { probability, anchor } = like;
+  return { ...f, modes: [{ ...own, probability, anchor }, ...f.modes.filter((m) => m !== like)], chosen: 0 };
 }
 
 /** Does the generator say of these futures what is wrong with them? */

@@ -205,3 +205,11 @@ export function hardestBraking({ speed }: Motion): number {
     most = Math.max(most, (Math.abs(speed[i - 2 * AROUND]) - Math.abs(speed[i])) / (2 * AROUND * STEP_S));
   return most;
 }
+
+/** How far two are apart where they are furthest apart at the same time, metres. */
+export function furthestApart(a: Motion, b: Motion): number {
+  let most = 0;
+  for (let i = 0; i < Math.min(a.x.length, b.x.length); i++)
+    most = Math.max(most, Math.hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]));
+  return most;
+}

@@ -2,7 +2,17 @@
 // the same. No two in one list are alike.
 import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
-import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from './motion';
+import {
+  distances,
+  endPose,
+  furthestApart,
+  hardestBraking,
+  lastStep,
+  pathLength,
+  poseAt,
+  STEP_S,
+  type Motion,
+} from './motion';
 import { TEXTS as KINDS } from '../texts/kinds';
 import { TEXTS } from '../texts/names';
 
@@ -155,7 +165,7 @@ class NameList {
   /** Of one that nothing tells from another, to which it is likened: to one that is called by what it does. */
   likenToOther(i: number, c: Candidate): void {
     const others = this.#names.flatMap((n, j) => (n && j !== i && !isLikened(n.name) ? [j] : []));
-    const far = new Map(others.map((j) => [j, apart(this.modes[j].motion, this.modes[i].motion)]));
+    const far = new Map(others.map((j) => [j, furthestApart(this.modes[j].motion, this.modes[i].motion)]));
     others.sort((a, b) => far.get(a)! - far.get(b)!);
     for (const j of others) {
       const likes = LIKES.map((like) => like(LETTERS[j]));
@@ -464,14 +474,6 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
     turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
   ];
   return { traits, halfway };
-}
-
-/** How far two are apart where they are furthest apart at the same time, metres. */
-function apart(a: Motion, b: Motion): number {
-  let most = 0;
-  for (let i = 0; i < Math.min(a.x.length, b.x.length); i++)
-    most = Math.max(most, Math.hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]));
-  return most;
 }
 
 /** The furthest that the second path lies to the left of the first, metres; negative to the right. */

@@ -556,7 +556,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.locator('[data-action="length-20"]').click();
     await d.settled();
     expect(await d.text('.tm')).toContain('/ 20.0 s');
-    expect(d.last()).toMatchObject({ agents: 'all', horizon_s: 20, replan_interval_s: 9 });
+    expect(d.last()).toMatchObject({ agents: [], react: true, horizon_s: 20, replan_interval_s: 9 });
     await d.page.locator('[data-action="replan-3"]').click();
     await d.settled();
     expect(d.last()).toMatchObject({ horizon_s: 20, replan_interval_s: 3 });

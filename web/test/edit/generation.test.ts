@@ -1,6 +1,6 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { clearGoal, resetAgent, setGoal, setLength, setOthers, setSize } from '../../src/model/commands';
+import { clearGoal, resetAgent, setGoal, setLength, setOthers, setSeed, setSize } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
@@ -13,7 +13,7 @@ import { generatedJson, writeScene } from '../../src/model/write';
 import { nameAll } from '../../src/model/names';
 import { nameIn, profileOf, withAgents } from '../../src/model/scene';
 import { judged } from '../standin/judged.mjs';
-import { draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
+import { answered, draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
 let editor: Editor;
 let generator: InMemoryGenerator;
@@ -257,6 +257,44 @@ describe('a pick among futures', () => {
     expect(react).not.toContain('1');
     expect(react).not.toContain('2');
     expect(react).toContain('3');
+  });
+});
+
+describe('a scene that gets longer', () => {
+  it('goes on: nobody is drawn anew, neither untouched nor asked something', () => {
+    editor.run(setLength(editor.scene.peek()!, 15));
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 15 });
+    goalFor('1');
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: ['1'], react: true });
+    generator.last.on.final(finalOf('1'), 5);
+    editor.run(setLength(editor.scene.peek()!, 20));
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 20 });
+    // Another seed draws anew.
+    editor.run(setSeed(7));
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: ['1'], react: true, seed: 7 });
+  });
+});
+
+describe('who goes one way alone', () => {
+  it('is offered five others beside it when it is selected, and goes on as it did', () => {
+    goalFor('1');
+    rest();
+    generator.last.on.final(answered('1', { '2': late('2', 3, '1') }), 5);
+    const way = editor.motion.peek().futures.get('2')!.modes[0].motion;
+    editor.select('2');
+    expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
+    generator.last.on.final(finalOf('2'), 5);
+    const { modes, chosen } = editor.futures.peek()!;
+    expect([modes.length, chosen, modes[0].motion === way]).toEqual([6, 0, true]);
+    expect(new Set(modes.map((m) => m.name)).size).toBe(6);
+    const asked = generator.asked.length;
+    editor.select('1');
+    editor.select('2');
+    expect(generator.asked.length).toBe(asked);
   });
 });
 

@@ -251,12 +251,13 @@ describe('rounds', () => {
       t.rounds.openScene();
       t.dealScenes();
       const taken = sets(t)[1];
-      const asked = t.generator.asked.length;
+      const asked = () => t.generator.asked.filter((q) => !q.preview).length;
+      const known = asked();
       t.rounds.take(1);
       expect(t.rounds.isOpen.peek()).toBe(false);
       expect(t.editor.motion.peek().futures).toBe(taken.futures);
       expect([...t.editor.motion.peek().driving].sort()).toEqual([ID, '2']);
-      expect(t.generator.asked, 'it is known what comes of it').toHaveLength(asked);
+      expect(asked(), 'it is known what comes of it').toBe(known);
       t.editor.undo();
       expect(t.editor.motion.peek()).toBe(before);
       t.editor.redo();

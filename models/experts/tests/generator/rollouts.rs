@@ -277,6 +277,29 @@ fn reacting_road_users_have_one_track_from_the_start_too() {
 }
 
 #[test]
+fn with_nobody_asked_everybody_goes_on_past_the_end_of_what_is_known() {
+    for (horizon, interval) in [(150, 90), (200, 30)] {
+        let scene = crossing();
+        let mut request = rollout(scene.clone(), Some(&[]), horizon, interval);
+        request.react = React::Everyone;
+        let answer = run(&GENERATOR, request);
+        let mut longer = 0;
+        for (id, futures) in &answer.samples[0].agents {
+            let future = &futures.modes[futures.chosen];
+            let track = &scene.agent(id).unwrap().track;
+            let at = |i: usize| track.at(future.first_step + i).copied();
+            let known = (0..future.states.len()).take_while(|i| at(*i).is_some()).count();
+            if futures.reaction.is_none() {
+                assert!((0..known).all(|i| at(i) == Some(future.states[i])), "{id} keeps its log");
+            }
+            assert_eq!(future.first_step + future.states.len(), horizon + 1, "{id}");
+            longer += usize::from(known < future.states.len());
+        }
+        assert!(longer > 2, "{longer} go on");
+    }
+}
+
+#[test]
 fn a_start_inside_the_recording_works_the_same() {
     let mut request = rollout(crossing(), Some(&["1", "2"]), 200, 90);
     request.start_step = 20;
