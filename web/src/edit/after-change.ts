@@ -2,7 +2,8 @@
 import { thoseWhoAnswer } from '../model/answering';
 import type { MotionSet } from '../model/futures';
 import { takenPin } from '../model/pins';
-import { canChange, doing, GOAL_TIME, touchedIn, type Scene } from '../model/scene';
+import { STEP_S } from '../model/motion';
+import { canChange, doing, GOAL_TIME, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { Editor, Step } from './editor';
 import type { Wanted } from './question';
 
@@ -49,9 +50,13 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   return { agents: asked, react, step, kept: new Set(picked.filter((id) => !asked.includes(id))) };
 }
 
-/** Those that may take another way: present, and nobody has picked a future for them. */
+/** Those that may take another way: nobody has picked a future for them. Who comes in later brakes for others too. */
 const free = (scene: Scene): string[] =>
-  [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
+  [...scene.agents.values()].filter((a) => isEverThere(scene, a) && a.chosen === null).map((a) => a.id);
+
+/** Does somebody who can move come within what is worked out? */
+const isEverThere = (scene: Scene, a: Agent): boolean =>
+  canChange(a) || (a.type !== 'other' && a.log.valid.some(([from]) => from * STEP_S < scene.length - 1e-6));
 
 /** Who answers to a change: all, nobody, or those of whom that was said. */
 function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {

@@ -2,6 +2,7 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { clearGoal, resetAgent, setGoal, setLength, setOthers, setSeed, setSize } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
+import { askedAfter } from '../../src/edit/after-change';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
@@ -257,6 +258,16 @@ describe('a pick among futures', () => {
     expect(react).not.toContain('1');
     expect(react).not.toContain('2');
     expect(react).toContain('3');
+    // Who comes in later brakes too.
+    const scene = editor.scene.peek()!;
+    const third = scene.agents.get('3')!;
+    const comesAt = (step: number) =>
+      withAgents(scene, [{ ...third, logStart: null, log: { ...third.log, valid: [[step, step + 30]] } }]);
+    const step = { name: '', agent: '2', undo: false };
+    expect(askedAfter(editor, comesAt(20), step)).toMatchObject({ react: expect.arrayContaining(['3']) as unknown });
+    expect(askedAfter(editor, comesAt(120), step)).not.toMatchObject({
+      react: expect.arrayContaining(['3']) as unknown,
+    });
   });
 });
 
