@@ -27,7 +27,7 @@ import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/co
 import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
 import { findChanges, motionOf } from '../src/model/changes';
 import { readEvents } from '../src/model/events';
-import { freeGoal, sceneKey, startPose, touched } from '../src/model/scene';
+import { freeGoal, sceneKey, startPose, touched, withAgents } from '../src/model/scene';
 import { giveWay, goOn, sixFutures } from './standin/futures.mjs';
 import { car, crossing, crossingJson, walker } from './helpers';
 
@@ -173,6 +173,11 @@ describe('longer scenes', () => {
     expect(motionOf(scene, set, a)).toBe(futures.modes[0].motion);
     for (const other of scene.agents.values())
       if (lastStep(other.log) > 80) expect(poseAt(motionOf(scene, set, other), 20), other.id).not.toBeNull();
+    // Who was seen to go away before the recording ended stays away.
+    const gone = { ...car(scene), log: { ...car(scene).log, valid: [[0, 60] as const] } };
+    const left = withAgents(scene, [gone]);
+    expect(poseAt(motionOf(left, emptyMotion(''), gone), 5)).not.toBeNull();
+    expect(poseAt(motionOf(left, emptyMotion(''), gone), 15)).toBeNull();
     const nine = crossing();
     expect(motionOf(nine, set, nine.agents.get('2')!)).toBe(nine.agents.get('2')!.log);
   });

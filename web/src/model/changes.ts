@@ -37,11 +37,18 @@ const LEAST_S = 0.5;
 
 /**
  * The motion a road user follows in playback. Past 9 s it goes on where nobody says more, as the generator takes it
- * to: straight on from where it was last seen.
+ * to: straight on from where it was last seen. Who was seen to go away stays away.
  */
 export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   const m = knownMotion(scene, set, a);
-  return scene.length > GOAL_TIME ? straightOn(m, Math.round(scene.duration / STEP_S)) : m;
+  if (scene.length <= GOAL_TIME || (m === a.log && goesAway(scene, m))) return m;
+  return straightOn(m, Math.round(scene.duration / STEP_S));
+}
+
+/** Was it seen for a while, and no more when the recording ended? */
+function goesAway(scene: Scene, log: Motion): boolean {
+  const seen = log.valid.reduce((sum, [from, to]) => sum + to - from, 0);
+  return seen > 1 && lastStep(log) < scene.steps - 1;
 }
 
 /** The future that a road user follows, where it follows one. */
@@ -101,12 +108,13 @@ export function findChanges(
 ): Change[] {
   const moved: Moved[] = [];
   for (const agent of scene.agents.values()) {
-    const m0 = motionOf(scene, before, agent),
+    // Past the end of what was known nobody does anything else than before.
+    const m0 = knownMotion(scene, before, agent),
       m1 = motionOf(scene, after, agent);
-    if (m0 === m1) continue;
+    if (m0 === m1 || m1 === motionOf(scene, before, agent)) continue;
     // Whoever answers again is compared with what it does otherwise: it may answer as it did the last time.
     const [was, is] = [before.answering.get(agent.id), after.answering.get(agent.id)];
-    const own = is?.gaveUp === undefined ? m0 : motionOf(scene, asIfNotAsked(after, new Set([agent.id])), agent);
+    const own = is?.gaveUp === undefined ? m0 : knownMotion(scene, asIfNotAsked(after, new Set([agent.id])), agent);
     const released = was && !is ? scene.agents.get(was.said.cause) : undefined;
     moved.push({ agent, released, before: own, after: m1 });
   }
