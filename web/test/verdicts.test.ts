@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
 import { FAULT_KINDS, markOf, readAbout } from '../src/model/about';
-import { counted, eventsOf, readEvents, summary } from '../src/model/events';
+import { closeInTime, counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
 import {
   emptyMotion,
@@ -460,6 +460,27 @@ describe('events', () => {
     expect(summary(events())).toBe('1 near miss');
     expect(events(true)[0]).toMatchObject({ inLog: true, words: 'Near miss, 0.6 m · in the log' });
     expect([counted(events(true)), summary(events(true))]).toEqual([[], 'No collisions, no near misses']);
+  });
+});
+
+describe('close in time', () => {
+  it('is said of those that do not just replay their log', () => {
+    const petOf = new Map([
+      ['1', 0.3],
+      ['2', 0.1],
+      ['3', 1.4],
+    ]);
+    const score = { collisions: [], nearMisses: [], minTtc: null, offroadShare: null, petOf };
+    const least = (...driving: string[]) => closeInTime({ ...emptyMotion(''), driving: new Set(driving), score });
+    expect([least('1', '3'), least('3'), least(), least('1', '2')]).toEqual([0.3, null, null, 0.1]);
+  });
+
+  it('of a near miss by time is no gap', () => {
+    const near = { a: '11', b: '14', time: 3.2, distance: 12.6, ttc: null };
+    const only = { collisions: [], nearMisses: [near], minTtc: null, offroadShare: null };
+    const [event] = readEvents(crossing(), { ...emptyMotion(''), driving: new Set(['11', '14']), score: only });
+    expect(event.words).toBe('Near miss');
+    expect(event.facts.map(([what]) => what)).not.toContain('Closest gap');
   });
 });
 

@@ -66,9 +66,14 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
     ],
     minTtc: s.min_ttc_s,
     pet: s.pet_s,
+    petOf: petsOf(reply),
     offroadShare: s.offroad_share,
   };
 }
+
+/** Who is part of a pair that comes to one place one after the other. */
+const petsOf = ({ agents }: Partial<ScoreReply>): ReadonlyMap<string, number> =>
+  new Map(Object.entries(agents ?? {}).flatMap(([id, a]) => (a.pet_s == null ? [] : [[id, a.pet_s]])));
 
 type SentStretch = ScoreReply['scene']['off_road'][number];
 

@@ -182,7 +182,7 @@ const isMissInTime = ({ extent }: Raw): boolean => extent === null || extent > 1
 
 /** How bad it is, in the unit of its kind. */
 function extentWords(r: Raw, unit: SpeedUnit): string | null {
-  if (r.ttc !== null && isMissInTime(r)) return TEXTS.sToCollision(num(r.ttc, 1));
+  if (r.what === 'near_miss' && isMissInTime(r)) return r.ttc === null ? null : TEXTS.sToCollision(num(r.ttc, 1));
   if (r.extent === null) return null;
   switch (r.what) {
     case 'collision':
@@ -259,7 +259,8 @@ function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: 
   const [[, pa], [, pb]] = who;
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
   if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
-  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.closestGap, metres(r.extent, 1)]);
+  if (r.what === 'near_miss' && r.extent !== null)
+    facts.push([isMissInTime(r) ? TEXTS.gapThen : TEXTS.closestGap, metres(r.extent, 1)]);
   if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null)
@@ -305,6 +306,16 @@ export const counted = (events: readonly TrafficEvent[]): TrafficEvent[] => even
 export function worstOf(events: readonly TrafficEvent[]): TrafficEvent['kind'] | null {
   const kinds = counted(events).map((e) => e.kind);
   return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
+}
+
+/** One who comes to a place so soon after another has left it was close, whatever counts as a near miss, seconds. */
+const CLOSE_S = 1;
+
+/** The least time between two in one place, where it is that short and one of them does not just replay its log. */
+export function closeInTime(set: MotionSet): number | null {
+  const all = [...set.driving].flatMap((id) => set.score?.petOf?.get(id) ?? []);
+  const least = Math.min(...all);
+  return least < CLOSE_S ? least : null;
 }
 
 const COUNTED = [

@@ -191,6 +191,8 @@ export interface Score {
   readonly minTtc: number | null;
   /** Least time between one leaving a place and another coming there, seconds. */
   readonly pet?: number | null;
+  /** The same of each road user that is part of such a pair. */
+  readonly petOf?: ReadonlyMap<string, number>;
   readonly offroadShare: number | null;
 }
 

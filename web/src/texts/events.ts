@@ -17,6 +17,7 @@ export const TEXTS = table('events', {
   sToCollisionWith: (ttc: string, other: string) => `${ttc} s to collision with ${other}`,
   closingSpeed: 'Closing speed',
   closestGap: 'Closest gap',
+  gapThen: 'Gap at that moment',
   timeToCollision: 'Time to collision',
   fromTo: 'From, to',
   to: (time: string, until: string) => `${time} to ${until}`,

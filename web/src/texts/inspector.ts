@@ -42,6 +42,7 @@ export const TEXTS = table('inspector', {
   notWorkedOut: 'Not worked out yet',
   moreEvents: (n: number) => plural(n, { one: `${n} more event`, other: `${n} more events` }),
   noCollisions: 'No collisions, no near misses',
+  noneButClose: (gap: string) => `No collisions, no near misses; ${gap} between two in one place`,
   signals: 'signals',
   leftHandTraffic: 'Left-hand traffic',
 });

@@ -11,6 +11,6 @@ export const TEXTS = table('parts', {
   replayLog: 'Replay log',
   holdStill: 'Hold still',
   everybodyYou: 'Everybody you gave no goal adapts when you let go.',
-  theyDoWhatWas: 'They do what was recorded.',
+  theyDoWhatWas: 'They do what was recorded; who was put here goes on as it did.',
   theyStayWhere: 'They stay where they start, and nobody else comes in.',
 });

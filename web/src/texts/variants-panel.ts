@@ -6,6 +6,7 @@ export const TEXTS = table('variants-panel', {
   nearMiss: 'Near miss',
   goalMissed: 'Goal missed',
   noConflict: 'No conflict',
+  close: 'Close',
   gapS: (pet: string) => `gap ${pet} s`,
   variant: (id: number, card: string, word: string, fact: string) => `Variant ${id}, ${card}, ${word}, ${fact}`,
   variantUnread: (id: number, card: string, word: string) => `Variant ${id}, ${card}, ${word}`,

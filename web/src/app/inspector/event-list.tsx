@@ -1,7 +1,7 @@
 // What happens as a list, and the way to one of them.
 import { useComputed } from '@preact/signals';
 import { goToEvent } from '../../actions/time';
-import { counted, type TrafficEvent } from '../../model/events';
+import { closeInTime, counted, type TrafficEvent } from '../../model/events';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -57,11 +57,13 @@ function NoEvents() {
   const away = useComputed(() => editor.away.value !== null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
   if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
+  const close = useComputed(() => closeInTime(editor.motion.value)).value;
   const unknown = away ? TEXTS.notKnownWhile : TEXTS.notWorkedOut;
+  const none = close === null ? TEXTS.noCollisions : TEXTS.noneButClose(seconds(close));
   return (
     <div class="kindrow">
-      <span class={`dot ${known ? '' : 'busy'}`} />
-      <span class="sec">{known ? TEXTS.noCollisions : unknown}</span>
+      <span class={`dot ${!known ? 'busy' : close === null ? '' : 'near'}`} />
+      <span class="sec">{known ? none : unknown}</span>
     </div>
   );
 }

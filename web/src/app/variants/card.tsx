@@ -1,7 +1,7 @@
 // One variant: its picture, its name, what happens in it, and what is thought of it.
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { counted, worstOf, type TrafficEvent } from '../../model/events';
+import { closeInTime, counted, worstOf, type TrafficEvent } from '../../model/events';
 import { num, seconds } from '../../model/units';
 import type { Card, Pictured } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
@@ -22,7 +22,9 @@ export function verdictOf({ set, events }: Pictured): { colour: string; word: st
   if (!set) return { colour: '', word: '…', fact: '' };
   if (!worst) {
     const pet = set.score?.pet;
-    return { colour: 'ok', word: TEXTS.noConflict, fact: pet == null ? '' : TEXTS.gapS(num(pet, 1)) };
+    const fact = pet == null ? '' : TEXTS.gapS(num(pet, 1));
+    const close = closeInTime(set) !== null;
+    return { colour: close ? 'near' : 'ok', word: close ? TEXTS.close : TEXTS.noConflict, fact };
   }
   const [colour, word] = MARKS[worst];
   const first = counted(events).find((e) => e.kind === worst)!;

@@ -19,6 +19,7 @@ export const german: Said<typeof TEXTS> = {
   sToCollisionWith: (ttc, other) => `${ttc} s bis zum Zusammenstoß mit ${other}`,
   closingSpeed: 'Annäherung',
   closestGap: 'Kleinster Abstand',
+  gapThen: 'Abstand in diesem Moment',
   timeToCollision: 'Zeit bis Zusammenstoß',
   fromTo: 'Von, bis',
   to: (time, until) => `${time} bis ${until}`,

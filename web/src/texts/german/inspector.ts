@@ -44,6 +44,7 @@ export const german: Said<typeof TEXTS> = {
   notWorkedOut: 'Noch nicht berechnet',
   moreEvents: (n) => plural(n, { one: `${n} weiteres Ereignis`, other: `${n} weitere Ereignisse` }),
   noCollisions: 'Keine Zusammenstöße, keine Beinahe-Unfälle',
+  noneButClose: (gap) => `Keine Zusammenstöße, keine Beinahe-Unfälle; ${gap} zwischen zweien am selben Ort`,
   signals: 'Ampeln',
   leftHandTraffic: 'Linksverkehr',
 };

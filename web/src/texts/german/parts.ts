@@ -12,6 +12,6 @@ export const german: Said<typeof TEXTS> = {
   replayLog: 'Wiedergabe',
   holdStill: 'Stehen',
   everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an.',
-  theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde.',
+  theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde; wer eingesetzt wurde, fährt weiter wie bisher.',
   theyStayWhere: 'Sie bleiben, wo sie beginnen, und niemand kommt hinzu.',
 };

@@ -7,6 +7,7 @@ export const german: Said<typeof TEXTS> = {
   ruleBroken: 'Regelverstoß',
   nearMiss: 'Beinahe-Unfall',
   goalMissed: 'Ziel verfehlt',
+  close: 'Knapp',
   noConflict: 'Kein Konflikt',
   gapS: (pet) => `Lücke ${pet} s`,
   variant: (id, card, word, fact) => `Variante ${id}, ${card}, ${word}, ${fact}`,

@@ -240,6 +240,10 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
         }
     }
     pair.near = pair.near.filter(Nearest::lasts);
+    if pair.collision.is_some() {
+        // Two that brush each other between two steps are on no course to meet at either.
+        pair.min_ttc_s = Some(0.0);
+    }
     pair
 }
 

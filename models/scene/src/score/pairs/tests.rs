@@ -50,6 +50,8 @@ fn collision_between_two_steps() {
     let found = plain(vec![fast("a", -2.0, 0.0, 0.0), fast("b", 0.0, -2.0, FRAC_PI_2)]);
     assert_eq!(found.collisions.len(), 1);
     assert_eq!(found.collisions[0].time_s, 0.05);
+    // At no step were they about to meet.
+    assert_eq!(found.agents.iter().map(|a| a.min_ttc_s).collect::<Vec<_>>(), [Some(0.0); 2]);
 }
 
 #[test]
