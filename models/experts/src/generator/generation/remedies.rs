@@ -3,16 +3,20 @@
 
 use super::targets::due;
 use crate::generator::KnownMap;
+use crate::planning::profile::Caps;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{ByRoad, Request};
 use scene::judge::FaultKind;
-use scene::routes::routes_ahead;
+use scene::routes::speed::speed_caps;
+use scene::routes::{Route, SpeedRules, routes_ahead};
 use scene::{AgentId, AgentType, STEP_S, Sample};
 use std::collections::BTreeMap;
 
-/// What a driver makes of the time without hurry: speeding up, m/s2, to a pace, m/s.
+/// What a driver makes of the time without hurry: speeding up, m/s2, to a pace, m/s, and slowing down for bends, m/s2
+/// sideways.
 const SPEEDING_UP_MPS2: f64 = 1.5;
 const PACE_MPS: f64 = 13.9;
+const BENDS: SpeedRules = SpeedRules { lateral_mps2: 3.0, brake_mps2: 2.2 };
 /// Who brakes harder than this does not stop gently, m/s2.
 const STOPPING_MPS2: f64 = 3.0;
 
@@ -41,8 +45,9 @@ pub(super) fn by_road(
         let farthest_m =
             (v0 * seconds + 0.5 * SPEEDING_UP_MPS2 * seconds * seconds).min(PACE_MPS.max(v0) * seconds);
         let nearest_m = v0 * v0 / (2.0 * STOPPING_MPS2);
-        let place = |route: scene::routes::Route| {
+        let place = |route: Route| {
             let foot = route.path.project(goal);
+            let farthest_m = gets_m(&route, v0, seconds);
             let at = route.path.sample(foot.s_m.clamp(nearest_m.min(farthest_m), farthest_m));
             let distance_m = (at.position - goal).norm();
             let (x_m, y_m, heading_rad) = (at.position.x, at.position.y, at.heading_rad);
@@ -55,4 +60,45 @@ pub(super) fn by_road(
         Some((agent.id.clone(), nearest))
     };
     world.present.iter().filter(wants).filter_map(found).collect()
+}
+
+/// How far somebody gets along a route in a time, metres.
+fn gets_m(route: &Route, start_mps: f64, seconds: f64) -> f64 {
+    let caps_mps = speed_caps(&route.path, &[], BENDS);
+    let caps = Caps::new(route.path.arc_m(), &caps_mps);
+    let (mut along_m, mut speed_mps) = (0.0, start_mps);
+    for _ in 0..(seconds / STEP_S).round() as usize {
+        let fastest = (speed_mps + SPEEDING_UP_MPS2 * STEP_S).min(PACE_MPS.max(start_mps));
+        let then = fastest.min(caps.at(along_m)).max(speed_mps - STOPPING_MPS2 * STEP_S);
+        along_m += 0.5 * (speed_mps + then) * STEP_S;
+        speed_mps = then;
+    }
+    along_m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::Vec2;
+    use scene::routes::Polyline;
+
+    fn route(points: impl IntoIterator<Item = Vec2>) -> Route {
+        let (lateral_m, heading_error_rad, terminal) = (0.0, 0.0, true);
+        let path = Polyline::new(points);
+        Route { legs: Vec::new(), path, limits_mps: Vec::new(), lateral_m, heading_error_rad, terminal }
+    }
+
+    #[test]
+    fn round_a_bend_one_gets_less_far() {
+        let straight = route((0..300).map(|i| Vec2::new(f64::from(i), 0.0)));
+        let ring = route((0..300).map(|i| {
+            let turned = f64::from(i) / 17.0;
+            Vec2::new(17.0 * turned.sin(), 17.0 * (1.0 - turned.cos()))
+        }));
+        let far_m = gets_m(&straight, 6.5, 9.0);
+        assert!((105.0..115.0).contains(&far_m), "{far_m}");
+        // 7 m/s at 3 m/s2 sideways.
+        let round_m = gets_m(&ring, 6.5, 9.0);
+        assert!((58.0..68.0).contains(&round_m), "{round_m}");
+    }
 }
