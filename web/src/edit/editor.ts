@@ -277,7 +277,13 @@ export class Editor {
   readonly toldChosen = computed(() => this.calm.read(() => this.chosen.value));
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
-    return s && !this.dragging.value ? readEvents(s, this.motion.value, this.speedUnit.value) : NO_EVENTS;
+    if (!s || this.dragging.value) return NO_EVENTS;
+    // On the table lies something else than the scene does.
+    const hand = this.deck.hand.value;
+    const card = this.deck.current.value;
+    if (hand && hand.id !== null)
+      return eventsOf(s, this.motion.value, hand.id, hand.futures, card, this.speedUnit.value);
+    return readEvents(s, hand?.sets[card] ?? this.motion.value, this.speedUnit.value);
   });
   /**
    * What the timeline shows: the events, while a hand moves what is wrong with the future that is shown, and of a case
