@@ -19,7 +19,7 @@ journeys('long', (stage) => {
     await e.settled();
     assert.match(await e.text('.tm'), /0\.0 s\s+\/ 20\.0 s/);
     const { body } = e.wire.last();
-    assert.deepEqual([body.agents, body.horizon_s, body.replan_interval_s], ['all', 20, 6]);
+    assert.deepEqual([body.agents, body.react, body.horizon_s, body.replan_interval_s], [[], true, 20, 6]);
     const final = e.wire.last().event('final');
     assert.equal(final.windows, 4);
     for (const [id, futures] of Object.entries(final.samples[0].agents)) {
