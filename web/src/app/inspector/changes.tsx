@@ -1,10 +1,10 @@
 // Who else does something else since the last change; during a drag, who would if one let go now.
-import { useComputed } from '@preact/signals';
+import { useComputed, useSignal } from '@preact/signals';
 import type { Change } from '../../model/changes';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/agent';
 
-/** More than these are counted, not listed. */
+/** More than these are counted until somebody asks for all. */
 const LISTED = 8;
 
 const others = (n: number): string => TEXTS.others(n);
@@ -45,9 +45,11 @@ function Foreseen({ list }: { list: readonly Change[] }) {
 function Lines({ list }: { list: readonly Change[] }) {
   const { editor } = useApp();
   const scene = editor.scene.peek();
+  const whole = useSignal(false);
+  const more = whole.value ? 0 : list.length - LISTED;
   return (
     <>
-      {list.slice(0, LISTED).map((change) => (
+      {list.slice(0, whole.value ? list.length : LISTED).map((change) => (
         <button
           key={change.id}
           type="button"
@@ -62,7 +64,17 @@ function Lines({ list }: { list: readonly Change[] }) {
           <span>{change.words}</span>
         </button>
       ))}
-      {list.length > LISTED ? <p class="note">{TEXTS.andMore(list.length - LISTED)}</p> : null}
+      {more > 0 ? (
+        <button
+          type="button"
+          class="note more"
+          onClick={() => {
+            whole.value = true;
+          }}
+        >
+          {TEXTS.andMore(more)}
+        </button>
+      ) : null}
     </>
   );
 }
