@@ -3,7 +3,7 @@
 import type { Futures, MotionSet } from './futures';
 import type { ReactionJson } from './json';
 import { takenPin } from './pins';
-import { changedByHand, GOAL_TIME, touched, type Agent, type Scene } from './scene';
+import { changedByHand, touched, type Agent, type Scene } from './scene';
 
 /** Why somebody gave up the motion that it had, and which. */
 export interface Answering {
@@ -39,11 +39,11 @@ const isFree = (a: Agent | undefined, x: Answering): boolean =>
 
 function isLeftAlone(scene: Scene, set: MotionSet, id: string): boolean {
   const a = scene.agents.get(id);
-  return a !== undefined && !touched(a) && set.driving.has(id) && followsLog(scene);
+  return a !== undefined && set.driving.has(id) && followsLog(scene, a);
 }
 
-/** Without being asked anything everybody follows the log. */
-const followsLog = (scene: Scene): boolean => !scene.drawn && scene.length <= GOAL_TIME;
+/** Without being asked anything everybody follows the log, and goes on from its end where that is asked. */
+const followsLog = (scene: Scene, a: Agent): boolean => !touched(a) && !scene.drawn;
 
 /** The same with those of `ids` doing what they gave up. */
 export function asIfNotAsked(set: MotionSet, ids: ReadonlySet<string> | undefined): MotionSet {
@@ -76,5 +76,5 @@ export const goesOneWay = (set: MotionSet, a: Agent): boolean =>
 
 /** What a file says of those who answer. Without another motion in it they can only have given up their log. */
 export function readAnswering(scene: Scene, a: Agent, said: ReactionJson): Answering {
-  return !touched(a) && followsLog(scene) ? { said, gaveUp: null } : { said };
+  return followsLog(scene, a) ? { said, gaveUp: null } : { said };
 }
