@@ -6,17 +6,21 @@ import { fit } from '../src/app/dialogs/find';
 import { dayAndTime } from '../src/app/scenes/dates';
 import { foreignKind } from '../src/edit/file-kinds';
 import { partAt, withoutBroken } from '../src/edit/mending';
+import { eventsTable } from '../src/edit/outward/events-table';
 import { reduced } from '../src/edit/sharing';
 import { LinkError, MOST_LINK_BYTES, readLink, writeLink } from '../src/edit/share-link';
 import { isShareLink } from '../src/edit/share-mark';
 import { emptyScene, withoutRoadUsers } from '../src/model/blank';
 import { openingCentre } from '../src/model/busy';
+import { readEvents } from '../src/model/events';
+import { emptyMotion } from '../src/model/futures';
 import type { SceneJson } from '../src/model/json';
 import { lineOf, linesAround, offsetOf } from '../src/model/json-place';
 import { pack, unpack } from '../src/model/pack';
 import { readScene } from '../src/model/read';
+import { withAgents } from '../src/model/scene';
 import type { Problem } from '../src/net/types';
-import { crossingJson } from './helpers';
+import { crossing, crossingJson } from './helpers';
 
 const demos = new URL('../../assets/scenes/', import.meta.url);
 const demoScenes = (): SceneJson[] =>
@@ -205,6 +209,25 @@ describe('scenes to begin with', () => {
       const seen = moving.filter((a) => Math.abs(a.logStart!.x - cx) < 80 && Math.abs(a.logStart!.y - cy) < 44);
       expect(seen.length, s.name).toBeGreaterThan(moving.length / 4);
     }
+  });
+});
+
+describe('events as a table', () => {
+  it('are rows in the order of time, in which no name is a formula', () => {
+    const scene = crossing();
+    const [one, other, third] = scene.agents.values();
+    const near = { a: one.id, b: third.id, time: 3.2, distance: 0.6, ttc: null, inLog: true };
+    const score = {
+      ...{ collisions: [{ a: other.id, b: one.id, time: 1.5, closing: 4 }], nearMisses: [near] },
+      ...{ minTtc: null, offroadShare: null },
+    };
+    const named = withAgents(scene, [{ ...one, name: '=1+1, "x"' }]);
+    const rows = eventsTable(readEvents(named, { ...emptyMotion(''), score })).split('\r\n');
+    expect(rows[0]).toBe('time_s,until_s,kind,who,whom,words,x_m,y_m,in_log');
+    expect(rows[1]).toMatch(/^1\.50,1\.50,collision,/);
+    expect(rows[2]).toMatch(/^3\.20,3\.20,near_miss,"'=1\+1, ""x""",[^,]+,"?Near miss, 0\.6 m/);
+    expect(rows[2]).toMatch(/,true$/);
+    expect(rows.slice(3)).toEqual(['']);
   });
 });
 

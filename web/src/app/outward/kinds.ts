@@ -3,6 +3,7 @@ import { deg } from '../../model/geometry';
 import { num, seconds } from '../../model/units';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
+import { eventsTable } from '../../edit/outward/events-table';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
 import { movingPicture } from '../../edit/outward/moving-picture';
 import { outFormats, type Wish } from '../../edit/outward/formats';
@@ -44,7 +45,7 @@ function pictureOf({ stage }: Context): HTMLCanvasElement {
   return canvas;
 }
 
-/** What is made here: pictures and a report of what is on screen. */
+/** What is made here: events, pictures and a report of what is on screen. */
 export function ofScreen(c: Context): Kind[] {
   const { editor, stage } = c;
   const time = editor.time.peek();
@@ -52,6 +53,20 @@ export function ofScreen(c: Context): Kind[] {
   const view = TEXTS.thisViewAtS(num(time, 1));
   const moving = filmKind();
   return [
+    {
+      id: 'events',
+      wish: 'table',
+      says: TEXTS.whenWhoMeets,
+      label: TEXTS.eventsAsATable,
+      ending: '.csv',
+      icon: 'warn',
+      name: TEXTS.eventsTableNames,
+      tag: TEXTS.eventsInIt(editor.events.peek().length),
+      make: () => {
+        const rows = eventsTable(editor.events.peek());
+        return Promise.resolve(named(c, new Blob([rows], { type: 'text/csv' }), 'csv', TEXTS.eventsName));
+      },
+    },
     {
       id: 'report',
       wish: 'show',
