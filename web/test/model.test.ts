@@ -25,7 +25,7 @@ import { readGenerated, readScene, SceneError } from '../src/model/read';
 import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/write';
 import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/commands';
 import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
-import { findChanges, motionOf } from '../src/model/changes';
+import { findChanges, motionOf, seenUntil } from '../src/model/changes';
 import { readEvents } from '../src/model/events';
 import { freeGoal, sceneKey, startPose, touched, withAgents } from '../src/model/scene';
 import { giveWay, goOn, sixFutures } from './standin/futures.mjs';
@@ -178,6 +178,8 @@ describe('longer scenes', () => {
     const left = withAgents(scene, [gone]);
     expect(poseAt(motionOf(left, emptyMotion(''), gone), 5)).not.toBeNull();
     expect(poseAt(motionOf(left, emptyMotion(''), gone), 15)).toBeNull();
+    expect(seenUntil(left, emptyMotion(''), gone)).toBeCloseTo(5.9);
+    expect(seenUntil(scene, emptyMotion(''), car(scene))).toBeNull();
     const nine = crossing();
     expect(motionOf(nine, set, nine.agents.get('2')!)).toBe(nine.agents.get('2')!.log);
   });

@@ -2,6 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
 import { FAULT_KINDS, markOf, readAbout } from '../src/model/about';
+import { setGoal } from '../src/model/commands';
 import { closeInTime, counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
 import {
@@ -473,6 +474,19 @@ describe('close in time', () => {
     const score = { collisions: [], nearMisses: [], minTtc: null, offroadShare: null, petOf };
     const least = (...driving: string[]) => closeInTime({ ...emptyMotion(''), driving: new Set(driving), score });
     expect([least('1', '3'), least('3'), least(), least('1', '2')]).toEqual([0.3, null, null, 0.1]);
+  });
+
+  it('has of a near miss the time that the score knows', () => {
+    const s = crossing();
+    const [one, other] = s.agents.values();
+    const met = mode({ faults: [{ ...fault('near_miss'), with: other.id }] });
+    const scored = { a: other.id, b: one.id, time: fault('near_miss').time_s, distance: 4.1, ttc: 0.8 };
+    const only = { collisions: [], nearMisses: [scored], minTtc: 0.8, offroadShare: null };
+    const own = new Map([[one.id, futures([met])]]);
+    const asked = setGoal(one, { ...one.goal, pos: [10, 10] }).apply(s);
+    const set: MotionSet = { ...emptyMotion(''), futures: own, driving: new Set([one.id]), score: only };
+    const near = readEvents(asked, set).filter((e) => e.kind === 'near');
+    expect(near.map((e) => e.facts.find(([what]) => what === 'Time to collision')?.[1])).toEqual(['0.8 s']);
   });
 
   it('of a near miss by time is no gap', () => {

@@ -45,9 +45,17 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
     const ids = [...held];
     return { agents: ids, pinned: ids, react: rest, step, kept: new Set(picked) };
   }
-  const rest = (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
-  const react = picked.length || others !== 'all' ? rest : true;
-  return { agents: asked, react, step, kept: new Set(picked.filter((id) => !asked.includes(id))) };
+  const kept = new Set(picked.filter((id) => !asked.includes(id)));
+  return { agents: asked, react: whoReacts(scene, asked), step, kept };
+}
+
+/** Who may answer those that are asked, as the API takes it. */
+export function whoReacts(scene: Scene, asked: readonly string[]): boolean | string[] {
+  const others = othersThatAnswer(scene);
+  if (others === 'nobody') return false;
+  const picked = [...scene.agents.values()].some((a) => a.chosen !== null);
+  if (others === 'all' && !picked) return true;
+  return (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
 }
 
 /** Those that may take another way: nobody has picked a future for them. Who comes in later brakes for others too. */

@@ -127,8 +127,8 @@ export class Answers {
 
   /**
    * The document changed. Known answers appear at once; otherwise the old ones stay, marked as out of date. `fresh`
-   * is the one road user whose futures still hold. Done `again`, a
-   * step says once more who else changed with it.
+   * is the one road user whose futures still hold. Done `again`,
+   * whether by redo or anew, a step says once more who else changed with it.
    */
   documentChanged(scene: Scene, fresh: string | null, again = false): void {
     const key = sceneKey(scene);

@@ -429,7 +429,7 @@ export class Editor {
       if (counting) this.answers.countsOtherwise(scene);
       else {
         const fresh = agent && onlyPicked(before, scene, agent) ? agent : null;
-        this.answers.documentChanged(scene, fresh, way === 'forth');
+        this.answers.documentChanged(scene, fresh, way === 'forth' || way === null);
       }
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;

@@ -12,7 +12,7 @@ import { thresholdsOf, trackJson } from '../model/write';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';
-import { askedAfter } from './after-change';
+import { askedAfter, whoReacts } from './after-change';
 import type { Editor, Step } from './editor';
 import { Foresight, type Known } from './foresight';
 import type { Previews } from './gestures/chart';
@@ -101,7 +101,7 @@ export class Generation implements Previews {
     if (['refining', 'slow', 'settled'].includes(status.peek().kind)) answers.report({ kind: 'ready' });
   }
 
-  /** The six futures of one; nobody else moves. */
+  /** The six futures of one; nobody follows them yet, and nobody else moves. */
   #look(id: string): void {
     const { editor } = this;
     const a = editor.agent.peek();
@@ -109,7 +109,9 @@ export class Generation implements Previews {
     const only = a !== null && goesOneWay(m, a);
     if (a && canChange(a) && this.#absence.now && !only) this.#sketch(id, true);
     if (!a || !canChange(a) || m.stale || (m.futures.has(id) && !only)) return;
-    this.#ask({ agents: [id], react: false, step: null, drafts: !only }, true);
+    const scene = editor.scene.peek()!;
+    // What is said of each holds when it is picked: the others answer it then.
+    this.#ask({ agents: [id], react: whoReacts(scene, [id]), step: null, drafts: !only }, true);
   }
 
   /** A drag frame: the newest pose, one request on the way and one waiting. */

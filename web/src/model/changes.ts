@@ -45,6 +45,12 @@ export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   return straightOn(m, Math.round(scene.duration / STEP_S));
 }
 
+/** Until when somebody is there who only does what was recorded, seconds; null for one that stays to the end. */
+export function seenUntil(scene: Scene, set: MotionSet, a: Agent): number | null {
+  const gone = !a.placed && motionOf(scene, set, a) === a.log && goesAway(scene, a.log);
+  return gone ? lastStep(a.log) * STEP_S : null;
+}
+
 /** Was it seen for a while, and no more when the recording ended? */
 function goesAway(scene: Scene, log: Motion): boolean {
   const seen = log.valid.reduce((sum, [from, to]) => sum + to - from, 0);

@@ -3,7 +3,7 @@
 import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from './about';
 import { motionOf } from './changes';
 import type { Futures, MotionSet, Score, Stretch } from './futures';
-import { poseAt } from './motion';
+import { poseAt, STEP_S } from './motion';
 import { nameIn, touched, type Agent, type Scene } from './scene';
 import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit, walkingUnit } from './units';
 import { placeWord } from './verdict-words';
@@ -64,8 +64,17 @@ export function readEvents(scene: Scene, set: MotionSet, unit: SpeedUnit = 'km/h
   const scored = set.score ? ofScore(scene, set, set.score) : [];
   // Of those that were asked something the timeline says what the verdict on their shown future says, nothing else.
   const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
-  const own = said.filter((r) => judged.has(r.a) || !told(r));
+  const near = scored.filter((r) => r.what === 'near_miss');
+  const own = said.filter((r) => judged.has(r.a) || !told(r)).map((r) => withTime(r, near));
   return inWords(scene, set, unit, [...own, ...scored.filter((r) => !told(r))]);
+}
+
+/** The verdict of a future on a near miss, with the time to collision that the score has of the same moment. */
+function withTime(r: Raw, near: readonly Raw[]): Raw {
+  if (r.what !== 'near_miss') return r;
+  const pair = (s: Raw): boolean => (s.a === r.a && s.b === r.b) || (s.a === r.b && s.b === r.a);
+  const same = near.find((s) => pair(s) && Math.abs(s.time - r.time) < STEP_S);
+  return same ? { ...r, ttc: same.ttc } : r;
 }
 
 /** What is wrong with one future on its way, while nobody follows it yet. */
@@ -259,8 +268,7 @@ function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: 
   const [[, pa], [, pb]] = who;
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
   if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
-  if (r.what === 'near_miss' && r.extent !== null)
-    facts.push([isMissInTime(r) ? TEXTS.gapThen : TEXTS.closestGap, metres(r.extent, 1)]);
+  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.gapThen, metres(r.extent, 1)]);
   if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null)

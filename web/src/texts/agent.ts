@@ -5,6 +5,7 @@ export const TEXTS = table('agent', {
   onlyRoadUsers: (appearsAt: string) =>
     `Only road users that are there at 0.0 s can be changed. This one appears at ${appearsAt}.`,
   appearsAt: (appearsAt: string) => `Appears at ${appearsAt}`,
+  seenUntil: (time: string, place: string) => `Seen until ${time} · ${place}`,
   parked: 'Parked',
   id: (place: string, id: string) => `${place} · id ${id}`,
   nameOfTheRoad: 'Name of the road user',

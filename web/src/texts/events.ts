@@ -16,7 +16,6 @@ export const TEXTS = table('events', {
   inTheLog: (words: string) => `${words} · in the log`,
   sToCollisionWith: (ttc: string, other: string) => `${ttc} s to collision with ${other}`,
   closingSpeed: 'Closing speed',
-  closestGap: 'Closest gap',
   gapThen: 'Gap at that moment',
   timeToCollision: 'Time to collision',
   fromTo: 'From, to',

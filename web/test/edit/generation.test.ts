@@ -35,7 +35,7 @@ const goalFor = (id: string) => {
 describe('a look', () => {
   it('asks for the six futures of whom one selects, once', () => {
     editor.select('1');
-    expect(generator.last).toMatchObject({ preview: true, options: { agents: ['1'], react: false, score: false } });
+    expect(generator.last).toMatchObject({ preview: true, options: { agents: ['1'], react: true, score: false } });
     expect(generator.last.scene()).toEqual({ id: json.id });
     expect(generation.busy.peek()).toBe(true);
     generator.last.on.draft(draftOf('1'), 2, 5, 10);
@@ -247,6 +247,19 @@ describe('a pick among futures', () => {
     expect(thoseWhoAnswer(there, unknown, ['1'])).toEqual(new Set());
   });
 
+  it('taken back and made again says again who changed', () => {
+    pick(2);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    const changed = editor.changes.peek();
+    expect(changed).toHaveLength(1);
+    editor.undo();
+    expect(editor.changes.peek()).toEqual([]);
+    const asked = generator.asked.filter((q) => !q.preview).length;
+    pick(2);
+    expect(editor.changes.peek()).toEqual(changed);
+    expect(generator.asked.filter((q) => !q.preview)).toHaveLength(asked);
+  });
+
   it('leaves those that were picked before as they are', () => {
     pick(2);
     generator.last.on.final(finalWith({}), 5);
@@ -297,7 +310,7 @@ describe('who goes one way alone', () => {
     generator.last.on.final(answered('1', { '2': late('2', 3, '1') }), 5);
     const way = editor.motion.peek().futures.get('2')!.modes[0].motion;
     editor.select('2');
-    expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
+    expect(generator.last.options).toMatchObject({ agents: ['2'], react: true });
     generator.last.on.final(finalOf('2'), 5);
     const { modes, chosen } = editor.futures.peek()!;
     expect([modes.length, chosen, modes[0].motion === way]).toEqual([6, 0, true]);

@@ -2,6 +2,7 @@
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
+import { seenUntil } from '../../model/changes';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
 import { retold, seconds } from '../../model/units';
 import { goalFromLog } from '../../edit/moves';
@@ -70,8 +71,10 @@ function Head({ agent }: { agent: LiveAgent }) {
     const p = startPose(a);
     if (!p) return TEXTS.appearsAt(appearsAt(a));
     const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
+    const until = seenUntil(editor.scene.value!, editor.motion.value, a);
+    const seen = until === null ? place : TEXTS.seenUntil(seconds(until), place);
     // Where the name says it already the place has the room.
-    return a.name.endsWith(` ${a.id}`) ? place : TEXTS.id(place, a.id);
+    return a.name.endsWith(` ${a.id}`) ? seen : TEXTS.id(seen, a.id);
   });
   return (
     <div class="ih">

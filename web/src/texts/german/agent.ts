@@ -6,6 +6,7 @@ export const german: Said<typeof TEXTS> = {
   objectsOfThis: 'Objekte dieser Art werden gezeigt, aber nicht geändert.',
   onlyRoadUsers: (at: string) => `Nur wer bei 0,0 s da ist, lässt sich ändern. Dieser erscheint bei ${at}.`,
   appearsAt: (at: string) => `Erscheint bei ${at}`,
+  seenUntil: (time, place) => `Zu sehen bis ${time} · ${place}`,
   parked: 'Geparkt',
   id: (place, id) => `${place} · Nr. ${id}`,
   nameOfTheRoad: 'Name des Verkehrsteilnehmers',

@@ -18,7 +18,6 @@ export const german: Said<typeof TEXTS> = {
   inTheLog: (words) => `${words} · in der Aufzeichnung`,
   sToCollisionWith: (ttc, other) => `${ttc} s bis zum Zusammenstoß mit ${other}`,
   closingSpeed: 'Annäherung',
-  closestGap: 'Kleinster Abstand',
   gapThen: 'Abstand in diesem Moment',
   timeToCollision: 'Zeit bis Zusammenstoß',
   fromTo: 'Von, bis',
