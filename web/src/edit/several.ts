@@ -298,10 +298,10 @@ export function tooMany(scene: Scene, n: number): string | null {
 }
 
 /** They come into the scene; `done`: what happened to them, such as `placed`. */
-export function addThem(scene: Scene, all: readonly Newcomer[], done: string): Command {
+export function addThem(scene: Scene, all: readonly Newcomer[], done: string, name: string | null = null): Command {
   const ids = newIds(scene, all.length);
   const agents = all.map((n, i) => settle(n, ids[i]));
-  return addAgents(scene, agents, `${whoWords(agents)} ${done}`);
+  return addAgents(scene, agents, name ?? `${whoWords(agents)} ${done}`);
 }
 
 /** Copies of road users as they stand at the start. */

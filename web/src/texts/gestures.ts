@@ -22,7 +22,7 @@ export const TEXTS = table('gestures', {
   putHere: 'Put here',
   ofFit: (n: number, countWords: string) => `${n} of ${countWords} fit`,
   thereIsNoRoom: 'There is no room here.',
-  ofPlacedTheOthers: (count: number, countWords: string) => `${count} of ${countWords} placed: the others had no room.`,
+  ofPlacedNoRoom: (count: number, countWords: string) => `${count} of ${countWords} placed, no room for more`,
   placeA: (kind_name: string) => `Place a ${kind_name}`,
   selectAndDrag: 'Select and drag',
   selected: (kindsWords: string) => `${kindsWords} selected.`,

@@ -174,12 +174,8 @@ class Spreading implements State {
       editor.notices.show({ text: full ?? TEXTS.thereIsNoRoom });
       return;
     }
-    editor.run(addThem(scene, all, 'placed'));
-    if (all.length < wanted)
-      editor.notices.show({
-        text: TEXTS.ofPlacedTheOthers(all.length, countWords(kind, wanted)),
-        undo: true,
-      });
+    const short = all.length < wanted ? TEXTS.ofPlacedNoRoom(all.length, countWords(kind, wanted)) : null;
+    editor.run(addThem(scene, all, 'placed', short));
   }
 
   cancel(): boolean {

@@ -23,7 +23,7 @@ export const german: Said<typeof TEXTS> = {
   putHere: 'Hierher',
   ofFit: (n, countWords) => `${n} von ${countWords} passen`,
   thereIsNoRoom: 'Hier ist kein Platz.',
-  ofPlacedTheOthers: (count, countWords) => `${count} von ${countWords} eingesetzt: für die anderen war kein Platz.`,
+  ofPlacedNoRoom: (count, countWords) => `${count} von ${countWords} eingesetzt, mehr Platz ist nicht`,
   placeA: (kind: string) => `Einsetzen: ${kind}`,
   selectAndDrag: 'Auswählen und ziehen',
   selected: (who: string) => `${who} ausgewählt.`,
