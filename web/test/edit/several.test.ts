@@ -349,7 +349,7 @@ describe('placing', () => {
     p.up(p.at(100, 100));
     const placed = p.editor.selected.peek().length;
     expect(placed).toBeLessThan(50);
-    if (placed) expect(p.editor.notices.toast.peek()?.text).toMatch(/of 50 buses placed/);
+    if (placed) expect(p.editor.undoName.peek()).toMatch(/of 50 buses placed, no room for more/);
     else expect(p.editor.notices.toast.peek()?.text).toBe('There is no room here.');
   });
 });
