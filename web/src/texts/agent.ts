@@ -64,6 +64,8 @@ export const TEXTS = table('agent', {
   chosen: (letter: string) => `chosen: ${letter}`,
   of: (n: number | string) => `of ${n}`,
   noGoalSet: (n: number | string) => `${n}, no goal set`,
+  nonePicked: (n: number | string) => `${n}, none picked yet`,
+  itDoesWhatTheLog: 'It does what the log says until one of them is picked or a goal is set.',
   futures: 'Futures',
   keepAndReject: 'Keep and reject in rounds',
   aPlainCurveIs: 'A plain curve is shown until the generator answers.',

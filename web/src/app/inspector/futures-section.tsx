@@ -20,6 +20,8 @@ import { TEXTS as PINS } from '../../texts/pins';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
+  // Nobody follows the bold one yet: it is shown doing something else.
+  const replays = useComputed(() => !agent.value.placed && !editor.motion.value.driving.has(agent.value.id));
   const note = useComputed(() => {
     const f = editor.toldFutures.value;
     const a = agent.value;
@@ -29,13 +31,14 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     if (editor.outdated.value) return TEXTS.fromBeforeThe;
     if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
     const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
-    return hasGoal(a.goal) ? TEXTS.of(n) : TEXTS.noGoalSet(n);
+    if (hasGoal(a.goal)) return TEXTS.of(n);
+    return replays.value ? TEXTS.nonePicked(n) : TEXTS.noGoalSet(n);
   });
   return (
     <section class="sect last futsec" aria-label={TEXTS.futures}>
       <h3>
         {TEXTS.futures}
-        <small>{note}</small>
+        <small title={replays.value ? TEXTS.itDoesWhatTheLog : undefined}>{note}</small>
       </h3>
       <FutureList agent={agent} />
       <Remark agent={agent} />

@@ -64,6 +64,8 @@ export const german: Said<typeof TEXTS> = {
   chosen: (letter) => `gewählt: ${letter}`,
   of: (n: number | string) => `von ${n}`,
   noGoalSet: (n: number | string) => `${n}, kein Ziel gesetzt`,
+  nonePicked: (n: number | string) => `${n}, noch keine gewählt`,
+  itDoesWhatTheLog: 'Es geht wie aufgezeichnet weiter, bis eine gewählt oder ein Ziel gesetzt ist.',
   futures: 'Zukünfte',
   keepAndReject: 'In Runden auswählen',
   aPlainCurveIs: 'Bis der Generator antwortet, steht hier eine einfache Kurve.',
