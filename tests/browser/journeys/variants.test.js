@@ -286,8 +286,11 @@ journeys('variants', (stage) => {
       // Of a goal that is not there no time can be asked.
       await by.selectOption('by time at the goal');
       assert.match(await range.innerText(), /has no goal yet/);
-      // Made again by chance; it waits, and goes on.
+      // Made again by chance, so many that there is time to stop; it waits, and goes on.
       await by.selectOption('by chance');
+      const count = e.page.getByLabel('How many variants are made');
+      await count.fill('30');
+      await count.press('Enter');
       await leave(e);
       await e.key('Control+Enter');
       await e.page.getByRole('button', { name: 'Pause', exact: true }).click();
@@ -298,7 +301,7 @@ journeys('variants', (stage) => {
       // What is there already is seen, with what happens in it.
       const here = await e.page.locator('.vcard.arrived').allInnerTexts();
       assert.equal(here.length, Number((await e.text('.strip [role="status"]')).split(' ')[0]));
-      for (const words of here) assert.match(words, /No conflict|Collision|Near miss|Rule broken|Goal missed/);
+      for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule broken|Goal missed/);
       await e.page.getByRole('button', { name: 'Go on' }).click();
       await allMade(e);
       // All of it is a step.
