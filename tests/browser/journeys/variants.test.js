@@ -289,7 +289,7 @@ journeys('variants', (stage) => {
       // Made again by chance, so many that there is time to stop; it waits, and goes on.
       await by.selectOption('by chance');
       const count = e.page.getByLabel('How many variants are made');
-      await count.fill('30');
+      await count.fill('16');
       await count.press('Enter');
       await leave(e);
       await e.key('Control+Enter');
