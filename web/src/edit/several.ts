@@ -297,7 +297,7 @@ export function tooMany(scene: Scene, n: number): string | null {
   return room > 0 ? TEXTS.aSceneHoldsRoad(MOST_IN_SCENE, room) : TEXTS.aSceneHoldsRoadUsers(MOST_IN_SCENE);
 }
 
-/** They come into the scene; `done`: what happened to them, such as `placed`. `name`: of the step, where that says more. */
+/** They come into the scene; `done`: what happened to them, such as `placed`. `name` of the step where more is said. */
 export function addThem(scene: Scene, all: readonly Newcomer[], done: string, name: string | null = null): Command {
   const ids = newIds(scene, all.length);
   const agents = all.map((n, i) => settle(n, ids[i]));
