@@ -23,6 +23,12 @@ describe('a speed drawn by hand', () => {
     expect(only.from).toBeCloseTo(4, 1);
     expect(only.lasts).toBeCloseTo(3, 1);
     expect(new Set(m.x.slice(41, 70)).size).toBe(1);
+    // Between two steps it lasts as long as it was drawn all the same.
+    const odd = [stop[0], { t: 4.03, v: 0, hold: 2 }, stop[2]];
+    const driven = motionOf({ path: line(100), points: odd }, CAR, 9);
+    expect(stopsOf(driven)[0].lasts).toBeCloseTo(1.9);
+    expect(stopsOf(driven, odd)[0].lasts).toBe(2);
+    expect(stopsOf(driven, [stop[0], { t: 4, v: 0, hold: 5 }, stop[2]])[0].lasts).toBeCloseTo(1.9);
     expect(m.speed.at(-1)).toBeCloseTo(4);
     // The way is the area under the curve.
     expect(m.x[40]).toBeCloseTo(16, 0);

@@ -25,12 +25,13 @@ export interface StopBar {
 }
 
 export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: Agent): StopBar[] {
-  const f = editor.curve.profile.value && editor.futures.value;
+  const profile = editor.curve.profile.value;
+  const f = profile && editor.futures.value;
   const motion = f?.modes[editor.chosen.value]?.motion;
   if (!motion) return [];
   const c = colours();
   const bars: StopBar[] = [];
-  for (const { pose, from, lasts } of stopsOf(motion)) {
+  for (const { pose, from, lasts } of stopsOf(motion, profile?.points)) {
     const [cos, sin] = [Math.cos(pose.heading), Math.sin(pose.heading)];
     const ahead = a.length / 2 + AHEAD_M;
     const half = (a.width * WIDER) / 2;

@@ -124,8 +124,11 @@ export interface Stop {
   readonly lasts: number;
 }
 
-/** Where a motion stands for at least half a second. */
-export function stopsOf(m: Motion): Stop[] {
+/**
+ * Where a motion stands for at least half a second. A stop that was drawn lasts as long as it was drawn: states, one
+ * each 0.1 s, say it only to a step.
+ */
+export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
   const out: Stop[] = [];
   for (let i = 0; i < m.speed.length; i++) {
     if (m.speed[i] > 0) continue;
@@ -134,7 +137,10 @@ export function stopsOf(m: Motion): Stop[] {
     const lasts = (end - i) * STEP_S;
     if (lasts >= 0.45) {
       const from = (m.first + i) * STEP_S;
-      out.push({ pose: { x: m.x[i], y: m.y[i], heading: m.heading[i], speed: 0 }, from, lasts });
+      const near = (a: number, b: number): boolean => Math.abs(a - b) < 1.5 * STEP_S;
+      const drawn = points.find((p) => p.v === 0 && near(p.t, from) && near(p.hold, lasts));
+      const pose = { x: m.x[i], y: m.y[i], heading: m.heading[i], speed: 0 };
+      out.push({ pose, from, lasts: drawn?.hold ?? lasts });
     }
     i = end;
   }

@@ -80,7 +80,7 @@ function Stops({ agent }: { agent: LiveAgent }) {
   const { profile } = editor.curve;
   const path = profile.value?.path;
   const motion = drivenOf(editor);
-  const stops = motion ? stopsOf(motion) : [];
+  const stops = motion ? stopsOf(motion, profile.value?.points) : [];
   if (!path || !stops.length) return null;
   const line = lineOf(path);
   return (

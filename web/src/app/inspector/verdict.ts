@@ -137,7 +137,7 @@ function onCurve({ editor: e }: Context, a: Agent): Verdict | null {
   const holds = isSettled(f) && !e.motion.value.stale && verdictsHold(e);
   if (!holds || markOf(mode.about) !== 'ok' || happening(e, a)) return null;
   const { motion } = mode;
-  const [stop] = stopsOf(motion);
+  const [stop] = stopsOf(motion, e.curve.profile.value.points);
   const after = stop ? Math.round((stop.from + stop.lasts) / STEP_S) - motion.first : 0;
   const goesOn = motion.speed.slice(after).some((v) => v > CREEPS_MPS);
   const title = !stop
