@@ -26,10 +26,10 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   if (!mine.length) return 'nothing';
   const others = othersThatAnswer(scene);
   if (others === 'nobody') return askedAlone(scene, mine, step, known);
+  const rest = others === 'all' ? free(scene) : others;
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
-    const rest = others === 'all' ? free(scene) : others;
     // Past its 9 s the generator says how it goes on.
     if (!rest.length && scene.length <= GOAL_TIME) return 'known';
     // It is kept as it is; whoever meets it answers it, and all others go on as they do.
@@ -41,7 +41,6 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   const asked = whoIsAsked(scene, mine, known, step).filter((id) => !held.has(id));
   if (!asked.length && held.size) {
     // A pinned future stays as it is, whatever else is drawn anew: others answer it as any that is picked.
-    const rest = others === 'all' ? free(scene) : others;
     const ids = [...held];
     return { agents: ids, pinned: ids, react: rest, step, kept: new Set(picked) };
   }

@@ -121,10 +121,11 @@ export class Generation implements Previews {
       return;
     }
     const scene = this.editor.scene.peek();
+    if (!scene) return;
     const pose = ++this.#pose;
-    if (scene?.others === 'react') this.#foresight.moved(scene);
-    const anew = scene && thoseWhoAnswer(scene, this.editor.motion.peek(), [id]);
-    this.#ask({ agents: [id], react: false, step: null, ...(anew ? { anew } : {}) }, true, (shown) => {
+    if (scene.others === 'react') this.#foresight.moved(scene);
+    const anew = thoseWhoAnswer(scene, this.editor.motion.peek(), [id]);
+    this.#ask({ agents: [id], react: false, step: null, anew }, true, (shown) => {
       if (shown || pose === this.#pose) this.#foresight.yielded();
     });
   }

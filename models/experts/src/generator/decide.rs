@@ -134,8 +134,8 @@ impl Window<'_> {
         self.answerers.answers(&changed.iter().collect::<Vec<_>>())
     }
 
-    /// What the others answer to each of an actor's alternatives, all other actors doing what is shown. Only whoever
-    /// was asked for has futures to take.
+    /// What the others answer to each of an actor's alternatives, all other actors doing what is shown: for the verdicts
+    /// on them alone. Only whoever was asked for has futures to take.
     fn answers_to_each(
         &self,
         i: usize,
@@ -143,7 +143,8 @@ impl Window<'_> {
         alternatives: &[Candidate],
         changed: &[Changed],
     ) -> Vec<Option<Vec<Answered>>> {
-        if self.request.react == React::Nobody
+        if !self.request.stages.judged
+            || self.request.react == React::Nobody
             || self.actors[i].kept.is_some()
             || self.world.step > self.request.start_step
         {
@@ -153,10 +154,12 @@ impl Window<'_> {
         let each: Vec<usize> = (0..alternatives.len()).collect();
         self.workers().map(&each, |&k| {
             let other = (k != chosen).then(|| self.change(i, &alternatives[k]))?;
-            let differs = shown_is_met || self.answerers.are_met_by(&other.moving.swept);
+            if !shown_is_met && !self.answerers.are_met_by(&other.moving.swept) {
+                return None;
+            }
             let seen: Vec<&Changed> =
                 changed.iter().enumerate().map(|(j, c)| if j == i { &other } else { c }).collect();
-            differs.then(|| self.answerers.answers(&seen))
+            Some(self.answerers.answers(&seen))
         })
     }
 

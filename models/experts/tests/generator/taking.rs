@@ -4,8 +4,7 @@ use super::crossing::crossing;
 use super::{GENERATOR, ask, run};
 use experts::{Answer, React, Request};
 use scene::judge::{Fault, FaultKind, Judge};
-use scene::score::Actor;
-use scene::score::Drivable;
+use scene::score::{Actor, Drivable};
 use scene::{Future, Goal, Scene, Vec2};
 use std::collections::BTreeSet;
 

@@ -56,8 +56,8 @@ function NoEvents() {
   const known = useComputed(() => editor.motion.value.score !== null).value;
   const away = useComputed(() => editor.away.value !== null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
-  if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
   const close = useComputed(() => closeInTime(editor.motion.value)).value;
+  if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
   const unknown = away ? TEXTS.notKnownWhile : TEXTS.notWorkedOut;
   const none = close === null ? TEXTS.noCollisions : TEXTS.noneButClose(seconds(close));
   return (

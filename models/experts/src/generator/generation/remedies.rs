@@ -42,7 +42,8 @@ pub(super) fn by_road(
         let goal = agent.conditions.goal.position?;
         let seconds = due(request, who.index).max(1) as f64 * STEP_S;
         let v0 = who.start.speed_mps();
-        let farthest_m =
+        // No route gets farther.
+        let longest_m =
             (v0 * seconds + 0.5 * SPEEDING_UP_MPS2 * seconds * seconds).min(PACE_MPS.max(v0) * seconds);
         let nearest_m = v0 * v0 / (2.0 * STOPPING_MPS2);
         let place = |route: Route| {
@@ -53,7 +54,7 @@ pub(super) fn by_road(
             let (x_m, y_m, heading_rad) = (at.position.x, at.position.y, at.heading_rad);
             ByRoad { x_m, y_m, heading_rad, distance_m }
         };
-        let places = routes_ahead(&map.graph, who.pose(), who.agent_type, farthest_m).into_iter().map(place);
+        let places = routes_ahead(&map.graph, who.pose(), who.agent_type, longest_m).into_iter().map(place);
         let nearest = places.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))?;
         // The goal itself lies on the road: another place is no way out.
         (nearest.distance_m >= LEAST_MOVE_M).then_some(())?;

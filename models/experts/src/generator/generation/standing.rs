@@ -1,4 +1,5 @@
-//! How the futures of a finished sample stand to what the others are shown to do, and what they do.
+//! How the futures of a finished sample stand to what the others are shown to do, or would do if they were taken, and
+//! what they do.
 
 use crate::generator::KnownMap;
 use crate::request::Request;

@@ -1,5 +1,5 @@
 //! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
-//! what the others are shown to do.
+//! what the others are shown to do, or would do if it were taken.
 
 use super::ledger::Instead;
 use super::standing::Standing;
@@ -51,17 +51,17 @@ pub(super) fn judge(
         let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
         let due_s = (request.start_step as isize + due(request, i)) as f64 * STEP_S;
         actor.goal.time_s = actor.goal.time_s.or(Some(due_s));
-        let instead: Vec<(usize, Actor<'_>)> = instead
+        let taken: Vec<(usize, Actor<'_>)> = instead
             .get(&(i, k))
             .into_iter()
             .flatten()
             .map(|(j, future)| (*j, as_taken(request, &scene.agents[*j], future.as_ref())))
             .collect();
-        let relations = standing.relations(i, future, &instead);
-        let instead: Vec<Other<'_>> = instead.into_iter().map(|(_, actor)| judge.other(actor)).collect();
-        let shown = others.iter().filter(|other| instead.iter().all(|own| own.id() != other.id()));
+        let relations = standing.relations(i, future, &taken);
+        let answers: Vec<Other<'_>> = taken.into_iter().map(|(_, actor)| judge.other(actor)).collect();
+        let shown = others.iter().filter(|other| answers.iter().all(|own| own.id() != other.id()));
         let mut faults = judge.alone(&actor);
-        faults.extend(judge.among(&actor, shown.chain(&instead)));
+        faults.extend(judge.among(&actor, shown.chain(&answers)));
         by_weight(&mut faults);
         About { faults, relations, manoeuvre: standing.manoeuvre(i, future) }
     });
