@@ -15,7 +15,9 @@ import { SceneCare } from '../edit/scene-care';
 import { Sharing } from '../edit/sharing';
 import { Questions } from '../edit/question';
 import { Rounds } from '../edit/rounds/rounds';
+import { Supposing } from '../edit/supposing';
 import { Trial } from '../edit/trial';
+import { Weighing } from '../edit/weighing';
 import { Maker } from '../edit/variants/making';
 import { Variants } from '../edit/variants/variants';
 import { FarLine } from '../net/far-line';
@@ -33,6 +35,7 @@ function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
   const line = new FarLine(client);
   const generator = (): HttpGenerator => new HttpGenerator(client, line.ask);
+  const supposing = (): Supposing => new Supposing(editor, new Questions(editor, file), generator());
   const care = new SceneCare(editor, file, library, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);
   const generation = new Generation(editor, file, saving, generator(), generator());
@@ -63,7 +66,8 @@ function makeParts(o: Opening): Context {
     playback: new Playback(editor, stage),
     maker: new LayoutMaker(editor, file, care, client),
     rounds: new Rounds(editor, new Questions(editor, file), generator()),
-    trial: new Trial(editor, new Questions(editor, file), generator()),
+    trial: new Trial(editor, supposing()),
+    weighing: new Weighing(editor, supposing()),
     copying: new Copying(editor),
     filler: new Filler(editor, file, client),
     clipboard: clipboardOf(() => c),
@@ -83,7 +87,7 @@ function makeParts(o: Opening): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, trial, ui, variants } = c;
+  const { editor, gestures, generation, library, playback, sharing, stage, trial, ui, variants, weighing } = c;
   followView(stage);
   lookAtMade(c);
   keepInView(c);
@@ -100,7 +104,8 @@ function connect(c: Context): void {
       editor.layouts.asking.value ||
       variants.busy.value ||
       editor.deck.asking.value ||
-      trial.asking.value;
+      trial.asking.value ||
+      weighing.asking.value;
     const busy = asked || editor.status.value.kind === 'loading' || gliding.value || editor.calm.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });

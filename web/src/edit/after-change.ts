@@ -75,13 +75,15 @@ function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
 
 /**
  * Whom the change is about, and those of whom nothing is known yet. It may be nobody: everybody goes on then, longer or
- * with others that answer. Where chance is another the first that was ever asked something is drawn anew.
+ * with others that answer. Where chance is another all are drawn anew of whom no future is picked.
  */
 function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<string, unknown>, step: Step): string[] {
   const open = mine.filter((id) => !known.has(id));
   const about = [...changedBy(step)].filter((id) => mine.includes(id));
   const all = [...new Set([...about, ...open])].filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
-  return all.length || !step.chance ? all : [mine[0]];
+  if (all.length || !step.chance) return all;
+  const unpicked = mine.filter((id) => scene.agents.get(id)!.chosen === null);
+  return unpicked.length ? unpicked : [...mine];
 }
 
 /** The others keep to the log or stand: only those that were asked something are worked out. */

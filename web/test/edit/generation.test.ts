@@ -303,6 +303,27 @@ describe('a scene that gets longer', () => {
   });
 });
 
+describe('another seed', () => {
+  it('draws all anew that were asked something, but whose future is picked', () => {
+    for (const id of ['1', '2']) {
+      goalFor(id);
+      rest();
+      generator.last.on.final(finalOf(id), 5);
+    }
+    editor.run(setSeed(7));
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: ['1', '2'], seed: 7 });
+    generator.last.on.final(finalOf('1', '2'), 5);
+    editor.select('1');
+    editor.run(pickFuture(editor, editor.agent.peek()!, 2)!);
+    rest();
+    generator.last.on.final(finalOf('1'), 5);
+    editor.run(setSeed(8));
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: ['2'], seed: 8 });
+  });
+});
+
 describe('who goes one way alone', () => {
   it('is offered five others beside it when it is selected, and goes on as it did', () => {
     goalFor('1');

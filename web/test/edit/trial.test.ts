@@ -4,6 +4,7 @@ import { setGoal } from '../../src/model/commands';
 import { motionOf } from '../../src/model/changes';
 import { Questions } from '../../src/edit/question';
 import { SceneFile } from '../../src/edit/scene-file';
+import { Supposing } from '../../src/edit/supposing';
 import { Trial } from '../../src/edit/trial';
 import { finalOf, InMemoryGenerator, json, late, finalWith, six, Session } from './session';
 
@@ -17,7 +18,7 @@ class Trying extends Session {
     super();
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
-    this.trial = new Trial(this.editor, new Questions(this.editor, file), this.line);
+    this.trial = new Trial(this.editor, new Supposing(this.editor, new Questions(this.editor, file), this.line));
     this.editor.select(ID);
     this.generator.last.on.final(finalOf(ID), 10);
   }
