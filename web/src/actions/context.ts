@@ -18,7 +18,7 @@ import type { Rounds } from '../edit/rounds/rounds';
 import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
 import type { Trial } from '../edit/trial';
-import type { Weighing } from '../edit/weighing';
+import type { Supposing } from '../edit/supposing';
 import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
@@ -56,7 +56,8 @@ export interface Context extends Opening {
   readonly searching: Searching;
   readonly rounds: Rounds;
   readonly trial: Trial;
-  readonly weighing: Weighing;
+  /** Asks what comes of ways out that nobody points at. */
+  readonly supposing: Supposing;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;

@@ -17,7 +17,6 @@ import { Questions } from '../edit/question';
 import { Rounds } from '../edit/rounds/rounds';
 import { Supposing } from '../edit/supposing';
 import { Trial } from '../edit/trial';
-import { Weighing } from '../edit/weighing';
 import { Maker } from '../edit/variants/making';
 import { Variants } from '../edit/variants/variants';
 import { FarLine } from '../net/far-line';
@@ -35,7 +34,6 @@ function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
   const line = new FarLine(client);
   const generator = (): HttpGenerator => new HttpGenerator(client, line.ask);
-  const supposing = (): Supposing => new Supposing(editor, new Questions(editor, file), generator());
   const care = new SceneCare(editor, file, library, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);
   const generation = new Generation(editor, file, saving, generator(), generator());
@@ -53,21 +51,22 @@ function makeParts(o: Opening): Context {
   const variants = new Variants(editor, maker, () => varied.cancel());
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
   const searched = generator();
-  const tried = new Maker(editor, new Questions(editor, file), searched, file);
+  const searcher = new Maker(editor, new Questions(editor, file), searched, file);
+  const tried = new Supposing(editor, new Questions(editor, file), generator());
   const c: Context = {
     ...o,
     care,
     importing,
     generation,
     variants,
-    searching: new Searching(editor, tried, () => searched.cancel()),
+    searching: new Searching(editor, searcher, () => searched.cancel()),
     sharing: new Sharing(editor, file, library, care, client),
     gestures: new Gestures(stage, editor, picture, overlay, generation),
     playback: new Playback(editor, stage),
     maker: new LayoutMaker(editor, file, care, client),
     rounds: new Rounds(editor, new Questions(editor, file), generator()),
-    trial: new Trial(editor, supposing()),
-    weighing: new Weighing(editor, supposing()),
+    trial: new Trial(editor, tried),
+    supposing: new Supposing(editor, new Questions(editor, file), generator()),
     copying: new Copying(editor),
     filler: new Filler(editor, file, client),
     clipboard: clipboardOf(() => c),
@@ -87,7 +86,7 @@ function makeParts(o: Opening): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, trial, ui, variants, weighing } = c;
+  const { editor, gestures, generation, library, playback, sharing, stage, supposing, trial, ui, variants } = c;
   followView(stage);
   lookAtMade(c);
   keepInView(c);
@@ -105,7 +104,7 @@ function connect(c: Context): void {
       variants.busy.value ||
       editor.deck.asking.value ||
       trial.asking.value ||
-      weighing.asking.value;
+      supposing.asking.value;
     const busy = asked || editor.status.value.kind === 'loading' || gliding.value || editor.calm.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });

@@ -1,8 +1,10 @@
 // What everybody would do after a change that is not made, asked on a line of its own. The document stays as it is.
+import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../model/commands';
 import type { MotionSet } from '../model/futures';
 import type { Scene } from '../model/scene';
 import type { Generator } from '../net/generator';
+import type { FinalEvent } from '../net/types';
 import { askedAfter } from './after-change';
 import type { Editor } from './editor';
 import { motionAfter } from './motion-after';
@@ -23,13 +25,19 @@ export function supposition(scene: Scene, command: Command): Supposition | null 
 }
 
 export class Supposing {
+  readonly #asking = signal(false);
+  /** The question that is open; an answer to an earlier one says nothing. */
+  #open = {};
+
+  readonly asking: ReadonlySignal<boolean> = this.#asking;
+
   constructor(
     private readonly editor: Editor,
     private readonly questions: Questions,
     private readonly generator: Generator,
   ) {}
 
-  /** Null when nothing came of it. False: there is nobody to ask, or nothing that is asked. */
+  /** `answered` hears null when nothing came of it. False: there is nobody to ask, or nothing that is asked. */
   ask({ name, scene, changed }: Supposition, answered: (set: MotionSet | null) => void): boolean {
     const { editor } = this;
     const set = editor.motion.peek();
@@ -37,19 +45,26 @@ export class Supposing {
     const agent = changed.length === 1 ? changed[0] : null;
     const asked = askedAfter(editor, scene, { name, agent, several: changed, undo: false });
     if (typeof asked === 'string') return false;
-    const nothing = () => answered(null);
-    const question = this.questions.makeApart(scene, set, asked, {
-      draft: () => undefined,
-      final: (e) => answered(motionAfter(set, scene, e, asked, () => 'rank')),
-      refused: nothing,
-      away: nothing,
-      dropped: nothing,
-    });
-    this.generator.ask(question);
+    const open = (this.#open = {});
+    const end = (e: FinalEvent | null): void => {
+      if (this.#open !== open) return;
+      batch(() => {
+        this.#asking.value = false;
+        answered(e && motionAfter(set, scene, e, asked, () => 'rank'));
+      });
+    };
+    const nothing = () => end(null);
+    this.#asking.value = true;
+    const on = { draft: () => undefined, final: end, refused: nothing, away: nothing, dropped: nothing };
+    this.generator.ask(this.questions.makeApart(scene, set, asked, on));
     return true;
   }
 
+  /** Nothing is heard any more of what was asked. */
   cancel(): void {
+    if (!this.#asking.peek()) return;
+    this.#open = {};
+    this.#asking.value = false;
     this.generator.cancel();
   }
 }

@@ -1,19 +1,18 @@
 // A change that is tried and not made: what everybody would do is shown dashed beside what they do.
-import { effect, signal, type ReadonlySignal } from '@preact/signals-core';
+import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../model/commands';
 import { findChanges } from '../model/changes';
 import type { MotionSet } from '../model/futures';
-import type { Scene } from '../model/scene';
 import type { Beside, Editor } from './editor';
 import { supposition, type Supposing, type Supposition } from './supposing';
 
 export class Trial {
-  readonly #asking = signal(false);
   /** What is shown for it; somebody else's is not taken away. */
   #shown: Beside | null = null;
-  #from: Scene | null = null;
 
-  readonly asking: ReadonlySignal<boolean> = this.#asking;
+  get asking(): ReadonlySignal<boolean> {
+    return this.supposing.asking;
+  }
 
   constructor(
     private readonly editor: Editor,
@@ -34,24 +33,19 @@ export class Trial {
     this.stop();
     const tried = supposition(scene, command);
     if (!tried) return;
-    this.#from = scene;
     const before = editor.motion.peek();
     this.#show({ scene: tried.scene, set: before, parted: tried.changed, tried: true });
-    this.#asking.value = this.supposing.ask(tried, (set) => this.#answered(scene, tried, before, set));
+    this.supposing.ask(tried, (set) => set && this.#answered(tried, before, set));
   }
 
   stop(): void {
-    const { editor } = this;
     if (!this.#shown) return;
-    if (editor.beside.peek() === this.#shown) editor.showBeside(null);
-    this.#shown = this.#from = null;
-    if (this.#asking.peek()) this.supposing.cancel();
-    this.#end();
+    if (this.editor.beside.peek() === this.#shown) this.editor.showBeside(null);
+    this.#shown = null;
+    this.supposing.cancel();
   }
 
-  #answered(from: Scene, { scene, changed }: Supposition, before: MotionSet, set: MotionSet | null): void {
-    this.#end();
-    if (!set || this.#from !== from || this.#shown?.scene !== scene) return;
+  #answered({ scene, changed }: Supposition, before: MotionSet, set: MotionSet): void {
     const others = findChanges(scene, before, set, new Set(changed)).map((c) => c.id);
     this.#show({ scene, set, parted: [...changed, ...others], tried: true });
   }
@@ -59,9 +53,5 @@ export class Trial {
   #show(beside: Beside): void {
     this.#shown = beside;
     this.editor.showBeside(beside);
-  }
-
-  #end(): void {
-    this.#asking.value = false;
   }
 }

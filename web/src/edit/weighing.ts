@@ -1,5 +1,5 @@
 // What comes of the ways out of an event, before anybody takes one: each is tried apart, one after the other.
-import { effect, signal, untracked, type ReadonlySignal } from '@preact/signals-core';
+import { effect, signal, untracked } from '@preact/signals-core';
 import { compareMarks, type Mark } from '../model/about';
 import { counted, readEvents, type TrafficEvent } from '../model/events';
 import type { MotionSet } from '../model/futures';
@@ -18,22 +18,30 @@ export interface Outcome {
 
 export class Weighing {
   readonly #known = signal<ReadonlyMap<string, Outcome>>(new Map());
-  readonly #asking = signal(false);
-  /** Counts the events that were picked: an answer for an earlier one says nothing. */
-  #round = 0;
-
-  readonly asking: ReadonlySignal<boolean> = this.#asking;
 
   constructor(
     private readonly editor: Editor,
     private readonly supposing: Supposing,
-  ) {
-    effect(() => {
+  ) {}
+
+  /** Weighs the ways out of the event that is picked, until the function that comes back is called. */
+  begin(): () => void {
+    const { editor, supposing } = this;
+    const end = effect(() => {
       const event = editor.selectedEvent.value;
       const idle = !editor.dragging.value && !editor.motion.value.stale && !editor.away.value;
       const ways = event && idle ? eventRemedies(editor, event) : [];
-      untracked(() => this.#begin(event, ways));
+      untracked(() => {
+        supposing.cancel();
+        if (this.#known.peek().size) this.#known.value = new Map();
+        const scene = editor.scene.peek();
+        if (event && scene) this.#next(event, scene, ways);
+      });
     });
+    return () => {
+      end();
+      supposing.cancel();
+    };
   }
 
   /** Undefined until it is known. */
@@ -41,30 +49,15 @@ export class Weighing {
     return this.#known.value.get(keyOf(way));
   }
 
-  #begin(event: TrafficEvent | null, ways: readonly Remedy[]): void {
-    this.#round++;
-    if (this.#known.peek().size) this.#known.value = new Map();
-    if (this.#asking.peek()) this.supposing.cancel();
-    const scene = this.editor.scene.peek();
-    this.#asking.value = ways.length > 0;
-    if (event && scene) this.#next(this.#round, event, scene, ways);
-  }
-
-  #next(round: number, event: TrafficEvent, scene: Scene, [way, ...rest]: readonly Remedy[]): void {
-    if (!way) {
-      this.#asking.value = false;
-      return;
-    }
+  #next(event: TrafficEvent, scene: Scene, [way, ...rest]: readonly Remedy[]): void {
+    if (!way) return;
     const supposed = supposition(scene, way.command);
-    const next = () => this.#next(round, event, scene, rest);
-    const asked =
-      supposed !== null &&
-      this.supposing.ask(supposed, (set) => {
-        if (round !== this.#round) return;
-        if (set) this.#say(way, this.#outcome(event, supposed.scene, set));
-        next();
-      });
-    if (!asked) next();
+    const next = () => this.#next(event, scene, rest);
+    const answered = (set: MotionSet | null): void => {
+      if (set) this.#say(way, this.#outcome(event, supposed!.scene, set));
+      next();
+    };
+    if (!supposed || !this.supposing.ask(supposed, answered)) next();
   }
 
   #say(way: Remedy, outcome: Outcome): void {

@@ -1,4 +1,5 @@
 // The list of events, and the facts of the one that is picked.
+import { useEffect, useMemo } from 'preact/hooks';
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import type { Agent } from '../../model/scene';
 import { threshold, type ThresholdName } from '../../model/thresholds';
@@ -7,6 +8,7 @@ import type { Editor } from '../../edit/editor';
 import { laneWords } from '../../edit/snap';
 import { poseAt } from '../../model/motion';
 import { eventRemedies } from '../../edit/event-remedies';
+import { Weighing } from '../../edit/weighing';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -55,7 +57,9 @@ function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): stri
 }
 
 function Facts({ event: e }: { event: TrafficEvent }) {
-  const { editor, ui, variants } = useApp();
+  const { editor, supposing, ui, variants } = useApp();
+  const weighing = useMemo(() => new Weighing(editor, supposing), [editor, supposing]);
+  useEffect(() => weighing.begin(), [weighing]);
   const now = (name: ThresholdName): string => told(name, threshold(editor.scene.peek()!, name));
   const counts = COUNTS.countsBelow(now('ttc_s'), now('gap_m'));
   const change = (id: string) => {
@@ -78,7 +82,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
         <h3>{TEXTS.whatYouCanDo}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (
-            <RemedyButton key={r.label} remedy={r} />
+            <RemedyButton key={r.label} remedy={r} outcome={weighing.of(r)} />
           ))}
           {[e.a, e.b]
             .filter((a): a is Agent => a !== null && a.type !== 'other' && a.logStart !== null)

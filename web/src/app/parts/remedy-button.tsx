@@ -1,13 +1,14 @@
-// A way out as a button: pointed at it shows what comes of it, pressed it is one step. Of an event's it is known before.
+// A way out as a button: pointed at it shows what comes of it, pressed it is one step.
 import type { Remedy } from '../../edit/moves';
+import type { Outcome } from '../../edit/weighing';
 import { useApp } from './app-context';
 import { Icon } from './icons';
 import { trying } from './trying';
 
-export function RemedyButton({ remedy }: { remedy: Remedy }) {
+/** `outcome`: what comes of it, where that is known already. */
+export function RemedyButton({ remedy, outcome }: { remedy: Remedy; outcome?: Outcome }) {
   const c = useApp();
   const { label, note, icon, primary, command } = remedy;
-  const outcome = c.weighing.of(remedy);
   return (
     <button
       type="button"
