@@ -126,7 +126,9 @@ impl StartSpeeds<'_> {
             (Some(free_mps), _) => free_mps,
             (None, Some(model)) => {
                 let context = SpeedContext::driver(ahead.road_ahead(), leader);
-                drawn_speed(model, context, unit_mps, f64::INFINITY, stream)
+                // Nobody stands amid a junction for no reason that is in the scene.
+                let slowest = usize::from(matches!(ahead, Ahead::Inside(_)));
+                drawn_speed(model, context, slowest, unit_mps, f64::INFINITY, stream)
             }
             (None, None) => unit_mps,
         };
@@ -150,7 +152,7 @@ impl StartSpeeds<'_> {
             Some(model) => placed
                 .kind
                 .speed_context()
-                .map_or(0.0, |context| drawn_speed(model, context, unit_mps, most, stream)),
+                .map_or(0.0, |context| drawn_speed(model, context, 0, unit_mps, most, stream)),
             None => 0.7 * unit_mps,
         }
     }
@@ -163,16 +165,20 @@ fn follows_at(room_m: f64, leader_mps: f64) -> f64 {
         - moment_mps
 }
 
-/// A speed for the situation or the next more general one that is known, at most `most` m/s.
+/// A speed for the situation or the next more general one that is known, of the class `slowest` (0 stands) or a faster
+/// one, at most `most` m/s.
 fn drawn_speed(
     model: &TypeModel,
     context: SpeedContext,
+    slowest: usize,
     unit_mps: f64,
     most: f64,
     stream: &mut Stream,
 ) -> f64 {
-    let row = context.with_broader().find_map(|context| model.speed.get(&context));
-    let class = row.and_then(|row| stream.among(row.iter().copied())).unwrap_or(0);
+    let rows = context.with_broader().filter_map(|context| model.speed.get(&context));
+    let mut rows = rows.map(|row| row.iter().enumerate().map(|(c, w)| if c < slowest { 0.0 } else { *w }));
+    let known = rows.find(|row| row.clone().any(|weight| weight > 0.0));
+    let class = known.and_then(|row| stream.among(row)).unwrap_or(0);
     let part = stream.unit();
     if class == 0 {
         return 0.0;
@@ -212,7 +218,7 @@ mod tests {
         model.speed.insert(SpeedContext::DriverAnyLeader(RoadAhead::Clear), only(10));
         model.speed.insert(SpeedContext::AnyDriver, only(3));
         let mut stream = random::stream(1, "test", 0);
-        let mut drawn = |context, most| drawn_speed(&model, context, 10.0, most, &mut stream);
+        let mut drawn = |context, most| drawn_speed(&model, context, 0, 10.0, most, &mut stream);
         assert_eq!(drawn(known, 40.0), 0.0);
         let follows = drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 40.0);
         assert!((6.3..=7.0).contains(&follows), "class 10 of 10 m/s, {follows} found");
@@ -221,5 +227,20 @@ mod tests {
         assert_eq!(drawn(SpeedContext::Pavement, 40.0), 0.0, "nothing was learned there");
         assert_eq!(drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 2.5), 2.5);
         assert_eq!(drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 0.1), 0.0, "it stands");
+    }
+
+    #[test]
+    fn who_does_not_stand_is_drawn_from_the_rest_of_what_is_known() {
+        let known = SpeedContext::driver(RoadAhead::Junction, None);
+        let mut model = TypeModel::default();
+        model.speed.insert(known, only(0));
+        model
+            .speed
+            .insert(SpeedContext::AnyDriver, (0..SPEED_CLASSES).map(|c| [8.0, 0.0, 2.0][c.min(2)]).collect());
+        let mut stream = random::stream(1, "test", 0);
+        for _ in 0..50 {
+            let speed_mps = drawn_speed(&model, known, 1, 10.0, 40.0, &mut stream);
+            assert!(speed_mps >= 0.7, "{speed_mps} m/s");
+        }
     }
 }
