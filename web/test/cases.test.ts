@@ -91,6 +91,24 @@ describe('a case', () => {
     expect(hit.miss).toBeGreaterThan(wide.miss);
   });
 
+  it('is what the scene tells as an event, with its numbers: it also knows what happens between two steps', () => {
+    const told = (kind: 'collision' | 'near_miss', extent: number): Moment => {
+      const set = twoWays(scene, ...crossingWays(0.8));
+      const fault = { kind, time: 4.34, until: 4.4, at: [FAR, FAR] as const, extent, with: OTHER, edge: null };
+      const [mode] = set.futures.get(ME)!.modes;
+      const modes = [{ ...mode, about: { ...NOTHING_SAID, faults: [fault] } }];
+      const futures = new Map(set.futures).set(ME, { ...set.futures.get(ME)!, modes });
+      return momentOf(scene, { ...set, futures }, sought('near', 1))!;
+    };
+    expect(told('collision', 20)).toMatchObject({ found: false, value: 0, time: 4.34 });
+    expect(told('near_miss', 0.7)).toMatchObject({ found: true, value: 0.7, time: 4.34, other: OTHER });
+    // Who passes near but would not meet is no near miss; further than counts as one it is measured alone.
+    const { value } = of(sought('near', 5), crossingWays(0.7));
+    expect(value).toBeLessThan(1);
+    expect(of(sought('near', 1), crossingWays(0.7)).found).toBe(false);
+    expect(of(sought('near', 1.1), crossingWays(0.7)).found).toBe(true);
+  });
+
   it('is to come first by little, not second, and not by much', () => {
     const first = of(sought('first'), crossingWays(1));
     expect(first.found).toBe(true);

@@ -186,8 +186,10 @@ describe('places', () => {
     const f = futures([at(0), at(6), at(12), at(40)]);
     const places = faultPlaces(f, [0, 1, 2, 3], 1);
     expect(places.map((p) => p.futures)).toEqual([[0, 1, 2], [3]]);
-    // The place of the shown one, the figure of the worst.
-    expect(places[0].fault).toMatchObject({ at: [start.x + 6, start.y], extent: expect.closeTo(1.2) });
+    // Place and figure are of the shown one, as the panel tells them; without it of the worst.
+    expect(places[0].fault).toMatchObject({ at: [start.x + 6, start.y], extent: expect.closeTo(0.6) });
+    const [others] = faultPlaces(f, [0, 1, 2], 3);
+    expect(others.fault).toMatchObject({ at: [start.x + 12, start.y], extent: expect.closeTo(1.2) });
   });
 
   it('are one for each rule and each other, the shown future first', () => {
@@ -202,7 +204,8 @@ describe('places', () => {
       ['goal_missed', [0]],
       ['collision', [1]],
     ]);
-    expect(places[0].fault.extent).toBe(0.4);
+    expect(places[0].fault.extent).toBe(0.7);
+    expect(faultPlaces(f, [0, 1, 2], 1).find((p) => p.fault.with === '2')?.fault.extent).toBe(0.4);
   });
 });
 

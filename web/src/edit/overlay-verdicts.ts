@@ -3,7 +3,7 @@
 import type { Pen } from '../draw/pen';
 import type { Fault } from '../model/about';
 import { faultPlaces, type FaultPlace } from '../model/fault-places';
-import type { Futures } from '../model/futures';
+import { LETTERS, type Futures } from '../model/futures';
 import type { Vec } from '../model/geometry';
 import { nameIn, type Agent } from '../model/scene';
 import { placeWord } from '../model/verdict-words';
@@ -73,7 +73,10 @@ export class VerdictOverlay {
     const nameOf = nameIn(this.editor.scene.peek()!);
     places.slice(0, most).forEach((p) => {
       const [x, y] = v.to(p.fault.at[0], p.fault.at[1]);
-      pill(g, this.labels, x, y, placeWord(p.fault, nameOf), pillStyle(p));
+      const words = placeWord(p.fault, nameOf);
+      // Of others than the shown one it is said which: the panel tells of the shown one.
+      const of = p.futures.includes(this.editor.chosen.value) ? '' : `${lettersOf(p.futures)} · `;
+      pill(g, this.labels, x, y, `${of}${words}`, pillStyle(p));
     });
     const rest = places.length - most;
     if (rest > 0 && most === NAMED) {
@@ -138,6 +141,8 @@ function pillStyle({ mark }: FaultPlace): PillStyle {
     }
   }
 }
+
+const lettersOf = (futures: readonly number[]): string => futures.map((i) => LETTERS[i]).join(', ');
 
 const stretchOf = (f: Futures, i: number, fault: Fault): Stretch => ({
   motion: f.modes[i].motion,

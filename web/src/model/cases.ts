@@ -1,9 +1,12 @@
 // A case that is looked for: what is to happen to whom, whether it happens in a motion, and how near to it one comes.
+import { compareMarks } from './about';
 import { motionOf } from './changes';
 import { closestTo, type Moving } from './closest';
+import { readEvents, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
 import { pointAt, wrapAngle, type Vec } from './geometry';
 import { poseAt, poseAtStep, STEP_S, type Motion } from './motion';
+import { threshold } from './thresholds';
 import { AT_GOAL_M, canChange, type Agent, type Scene } from './scene';
 
 export type What = 'near' | 'collision' | 'first' | 'braking' | 'goal' | 'red';
@@ -71,7 +74,7 @@ export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null
   switch (s.what) {
     case 'near':
     case 'collision':
-      return meeting(one, others, scene.duration, s);
+      return meeting(one, others, scene, set, s);
     case 'first':
       return others.length ? precedence(one, others[0], scene.duration, s) : null;
     case 'braking':
@@ -83,14 +86,33 @@ export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null
   }
 }
 
-function meeting(one: Moving, others: readonly Moving[], duration: number, s: Sought): Moment | null {
-  const c = closestTo(one, others, duration);
+/**
+ * What is found is an event of the scene, with its own numbers: who takes a near miss finds one in the list. Wider gaps
+ * than count as near misses are no events; they are measured.
+ */
+function meeting(one: Moving, others: readonly Moving[], scene: Scene, set: MotionSet, s: Sought): Moment | null {
+  const c = closestTo(one, others, scene.duration);
   if (!c) return null;
-  const hit = c.gap === 0;
-  const found = s.what === 'collision' ? hit : !hit && c.gap <= s.limit;
+  const between = eventsBetween(scene, set, s);
+  const hit = between.find((x) => x.kind === 'collision');
+  const near = between.find((x) => x.kind === 'near');
+  const counts = threshold(scene, 'gap_m');
+  const e = hit ?? near;
+  const gap = hit ? 0 : (near?.gap ?? c.gap);
+  const isNear = gap > 0 && gap <= s.limit && (near !== undefined || s.limit > counts);
+  const found = s.what === 'collision' ? gap === 0 : isNear;
   // A collision is no near miss: it counts as far as the limit is from it.
-  const miss = s.what === 'collision' ? c.gap : hit ? s.limit * 2 : c.gap;
-  return momentAt(one, c.b, others, { value: c.gap, time: c.time, found, miss });
+  const miss = s.what === 'collision' ? gap : gap === 0 ? s.limit * 2 : gap;
+  const b = e ? others.find(([a]) => a === (e.a.id === s.who ? e.b : e.a))?.[0] : undefined;
+  return momentAt(one, b ?? c.b, others, { value: gap, time: b ? e!.time : c.time, found, miss });
+}
+
+/** What happens between the two, or between one and anybody, the worst first. */
+function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): TrafficEvent[] {
+  const is = (a: Agent | null, id: string | null): boolean => a !== null && (id === null || a.id === id);
+  return readEvents(scene, set)
+    .filter(({ a, b }) => (a.id === who && is(b, other)) || (b?.id === who && is(a, other)))
+    .sort((p, q) => compareMarks(p.kind, q.kind) || p.time - q.time);
 }
 
 interface Found {

@@ -15,6 +15,8 @@ export interface TrafficEvent {
   readonly what: FaultKind;
   readonly time: number;
   readonly until: number;
+  /** How near the two of a near miss come, metres; null of anything else, and where nobody knows. */
+  readonly gap: number | null;
   readonly a: Agent;
   /** The other one, where there is one. */
   readonly b: Agent | null;
@@ -225,6 +227,7 @@ function event(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit): TrafficEv
     what: r.what,
     time: r.time,
     until: r.until,
+    gap: r.what === 'near_miss' ? r.extent : null,
     a,
     b,
     inLog: r.inLog,

@@ -9,7 +9,7 @@ const TOGETHER_M = 8;
 
 export interface FaultPlace {
   readonly mark: Mark;
-  /** The one whose words are shown: the worst of them, at the place of the shown future where that is one of them. */
+  /** The one whose words are shown: that of the shown future where it is one of them, else the worst. */
   readonly fault: Fault;
   /** Indices of the futures. */
   readonly futures: readonly number[];
@@ -62,11 +62,12 @@ const together = (a: Found, b: Found): boolean =>
   a.along.some(([x, y]) => b.along.some((p) => Math.hypot(p[0] - x, p[1] - y) <= TOGETHER_M));
 
 function placeOf(found: readonly Found[], chosen: number): FaultPlace {
-  const worst = found.map((o) => o.fault).reduce((a, b) => (worse(b, a) ? b : a));
-  const here = found.find((o) => o.index === chosen)?.fault ?? worst;
+  const ofShown = found.filter((o) => o.index === chosen);
+  const told = (ofShown.length ? ofShown : found).map((o) => o.fault);
+  const fault = told.reduce((a, b) => (worse(b, a) ? b : a));
   return {
-    mark: faultMark(worst),
-    fault: { ...worst, at: here.at },
+    mark: faultMark(fault),
+    fault,
     futures: [...new Set(found.map((o) => o.index))].sort((a, b) => a - b),
   };
 }

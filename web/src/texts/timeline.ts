@@ -5,7 +5,8 @@ export const TEXTS = table('timeline', {
   inVariants: (name: string, left: number, right: number) => ` · ${name} in ${left}, dashed: in ${right}`,
   inVariant: (id: number, label: string) => `${id}: ${label}`,
   dashed: (dashed: string) => `, dashed: ${dashed}`,
-  selectedOneLine: (count: number) => ` · ${count} selected, one line each`,
+  selectedOneLine: (count: number, of: number) =>
+    ` · ${count === of ? '' : `${count} of `}${of} selected, one line each`,
   nothingToPlay: 'Nothing to play yet',
   nobodyOnThisMap: 'Nobody on this map yet. Use it, then place a car or fill an area.',
   selectARoadUser: 'Select a road user to see its speed',

@@ -25,7 +25,18 @@ class Weighed extends Session {
     this.end = this.weighing.begin();
     const [a, b] = ['1', '2'].map((id) => this.editor.scene.peek()!.agents.get(id)!);
     const words = { title: '', label: '', words: '', short: '', facts: [] };
-    this.event = { ...words, kind: 'near', what: 'near_miss', time: 4, until: 5, a, b, inLog: false, at: [0, 0] };
+    this.event = {
+      ...words,
+      kind: 'near',
+      what: 'near_miss',
+      time: 4,
+      until: 5,
+      gap: 0.6,
+      a,
+      b,
+      inLog: false,
+      at: [0, 0],
+    };
     this.editor.pickEvent(this.event);
   }
 

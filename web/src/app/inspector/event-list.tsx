@@ -1,4 +1,6 @@
 // What happens as a list, and the way to one of them.
+import type { ComponentChild } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { goToEvent } from '../../actions/time';
 import { closeInTime, counted, type TrafficEvent } from '../../model/events';
@@ -7,7 +9,8 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/inspector';
 
-export function EventList({ most = Infinity }: { most?: number }) {
+/** `below` is what stands under the event that is picked. */
+export function EventList({ most = Infinity, below }: { most?: number; below?: (e: TrafficEvent) => ComponentChild }) {
   const { editor, ui } = useApp();
   const all = editor.events.value;
   const own = counted(all);
@@ -18,7 +21,7 @@ export function EventList({ most = Infinity }: { most?: number }) {
     <div>
       {own.length ? null : <NoEvents />}
       {events.map((e) => (
-        <Row key={`${e.what}:${e.a.id}:${e.b?.id ?? ''}:${e.time}`} event={e} />
+        <Row key={`${e.what}:${e.a.id}:${e.b?.id ?? ''}:${e.time}`} event={e} below={below} />
       ))}
       {left > 0 ? (
         <button type="button" class="btn line" onClick={() => ui.showEvents(true)}>
@@ -29,25 +32,34 @@ export function EventList({ most = Infinity }: { most?: number }) {
   );
 }
 
-function Row({ event: e }: { event: TrafficEvent }) {
+function Row({ event: e, below }: { event: TrafficEvent; below?: (e: TrafficEvent) => ComponentChild }) {
   const c = useApp();
+  const all = useRef<HTMLDivElement>(null);
+  const picked = c.editor.selectedEvent.value === e;
+  // It may be picked in the picture or by a key, far down a long list.
+  useEffect(() => {
+    if (picked) all.current?.scrollIntoView({ block: 'nearest' });
+  }, [picked]);
   return (
-    <button
-      type="button"
-      class={`evrow ${e.inLog ? 'log' : ''}`}
-      aria-current={c.editor.selectedEvent.value === e}
-      title={`${e.title}: ${e.words}`}
-      onClick={() => goToEvent(c, e)}
-    >
-      <span class={`mk ${e.kind}`}>
-        <Icon name={`mark-${e.kind}`} size={15} />
-      </span>
-      <span class="who">
-        <b>{e.title}</b>
-        <small>{e.words}</small>
-      </span>
-      <span class="t">{seconds(e.time)}</span>
-    </button>
+    <div ref={all}>
+      <button
+        type="button"
+        class={`evrow ${e.inLog ? 'log' : ''}`}
+        aria-current={picked}
+        title={`${e.title}: ${e.words}`}
+        onClick={() => goToEvent(c, e)}
+      >
+        <span class={`mk ${e.kind}`}>
+          <Icon name={`mark-${e.kind}`} size={15} />
+        </span>
+        <span class="who">
+          <b>{e.title}</b>
+          <small>{e.words}</small>
+        </span>
+        <span class="t">{seconds(e.time)}</span>
+      </button>
+      {picked ? below?.(e) : null}
+    </div>
   );
 }
 

@@ -23,7 +23,6 @@ export function EventsPanel() {
   // Asked for by itself it comes first, above however many events there are.
   const first = ui.eventsPanel.value === 'counts';
   const events = editor.events.value;
-  const picked = editor.selectedEvent.value;
   const worst = worstOf(events);
   const own = counted(events).length;
   const length = TEXTS.inTheseS(num(editor.scene.peek()?.duration ?? 9, 0));
@@ -42,9 +41,8 @@ export function EventsPanel() {
       </div>
       {first ? <ThresholdsSection last={false} /> : null}
       <section class="sect">
-        <EventList />
+        <EventList below={(e) => <Facts event={e} />} />
       </section>
-      {picked ? <Facts event={picked} /> : null}
       {first ? null : <ThresholdsSection last />}
     </>
   );
@@ -53,7 +51,8 @@ export function EventsPanel() {
 /** The lane on which the first of them is then. */
 function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): string {
   const p = poseAt(editor.motionFor(a), time);
-  return laneWords(editor.scene.peek()!.map, a, x, y, p?.heading ?? 0);
+  // Where it is itself: between the two are other lanes.
+  return laneWords(editor.scene.peek()!.map, a, p?.x ?? x, p?.y ?? y, p?.heading ?? 0);
 }
 
 function Facts({ event: e }: { event: TrafficEvent }) {
@@ -68,8 +67,8 @@ function Facts({ event: e }: { event: TrafficEvent }) {
     editor.select(id);
   };
   return (
-    <>
-      <section class="sect">
+    <div class="evfacts">
+      <section>
         <h3>{e.label.replace(/ (?=\d)/, ' at ')}</h3>
         <dl class="wh">
           <dt>{TEXTS.where}</dt>
@@ -78,7 +77,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
         </dl>
         {e.kind === 'near' ? <p class="note">{counts}</p> : null}
       </section>
-      <section class="sect">
+      <section>
         <h3>{TEXTS.whatYouCanDo}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (
@@ -98,6 +97,6 @@ function Facts({ event: e }: { event: TrafficEvent }) {
           </button>
         </div>
       </section>
-    </>
+    </div>
   );
 }

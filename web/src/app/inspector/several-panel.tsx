@@ -352,8 +352,10 @@ function Who({ those }: { those: Live }) {
 function SpeedNow({ agent }: { agent: Agent }) {
   const { editor } = useApp();
   const words = useComputed(() => {
-    const p = poseShown(editor, agent);
-    return p ? speedLabel(p.speed, editor.unitOf(agent)) : '';
+    // As it is in the document now: what was given may be how it was before a change.
+    const a = editor.scene.value?.agents.get(agent.id);
+    const p = a && poseShown(editor, a);
+    return p ? speedLabel(p.speed, editor.unitOf(a)) : '';
   });
   return <span class="mut">{words}</span>;
 }

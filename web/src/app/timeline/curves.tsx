@@ -31,7 +31,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
         : event
           ? ` · ${event.a.name}${event.b ? TEXTS.dashed(event.b.name) : ''}`
           : several.length
-            ? TEXTS.selectedOneLine(several.length)
+            ? TEXTS.selectedOneLine(several.length, editor.selected.peek().length)
             : '';
   const drawn = agent
     ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])

@@ -6,7 +6,7 @@ export const german: Said<typeof TEXTS> = {
   inVariants: (name, left, right) => ` · ${name} in ${left}, gestrichelt: in ${right}`,
   inVariant: (id, label) => `${id}: ${label}`,
   dashed: (dashed) => `, gestrichelt: ${dashed}`,
-  selectedOneLine: (count) => ` · ${count} ausgewählt, je eine Linie`,
+  selectedOneLine: (count, of) => ` · ${count === of ? '' : `${count} von `}${of} ausgewählt, je eine Linie`,
   nothingToPlay: 'Noch nichts abzuspielen',
   nobodyOnThisMap: 'Noch niemand auf dieser Karte. Verwenden, dann ein Auto einsetzen oder füllen.',
   selectARoadUser: 'Jemanden auswählen, um sein Tempo zu sehen',
