@@ -1,9 +1,9 @@
 // Rounds: futures of one road user, or ways the whole scene could go, are kept or rejected, and drawn anew by that.
 import { LETTERS } from '../model/futures';
 import { canChange } from '../model/scene';
-import { saveFeedback } from '../edit/rounds/save';
 import { hasFree, inGroup, type Action } from './action';
 import type { Context } from './context';
+import { TEXTS as PAGE } from '../texts/page';
 import { TEXTS } from '../texts/actions';
 
 const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
@@ -159,6 +159,10 @@ export const rounds = inGroup('rounds', [
       const of = c.rounds.subject.value ?? c.editor.agent.value;
       return of?.feedback?.answers.length ? true : TEXTS.nothingWasKept;
     },
-    run: (c) => saveFeedback(c.editor),
+    run: (c) =>
+      void import('../edit/rounds/save').then(
+        (m) => m.saveFeedback(c.editor),
+        () => c.editor.notices.show({ text: PAGE.thisPartOfThe }),
+      ),
   },
 ]);

@@ -52,7 +52,7 @@ function makeParts(o: Opening): Context {
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
   const searched = generator();
   const searcher = new Maker(editor, new Questions(editor, file), searched, file);
-  const tried = new Supposing(editor, new Questions(editor, file), generator());
+  const tried = new Supposing(editor, new Questions(editor, file), generator(), file);
   const c: Context = {
     ...o,
     care,
@@ -66,7 +66,7 @@ function makeParts(o: Opening): Context {
     maker: new LayoutMaker(editor, file, care, client),
     rounds: new Rounds(editor, new Questions(editor, file), generator()),
     trial: new Trial(editor, tried),
-    supposing: new Supposing(editor, new Questions(editor, file), generator()),
+    supposing: new Supposing(editor, new Questions(editor, file), generator(), file),
     copying: new Copying(editor),
     filler: new Filler(editor, file, client),
     clipboard: clipboardOf(() => c),

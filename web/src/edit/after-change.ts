@@ -17,7 +17,7 @@ export function askedAfter(editor: Editor, scene: Scene, step: Step, set: Motion
 }
 
 /** Whom a step is about. */
-const changedBy = (step: Step): Iterable<string> => (step.agent ? [step.agent] : (step.several ?? []));
+export const changedBy = (step: Step): Iterable<string> => (step.agent ? [step.agent] : (step.several ?? []));
 
 function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   const known = set.futures;

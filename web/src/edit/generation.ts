@@ -5,19 +5,18 @@ import { DEFAULTS } from '../model/domain';
 import { goesOneWay, thoseWhoAnswer } from '../model/answering';
 import { emptyMotion, type MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
-import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
-import { motionOf } from '../model/changes';
+import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { countedAnew } from '../model/rejudge';
-import { thresholdsOf, trackJson } from '../model/write';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';
-import { askedAfter, whoReacts } from './after-change';
+import { askedAfter, changedBy, whoReacts } from './after-change';
+import { rejudged } from './motion-after';
+import { scoreOf } from './scoring';
 import type { Editor, Step } from './editor';
 import { Foresight, type Known } from './foresight';
 import type { Previews } from './gestures/chart';
 import { Questions, type Wanted } from './question';
-import { readScore } from './read-answer';
 import { Reception } from './reception';
 import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
@@ -297,21 +296,12 @@ export class Generation implements Previews {
       editor.answers.settle(scene, shown, null);
       this.#keep();
     }
-    const scored = [...scene.agents.values()].filter(
-      (a) => canChange(a) && (shown.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
-    );
-    const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
     try {
-      const reply = await this.generator.score(
-        this.file.reference(scene),
-        trajectories,
-        thresholdsOf(scene),
-        abort.signal,
-      );
+      const score = await scoreOf(this.generator, this.file, scene, shown, abort.signal);
       if (editor.scene.peek() !== scene) return;
-      const score = readScore(reply);
-      const { futures } = editor.motion.peek();
-      const judged = score ? judgedCurves(scene, futures, score) : futures;
+      const known = editor.motion.peek();
+      const met = score ? rejudged(scene, known, score, step ? [...changedBy(step)] : []) : known.futures;
+      const judged = score ? judgedCurves(scene, met, score) : met;
       editor.answers.scored(score, score && step?.counting ? countedAnew(scene, judged, score) : judged);
       if (step && !quiet) this.#reception.settled(step, 0);
     } catch (e) {

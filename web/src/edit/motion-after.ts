@@ -3,7 +3,7 @@ import { motionOf } from '../model/changes';
 import { DEFAULTS } from '../model/domain';
 import { asIfNotAsked, toBeGivenUp, type Answering } from '../model/answering';
 import type { AgentFuturesJson } from '../model/json';
-import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet, type Score } from '../model/futures';
 import type { Naming } from '../model/names';
 import { firstPose } from '../model/read';
 import { metAnew, withMeetingsOf, type Changed } from '../model/rejudge';
@@ -42,21 +42,15 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
   const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
   for (const id of mine) if (futures.has(id)) driving.add(id);
   // What they were judged against has changed with those that are answered.
-  const changed = changedSince(last, { ...before, futures, driving }, scene);
-  for (const [id, f] of futures) {
-    // Of whom another future is picked all six are judged by what the others do when they are: that stands.
-    if (answers.has(id) || w.pinned?.includes(id)) continue;
-    futures.set(id, metAnew(scene.agents.get(id)!, f, changed));
-  }
-  // Those that go on as they did may meet others than before.
-  for (const id of score ? mine : []) {
-    const f = answers.has(id) ? undefined : futures.get(id);
-    if (!f) continue;
-    const shown = scene.agents.get(id)!.chosen ?? f.chosen;
-    const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
-    if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
-  }
-  const judged = score ? judgedCurves(scene, futures, score) : futures;
+  const now: MotionSet = { ...before, futures, driving };
+  const since = changedSince(last, now, scene);
+  const picked = (w.pinned ?? []).filter((id) => !since.some((c) => c.agent.id === id));
+  const changed = [...since, ...doingNow(scene, now, picked)];
+  // Of whom another future is picked all six are judged by what the others do when they are: that stands.
+  const stands = new Set([...answers.keys(), ...(w.pinned ?? [])]);
+  const own = mine.filter((id) => !answers.has(id));
+  const met = metAgain(scene, futures, changed, stands, score, own);
+  const judged = score ? judgedCurves(scene, met, score) : met;
   const reach = new Map(before.reach);
   for (const [id, resolved] of Object.entries(e.resolved)) {
     const verdict = readReach(resolved);
@@ -75,6 +69,41 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
     warnings: readWarnings(e),
   };
 }
+
+/** The same, where another future is picked and nobody is asked anything: the score tells who meets whom. */
+export const rejudged = (scene: Scene, set: MotionSet, score: Score, picked: readonly string[]): Map<string, Futures> =>
+  metAgain(scene, set.futures, doingNow(scene, set, picked), new Set(picked), score, touchedIn(scene));
+
+/**
+ * Futures with whom they meet now that the `changed` do something else; the verdicts of those who are in `stands` are
+ * known already. What each of `own` does is judged by the score, where there is one.
+ */
+function metAgain(
+  scene: Scene,
+  futures: MotionSet['futures'],
+  changed: readonly Changed[],
+  stands: ReadonlySet<string>,
+  score: Score | null,
+  own: readonly string[],
+): Map<string, Futures> {
+  const out = new Map<string, Futures>();
+  for (const [id, known] of futures) {
+    const a = scene.agents.get(id);
+    if (!a) continue;
+    const f = stands.has(id) ? known : metAnew(a, known, changed);
+    const shown = a.chosen ?? f.chosen;
+    const met = score && own.includes(id) && f.modes[shown] ? withMeetingsOf(score, id, f.modes[shown]) : null;
+    out.set(id, met && met !== f.modes[shown] ? { ...f, modes: f.modes.map((m, i) => (i === shown ? met : m)) } : f);
+  }
+  return out;
+}
+
+/** What these do, for others that are to be judged against it. */
+const doingNow = (scene: Scene, set: MotionSet, ids: readonly string[]): Changed[] =>
+  ids.flatMap((id) => {
+    const agent = scene.agents.get(id);
+    return agent ? [{ agent, motion: motionOf(scene, set, agent) }] : [];
+  });
 
 /** Everybody who does something else. */
 function changedSince(before: MotionSet, now: MotionSet, scene: Scene): Changed[] {

@@ -7,8 +7,10 @@ import type { Generator } from '../net/generator';
 import type { FinalEvent } from '../net/types';
 import { askedAfter } from './after-change';
 import type { Editor } from './editor';
-import { motionAfter } from './motion-after';
+import { motionAfter, rejudged } from './motion-after';
 import type { Questions } from './question';
+import type { SceneFile } from './scene-file';
+import { scoreOf } from './scoring';
 
 /** A document with one change more, and whom it is about. */
 export interface Supposition {
@@ -35,6 +37,7 @@ export class Supposing {
     private readonly editor: Editor,
     private readonly questions: Questions,
     private readonly generator: Generator,
+    private readonly file: SceneFile,
   ) {}
 
   /** `answered` hears null when nothing came of it. False: there is nobody to ask, or nothing that is asked. */
@@ -44,20 +47,31 @@ export class Supposing {
     if (editor.away.peek() || set.stale) return false;
     const agent = changed.length === 1 ? changed[0] : null;
     const asked = askedAfter(editor, scene, { name, agent, several: changed, undo: false });
-    if (typeof asked === 'string') return false;
+    if (asked === 'nothing') return false;
     const open = (this.#open = {});
-    const end = (e: FinalEvent | null): void => {
+    const end = (after: MotionSet | null): void => {
       if (this.#open !== open) return;
       batch(() => {
         this.#asking.value = false;
-        answered(e && motionAfter(set, scene, e, asked, () => 'rank'));
+        answered(after);
       });
     };
     const nothing = () => end(null);
     this.#asking.value = true;
-    const on = { draft: () => undefined, final: end, refused: nothing, away: nothing, dropped: nothing };
+    if (asked === 'known') {
+      void this.#scored(scene, set, changed).then(end, nothing);
+      return true;
+    }
+    const final = (e: FinalEvent) => end(motionAfter(set, scene, e, asked, () => 'rank'));
+    const on = { draft: () => undefined, final, refused: nothing, away: nothing, dropped: nothing };
     this.generator.ask(this.questions.makeApart(scene, set, asked, on));
     return true;
+  }
+
+  /** Nobody answers: another future of somebody is all that changes. */
+  async #scored(scene: Scene, set: MotionSet, changed: readonly string[]): Promise<MotionSet> {
+    const score = await scoreOf(this.generator, this.file, scene, set);
+    return score ? { ...set, futures: rejudged(scene, set, score, changed), score } : set;
   }
 
   /** Nothing is heard any more of what was asked. */

@@ -180,6 +180,27 @@ describe('a pick among futures', () => {
     expect(Object.keys(asked())).toEqual(['1']);
   });
 
+  it('is scored where nobody answers: others are said to hit it only where they do', async () => {
+    editor.run(setOthers('log'));
+    const hits = six('2');
+    const hit = { kind: 'collision', with: '1', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 9 };
+    for (const m of hits.modes) Object.assign(m, { faults: [hit], relations: [] });
+    for (const id of ['1', '2']) {
+      goalFor(id);
+      rest();
+      generator.last.on.final(id === '2' ? finalWith({ 2: hits }) : finalOf('1'), 5);
+    }
+    expect(editor.motion.peek().futures.get('2')!.modes[0].about?.faults).toHaveLength(1);
+    editor.select('1');
+    const asked9 = generator.asked.length;
+    pick(2);
+    await vi.runAllTimersAsync();
+    expect(generator.asked.length).toBe(asked9);
+    expect(editor.events.peek().filter((x) => x.kind === 'collision')).toEqual([]);
+    const { modes, chosen } = editor.motion.peek().futures.get('2')!;
+    expect(modes[chosen].about?.faults).toEqual([]);
+  });
+
   it('changes only those that say whom they answer', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);

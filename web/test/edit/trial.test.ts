@@ -18,7 +18,7 @@ class Trying extends Session {
     super();
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
-    const supposing = new Supposing(this.editor, new Questions(this.editor, file), this.line);
+    const supposing = new Supposing(this.editor, new Questions(this.editor, file), this.line, file);
     this.trial = new Trial(this.editor, supposing);
     this.editor.select(ID);
     this.generator.last.on.final(finalOf(ID), 10);

@@ -20,7 +20,7 @@ class Weighed extends Session {
     super();
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
-    this.supposing = new Supposing(this.editor, new Questions(this.editor, file), this.line);
+    this.supposing = new Supposing(this.editor, new Questions(this.editor, file), this.line, file);
     this.weighing = new Weighing(this.editor, this.supposing);
     this.end = this.weighing.begin();
     const [a, b] = ['1', '2'].map((id) => this.editor.scene.peek()!.agents.get(id)!);

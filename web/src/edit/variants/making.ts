@@ -4,18 +4,17 @@ import { choose, drawAnew, patchScene } from '../../model/commands';
 import { motionOf } from '../../model/changes';
 import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/futures';
 import { poseAt, STEP_S } from '../../model/motion';
-import { canChange, canMove, doing, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
+import { canMove, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
 import { withTaken } from '../../model/pins';
 import { readVariantSample } from '../../model/read';
-import { thresholdsOf, trackJson } from '../../model/write';
 import { Away, Refused } from '../../net/client';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
 import { askedAfter } from '../after-change';
 import type { Editor, Step } from '../editor';
-import { motionAfter } from '../motion-after';
+import { motionAfter, rejudged } from '../motion-after';
+import { scoreOf } from '../scoring';
 import type { Questions, Wanted } from '../question';
-import { readScore } from '../read-answer';
 import type { SceneFile } from '../scene-file';
 import { TEXTS } from '../../texts/variants';
 
@@ -143,17 +142,8 @@ export class Maker {
   async #scored(scene: Scene, base: MotionSet): Promise<MotionSet> {
     const driving = new Set([...base.driving, ...touchedIn(scene).filter((id) => base.futures.has(id))]);
     const set: MotionSet = { ...base, key: sceneKey(scene), driving, stale: false };
-    const own = [...scene.agents.values()].filter(
-      (a) => canChange(a) && (driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
-    );
-    const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
-    const reply = await this.generator.score(
-      this.file.reference(scene),
-      tracks,
-      thresholdsOf(scene),
-      new AbortController().signal,
-    );
-    return { ...set, score: readScore(reply) };
+    const score = await scoreOf(this.generator, this.file, scene, set);
+    return score ? { ...set, futures: rejudged(scene, set, score, []), score } : { ...set, score };
   }
 }
 

@@ -1,0 +1,23 @@
+// What happens in motions that are known already.
+import { motionOf } from '../model/changes';
+import type { MotionSet, Score } from '../model/futures';
+import { canChange, doing, type Scene } from '../model/scene';
+import { thresholdsOf, trackJson } from '../model/write';
+import type { Generator } from '../net/generator';
+import { readScore } from './read-answer';
+import type { SceneFile } from './scene-file';
+
+/** Asks for the events of what everybody does in `set`; null where the answer has none. */
+export async function scoreOf(
+  generator: Generator,
+  file: SceneFile,
+  scene: Scene,
+  set: MotionSet,
+  signal = new AbortController().signal,
+): Promise<Score | null> {
+  const own = [...scene.agents.values()].filter(
+    (a) => canChange(a) && (set.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
+  );
+  const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
+  return readScore(await generator.score(file.reference(scene), tracks, thresholdsOf(scene), signal));
+}
