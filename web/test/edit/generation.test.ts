@@ -188,17 +188,21 @@ describe('a pick among futures', () => {
     for (const id of ['1', '2']) {
       goalFor(id);
       rest();
-      generator.last.on.final(id === '2' ? finalWith({ 2: hits }) : finalOf('1'), 5);
+      generator.last.on.final(finalOf(id), 5);
     }
-    expect(editor.motion.peek().futures.get('2')!.modes[0].about?.faults).toHaveLength(1);
     editor.select('1');
-    const asked9 = generator.asked.length;
     pick(2);
+    // Who has none picked is drawn with it.
+    expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
+    generator.last.on.final(finalWith({ 2: hits }), 5);
+    expect(editor.events.peek().map((x) => x.kind)).toContain('collision');
+    editor.select('2');
+    const asked = generator.asked.length;
+    pick(1);
     await vi.runAllTimersAsync();
-    expect(generator.asked.length).toBe(asked9);
+    expect(generator.asked.length).toBe(asked);
     expect(editor.events.peek().filter((x) => x.kind === 'collision')).toEqual([]);
-    const { modes, chosen } = editor.motion.peek().futures.get('2')!;
-    expect(modes[chosen].about?.faults).toEqual([]);
+    expect(editor.motion.peek().futures.get('2')!.modes[1].about?.faults).toEqual([]);
   });
 
   it('changes only those that say whom they answer', () => {
