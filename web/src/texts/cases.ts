@@ -15,6 +15,7 @@ export const TEXTS = table('cases', {
   startSpeed: 'start speed',
   goalTime: 'goal time',
   howFarTheSearch: 'How far the search is',
+  enough: 'enough found',
   ofTried: (tried: number, ofIt: number) => `${tried} of ${ofIt} tried`,
   tried: 'Tried',
   found: (found: number) => `${found} found`,

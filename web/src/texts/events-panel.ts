@@ -8,7 +8,7 @@ export const TEXTS = table('events-panel', {
   whatYouCanDo: 'What you can do',
   change: (name: string) => `Change ${name}`,
   keepAsAVariant: 'Keep as a variant',
-  thenNothing: 'Then nothing happens',
+  thenNothing: 'Then it does not happen',
   thenStill: (what: string) => `Then still: ${what}`,
   thenInstead: (who: string, what: string) => `Then ${who}: ${what}`,
 });

@@ -84,7 +84,7 @@ describe('ways out of an event', () => {
   it('are good where nothing happens then', () => {
     const t = new Weighed();
     t.answer();
-    expect(t.weighing.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Then nothing happens' });
+    expect(t.weighing.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Then it does not happen' });
   });
 
   it('are weighed anew for another event; a late answer says nothing of it', () => {

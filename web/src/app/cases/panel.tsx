@@ -3,7 +3,7 @@ import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
 import { readEvents } from '../../model/events';
-import { MOST_TRIES, type Case, type Cases } from '../../edit/cases/cases';
+import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/cases/cases';
 import { PLACE_MORE_M } from '../../model/attempts';
 import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/units';
 import { useAlbum } from '../variants/album';
@@ -146,6 +146,12 @@ function Sentence({ cases, sought }: Of) {
   );
 }
 
+function stateWords(state: State, { tried, of, left }: Progress): string {
+  if (state === 'running') return left === null ? '' : leftWords(left);
+  if (state === 'paused') return TEXTS.paused;
+  return tried < of ? TEXTS.enough : '';
+}
+
 function Run({ cases, sought }: Of) {
   const state = cases.state.value;
   const obstacle = cases.obstacle.value;
@@ -163,9 +169,7 @@ function Run({ cases, sought }: Of) {
     <section class="sect seeking" aria-label={TEXTS.howFarTheSearch}>
       <h3>
         <span role="status">{TEXTS.ofTried(p.tried, p.of)}</span>
-        <small>
-          {state === 'running' && p.left !== null ? leftWords(p.left) : state === 'paused' ? TEXTS.paused : ''}
-        </small>
+        <small>{stateWords(state, p)}</small>
       </h3>
       <div class="progress" role="progressbar" aria-label={TEXTS.tried} aria-valuemax={p.of} aria-valuenow={p.tried}>
         <i style={{ width: `${(100 * p.tried) / p.of}%` }} />

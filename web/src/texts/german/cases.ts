@@ -17,6 +17,7 @@ export const german: Said<typeof TEXTS> = {
   startSpeed: 'Starttempo',
   goalTime: 'Zeit am Ziel',
   howFarTheSearch: 'Stand der Suche',
+  enough: 'genug gefunden',
   ofTried: (tried, ofIt) => `${tried} von ${ofIt} versucht`,
   tried: 'Versucht',
   found: (found) => `${found} gefunden`,

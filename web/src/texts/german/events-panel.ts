@@ -9,7 +9,7 @@ export const german: Said<typeof TEXTS> = {
   whatYouCanDo: 'Was sich tun lässt',
   change: (name) => `${name} ändern`,
   keepAsAVariant: 'Als Variante behalten',
-  thenNothing: 'Dann passiert nichts',
+  thenNothing: 'Dann passiert das nicht',
   thenStill: (what) => `Dann immer noch: ${what}`,
   thenInstead: (who, what) => `Dann ${who}: ${what}`,
 };
