@@ -34,6 +34,7 @@ export const TEXTS = table('palette', {
     'tall-timeline': 'stop brake wait speed profile acceleration',
     'select-conflicts': 'gap danger distance ttc',
     'what-counts': 'near miss threshold limit gap ttc pet danger',
+    'find-case': 'accident crash collision near miss meet same moment gap conflict critical corner case',
     'next-event': 'near miss collision danger conflict',
     'tool-measure': 'distance gap length ruler',
     'tool-fill': 'traffic density crowd populate',

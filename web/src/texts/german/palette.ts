@@ -33,6 +33,7 @@ export const german: Said<typeof TEXTS> = {
     'tall-timeline': 'halten bremsen warten Tempoprofil Beschleunigung',
     'select-conflicts': 'Lücke Gefahr Abstand ttc',
     'what-counts': 'Beinahe-Unfall Schwelle Grenze Lücke ttc pet Gefahr',
+    'find-case': 'Unfall Zusammenstoß Beinahe-Unfall treffen gleichzeitig Lücke Konflikt kritisch',
     'next-event': 'Beinahe-Unfall Zusammenstoß Gefahr Konflikt',
     'tool-measure': 'Abstand Lücke Länge Lineal',
     'tool-fill': 'Verkehr Dichte Menge bevölkern',
