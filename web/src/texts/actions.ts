@@ -189,6 +189,7 @@ export const TEXTS = table('actions', {
   share: 'Share',
   export: 'Export',
   othersReact: 'Others react',
+  nobodyHereWas: 'Nobody here was recorded',
   othersReplay: 'Others replay the log',
   othersHoldStill: 'Others hold still',
   everybodyBack: 'Everybody back to the log',
