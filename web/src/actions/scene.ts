@@ -10,16 +10,10 @@ const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> 
   id: `others-${mode}`,
   label,
   help,
-  when: (c) => (mode === 'log' && hasNoLog(c) ? TEXTS.nobodyHereWas : hasScene(c)),
+  when: hasScene,
   checked: (c) => c.editor.resting.value?.others === mode,
   run: (c) => c.editor.run(setOthers(mode)),
 });
-
-/** In a scene of one's own making everybody was placed. */
-function hasNoLog({ editor }: Context): boolean {
-  const scene = editor.resting.value;
-  return !!scene && scene.agents.size > 0 && [...scene.agents.values()].every((a) => a.placed);
-}
 
 /** The scene that is spoken of: one in the list that is pointed at, else the open one. */
 const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? editor.resting.value?.id ?? null;

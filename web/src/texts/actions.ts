@@ -189,7 +189,6 @@ export const TEXTS = table('actions', {
   share: 'Share',
   export: 'Export',
   othersReact: 'Others react',
-  nobodyHereWas: 'Nobody here was recorded',
   othersReplay: 'Others replay the log',
   othersHoldStill: 'Others hold still',
   everybodyBack: 'Everybody back to the log',

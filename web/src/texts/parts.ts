@@ -9,6 +9,7 @@ export const TEXTS = table('parts', {
   howFarTheSix: 'How far the six may differ',
   react: 'React',
   replayLog: 'Replay log',
+  goOn: 'Go on',
   holdStill: 'Hold still',
   everybodyYou: 'Everybody you gave no goal adapts when you let go.',
   theyDoWhatWas: 'They do what was recorded; who was put here goes on as it did.',

@@ -7,7 +7,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Controls } from '../parts/asking';
-import { OTHERS, OTHERS_DO } from '../parts/others';
+import { OTHERS_DO, useOthers } from '../parts/others';
 import { EventList } from './event-list';
 import { SceneScore } from './scene-score';
 import { TEXTS } from '../../texts/inspector';
@@ -49,6 +49,7 @@ function Nothing() {
 
 function About({ scene }: { scene: Scene }) {
   const { editor, form } = useApp();
+  const choices = useOthers();
   const others = useComputed(() => OTHERS_DO[editor.resting.value?.others ?? 'react']);
   const span = useComputed(() => TEXTS.nextS(num(editor.resting.value?.duration ?? 0, 0)));
   return (
@@ -90,7 +91,7 @@ function About({ scene }: { scene: Scene }) {
       ) : null}
       <section class="sect">
         <h3>{TEXTS.othersTitle}</h3>
-        <Segments label={TEXTS.whatTheOthers} items={OTHERS} />
+        <Segments label={TEXTS.whatTheOthers} items={choices} />
         <p class="note">{others}</p>
       </section>
       <section class="sect last lines">

@@ -5,12 +5,13 @@ import { figure, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { OTHERS } from '../parts/others';
+import { useOthers } from '../parts/others';
 import { Plot } from './plot';
 import { TEXTS } from '../../texts/timeline';
 
 export function Timeline() {
   const { form } = useApp();
+  const others = useOthers();
   return (
     <footer class="time" aria-label={TEXTS.timeline} data-group="timeline">
       <div class="tb">
@@ -29,7 +30,7 @@ export function Timeline() {
         <span class="fieldlab">{TEXTS.planAnew}</span>
         <Segments label={TEXTS.howOftenEverybody} items={seconds('replan', REPLANS)} />
         <span class="fieldlab">{TEXTS.others}</span>
-        <Segments label={TEXTS.whatTheOthers} items={OTHERS} />
+        <Segments label={TEXTS.whatTheOthers} items={others} />
       </div>
       <Plot />
     </footer>

@@ -189,7 +189,6 @@ export const german: Said<typeof TEXTS> = {
   share: 'Teilen',
   export: 'Exportieren',
   othersReact: 'Andere reagieren',
-  nobodyHereWas: 'Hier wurde niemand aufgezeichnet',
   othersReplay: 'Andere wie aufgezeichnet',
   othersHoldStill: 'Andere bleiben stehen',
   everybodyBack: 'Alle zurück zur Aufzeichnung',

@@ -10,6 +10,7 @@ export const german: Said<typeof TEXTS> = {
   howFarTheSix: 'Wie verschieden die sechs sein dürfen',
   react: 'Reagieren',
   replayLog: 'Wiedergabe',
+  goOn: 'Weiter',
   holdStill: 'Stehen',
   everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an.',
   theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde; wer eingesetzt wurde, fährt weiter wie bisher.',
