@@ -1,7 +1,7 @@
 // A case that is looked for: what is to happen to whom, whether it happens in a motion, and how near to it one comes.
 import { compareMarks } from './about';
 import { motionOf } from './changes';
-import { closestTo, type Moving } from './closest';
+import { closestTo, type Closest, type Moving } from './closest';
 import { readEvents, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
 import { pointAt, wrapAngle, type Vec } from './geometry';
@@ -76,11 +76,11 @@ export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null
     case 'collision':
       return meeting(one, others, scene, set, s);
     case 'first':
-      return others.length ? precedence(one, others[0], scene.duration, s) : null;
+      return others.length ? precedence(one, others[0], scene, set, s) : null;
     case 'braking':
-      return braking(one, others, scene, s);
+      return braking(one, others, scene, set, s);
     case 'goal':
-      return arrival(one, others, scene, s);
+      return arrival(one, others, scene, set, s);
     case 'red':
       return redLight(one, scene, set, s);
   }
@@ -95,7 +95,7 @@ function meeting(one: Moving, others: readonly Moving[], scene: Scene, set: Moti
   if (!c) return null;
   const between = eventsBetween(scene, set, s);
   const hit = between.find((x) => x.kind === 'collision');
-  const near = between.find((x) => x.kind === 'near');
+  const near = between.find((x) => x.gap !== null && x.gap <= s.limit);
   const counts = threshold(scene, 'gap_m');
   const e = hit ?? near;
   const gap = hit ? 0 : (near?.gap ?? c.gap);
@@ -106,6 +106,10 @@ function meeting(one: Moving, others: readonly Moving[], scene: Scene, set: Moti
   const b = e ? others.find(([a]) => a === (e.a.id === s.who ? e.b : e.a))?.[0] : undefined;
   return momentAt(one, b ?? c.b, others, { value: gap, time: b ? e!.time : c.time, found, miss });
 }
+
+/** They touch, at a step or between two. */
+const collides = (c: Closest | null, scene: Scene, set: MotionSet, s: Sought): boolean =>
+  c?.gap === 0 || eventsBetween(scene, set, s)[0]?.kind === 'collision';
 
 /** What happens between the two, or between one and anybody, the worst first. */
 function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): TrafficEvent[] {
@@ -146,12 +150,12 @@ const sideOf = (bearing: number): Side =>
         : 'on-the-right';
 
 /** Does it come before the other one to where their ways cross, and by how little? */
-function precedence(one: Moving, two: Moving, duration: number, s: Sought): Moment | null {
-  const crossing = crossingOf(one[1], two[1], duration);
+function precedence(one: Moving, two: Moving, scene: Scene, set: MotionSet, s: Sought): Moment | null {
+  const crossing = crossingOf(one[1], two[1], scene.duration);
   if (!crossing) return null;
   const { mine, theirs } = crossing;
   const ahead = theirs - mine;
-  const hit = closestTo(one, [two], duration)?.gap === 0;
+  const hit = collides(closestTo(one, [two], scene.duration), scene, set, s);
   const found = ahead > 0 && ahead <= s.limit && !hit;
   const miss = found ? ahead : s.limit + Math.abs(ahead - s.limit / 2) + (hit ? s.limit : 0);
   return momentAt(one, two[0], [two], { value: ahead, time: mine, found, miss });
@@ -177,7 +181,7 @@ function crossingOf(m: Motion, n: Motion, duration: number): { mine: number; the
   return at;
 }
 
-function braking(one: Moving, others: readonly Moving[], scene: Scene, s: Sought): Moment | null {
+function braking(one: Moving, others: readonly Moving[], scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const steps = Math.round(scene.duration / STEP_S);
   let value = 0;
   let time = 0;
@@ -189,20 +193,20 @@ function braking(one: Moving, others: readonly Moving[], scene: Scene, s: Sought
     if (rate > value) [value, time] = [rate, (i + BRAKING_STEPS / 2) * STEP_S];
   }
   const c = closestTo(one, others, scene.duration);
-  const hit = c?.gap === 0;
+  const hit = collides(c, scene, set, s);
   const found = value >= s.limit && !hit;
   const miss = found ? -value : Math.max(0, s.limit - value) + (hit ? s.limit : 0);
   return momentAt(one, null, [], { value, time, found, miss });
 }
 
-function arrival(one: Moving, others: readonly Moving[], scene: Scene, s: Sought): Moment | null {
+function arrival(one: Moving, others: readonly Moving[], scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const { pos, time } = one[0].goal;
   const end = pos && poseAt(one[1], time);
   if (!pos || !end) return null;
   const off = Math.hypot(end.x - pos[0], end.y - pos[1]);
   const c = closestTo(one, others, scene.duration);
   if (!c) return null;
-  const hit = c.gap === 0;
+  const hit = collides(c, scene, set, s);
   const found = off <= AT_GOAL_M && !hit && c.gap <= s.limit;
   const miss = Math.min(FAR, c.gap + Math.max(0, off - AT_GOAL_M) + (hit ? s.limit * 2 : 0));
   return momentAt(one, c.b, others, { value: c.gap, time: c.time, found, miss });
