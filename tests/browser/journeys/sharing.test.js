@@ -63,7 +63,10 @@ journeys('sharing', (stage) => {
     const record = await save('womd');
     assert.match(record.words, /^\d+ things? lost$/);
     assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
-    assert.match((await save('svg')).bytes.toString(), /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
+    const drawing = (await save('svg')).bytes.toString();
+    assert.match(drawing, /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
+    // How long a metre is, when it is, and where north is.
+    for (const said of [/>\d+ m<\/text>/, />\d+\.\d s<\/text>/, />N<\/text>/]) assert.match(drawing, said);
     const moving = (await save('gif')).bytes;
     assert.equal(moving.subarray(0, 6).toString(), 'GIF89a');
     assert.equal(moving.at(-1), 0x3b, 'it is whole');

@@ -171,7 +171,8 @@ const ICON_PX = 15;
 const widths = new Map<string, number>();
 let ruler: CanvasRenderingContext2D | null = null;
 
-function textWidth(f: string, text: string): number {
+/** How wide a text is in a font, pixels. */
+export function textWidth(f: string, text: string): number {
   const key = f + text;
   let w = widths.get(key);
   if (w === undefined) {

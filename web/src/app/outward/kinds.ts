@@ -9,6 +9,8 @@ import { movingPicture } from '../../edit/outward/moving-picture';
 import { outFormats, type Wish } from '../../edit/outward/formats';
 import { reportPage } from '../../edit/outward/report-page';
 import type { WholeCard } from '../../edit/variants/cards';
+import { paintLegend } from '../../draw/legend';
+import { opaquePen, paintOn } from '../../draw/replay';
 import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
 import { TEXTS } from '../../texts/export';
@@ -39,9 +41,12 @@ const named = (c: Context, blob: Blob, ending: string, what = ''): ExportedFile 
   losses: [],
 });
 
-function pictureOf({ stage }: Context): HTMLCanvasElement {
+function pictureOf({ editor, stage }: Context): HTMLCanvasElement {
   const canvas = document.createElement('canvas');
   stage.paintOn(canvas, ['map', 'agents', 'overlay'], FINE);
+  const g = opaquePen(canvas);
+  g.setTransform(FINE, 0, 0, FINE, 0, 0);
+  paintOn(g, (pen) => paintLegend(pen, stage.view, editor.time.peek()));
   return canvas;
 }
 
@@ -115,6 +120,8 @@ export function ofScreen(c: Context): Kind[] {
       make: async () => {
         const pen = new SvgPen();
         stage.paintWith(pen, ['map', 'agents', 'overlay']);
+        pen.setTransform(1, 0, 0, 1, 0, 0);
+        paintLegend(pen, stage.view, time);
         const { w, h, z, turn } = stage.view;
         const turned = turn ? TEXTS.turnedCounterClockwise(num(deg(turn), 1)) : '';
         const about = TEXTS.pxAMetreXEast(num(z, 2)) + turned;
