@@ -34,7 +34,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
     if (!rest.length && scene.length <= GOAL_TIME) return 'known';
     // It is kept as it is; whoever meets it answers it, and all others go on as they do.
     const { id } = subject;
-    const react = rest.length > 0 && (picked.length > 1 || others !== 'all' ? rest : true);
+    const react = rest.length > 0 && whoReacts(scene, [id]);
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
   const held = heldIn(scene, known);
@@ -52,7 +52,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
 export function whoReacts(scene: Scene, asked: readonly string[]): boolean | string[] {
   const others = othersThatAnswer(scene);
   if (others === 'nobody') return false;
-  const picked = [...scene.agents.values()].some((a) => a.chosen !== null);
+  const picked = [...scene.agents.values()].some((a) => a.chosen !== null && !asked.includes(a.id));
   if (others === 'all' && !picked) return true;
   return (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
 }
