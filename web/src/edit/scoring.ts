@@ -15,8 +15,9 @@ export async function scoreOf(
   set: MotionSet,
   signal = new AbortController().signal,
 ): Promise<Score | null> {
+  // Who comes in later and answers somebody is among those who drive.
   const own = [...scene.agents.values()].filter(
-    (a) => canChange(a) && (set.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
+    (a) => set.driving.has(a.id) || (canChange(a) && (a.placed || doing(scene, a) === 'still')),
   );
   const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
   return readScore(await generator.score(file.reference(scene), tracks, thresholdsOf(scene), signal));
