@@ -1,22 +1,21 @@
 // What a picture says of itself where no editor is around it: how long a metre is, when it is, and where north is.
-import { fromLength, lengthUnit, roundBelow, seconds, toLength } from '../model/units';
+import { seconds } from '../model/units';
 import { textWidth } from './labels';
 import type { Pen } from './pen';
+import { scaleOf } from './scale';
 import { colours, font } from './theme';
 import type { View } from './view';
 import { TEXTS } from '../texts/places';
 
-/** The longest the scale gets, in pixels. */
-const LONGEST_PX = 90;
 const [EDGE, HEIGHT, PAD, GAP, ARROW] = [12, 30, 12, 10, 16];
 
 /** Paints it into the lower left corner, in pixels of the view. */
 export function paintLegend(g: Pen, v: View, time: number): void {
   const c = colours();
-  const length = roundBelow(toLength(LONGEST_PX / v.z));
-  const words = [`${length} ${lengthUnit()}`, seconds(time)];
+  const scale = scaleOf(v);
+  const words = [scale.words, seconds(time)];
   const face = font(600, 12);
-  const bar = fromLength(length) * v.z;
+  const bar = scale.px;
   const wide = bar + words.reduce((sum, w) => sum + GAP + textWidth(face, w), 0) + GAP + ARROW;
   const middle = v.h - EDGE - HEIGHT / 2;
   let x = EDGE + PAD;

@@ -1,25 +1,20 @@
 // Scale and zoom. The view changes many times a second; these follow once a frame at most.
 import { useComputed } from '@preact/signals';
-import { fromLength, lengthUnit, roundBelow, toLength } from '../../model/units';
+import { scaleOf } from '../../draw/scale';
 import { HOME_ZOOM } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { viewTick } from './view-tick';
 import { TEXTS } from '../../texts/hud';
 
-/** The longest the scale gets, in pixels. */
-const LONGEST_PX = 90;
-
 export function ScaleBar() {
   const { stage } = useApp();
   void viewTick.value;
-  const length = roundBelow(toLength(LONGEST_PX / stage.view.z));
+  const { words, px } = scaleOf(stage.view);
   return (
     <div class="card scale" aria-hidden="true">
-      <i style={{ width: `${fromLength(length) * stage.view.z}px` }} />
-      <span>
-        {length} {lengthUnit()}
-      </span>
+      <i style={{ width: `${px}px` }} />
+      <span>{words}</span>
     </div>
   );
 }
