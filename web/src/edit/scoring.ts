@@ -1,11 +1,17 @@
 // What happens in motions that are known already.
 import { motionOf } from '../model/changes';
 import type { MotionSet, Score } from '../model/futures';
-import { canChange, doing, type Scene } from '../model/scene';
+import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/scene';
 import { thresholdsOf, trackJson } from '../model/write';
 import type { Generator } from '../net/generator';
 import { readScore } from './read-answer';
 import type { SceneFile } from './scene-file';
+
+/** What everybody does by the document: those asked something follow their futures where there are any. */
+export function followed(scene: Scene, set: MotionSet): MotionSet {
+  const asked = touchedIn(scene).filter((id) => set.futures.has(id));
+  return { ...set, key: sceneKey(scene), driving: new Set([...set.driving, ...asked]), stale: false };
+}
 
 /** Asks for the events of what everybody does in `set`; null where the answer has none. */
 export async function scoreOf(

@@ -10,7 +10,7 @@ import type { Editor } from './editor';
 import { motionAfter, rejudged } from './motion-after';
 import type { Questions } from './question';
 import type { SceneFile } from './scene-file';
-import { scoreOf } from './scoring';
+import { followed, scoreOf } from './scoring';
 
 /** A document with one change more, and whom it is about. */
 export interface Supposition {
@@ -70,8 +70,9 @@ export class Supposing {
 
   /** Nobody answers: another future of somebody is all that changes. */
   async #scored(scene: Scene, set: MotionSet, changed: readonly string[]): Promise<MotionSet> {
-    const score = await scoreOf(this.generator, this.file, scene, set);
-    return score ? { ...set, futures: rejudged(scene, set, score, changed), score } : set;
+    const after = followed(scene, set);
+    const score = await scoreOf(this.generator, this.file, scene, after);
+    return score ? { ...after, futures: rejudged(scene, after, score, changed), score } : after;
   }
 
   /** Nothing is heard any more of what was asked. */

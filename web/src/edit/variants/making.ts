@@ -13,7 +13,7 @@ import type { FinalEvent } from '../../net/types';
 import { askedAfter } from '../after-change';
 import type { Editor, Step } from '../editor';
 import { motionAfter, rejudged } from '../motion-after';
-import { scoreOf } from '../scoring';
+import { followed, scoreOf } from '../scoring';
 import type { Questions, Wanted } from '../question';
 import type { SceneFile } from '../scene-file';
 import { TEXTS } from '../../texts/variants';
@@ -140,8 +140,7 @@ export class Maker {
 
   /** The motions are known already; what happens in them is asked. */
   async #scored(scene: Scene, base: MotionSet): Promise<MotionSet> {
-    const driving = new Set([...base.driving, ...touchedIn(scene).filter((id) => base.futures.has(id))]);
-    const set: MotionSet = { ...base, key: sceneKey(scene), driving, stale: false };
+    const set = followed(scene, base);
     const score = await scoreOf(this.generator, this.file, scene, set);
     return score ? { ...set, futures: rejudged(scene, set, score, []), score } : { ...set, score };
   }
