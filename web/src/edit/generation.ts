@@ -12,7 +12,7 @@ import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';
 import { askedAfter, changedBy, whoReacts } from './after-change';
 import { rejudged } from './motion-after';
-import { scoreOf } from './scoring';
+import { followed, scoreOf } from './scoring';
 import type { Editor, Step } from './editor';
 import { Foresight, type Known } from './foresight';
 import type { Previews } from './gestures/chart';
@@ -316,16 +316,7 @@ export class Generation implements Previews {
   /** The motions as the document has them now: those asked something follow their futures where there are any. */
   #shown(scene: Scene): MotionSet {
     const set = this.editor.motion.peek();
-    const asked = this.editor.touchedIds(scene).filter((id) => set.futures.has(id));
-    const futures = withCurves(scene, set.futures);
-    return {
-      ...set,
-      futures,
-      key: sceneKey(scene),
-      driving: new Set([...set.driving, ...asked]),
-      stale: false,
-      fresh: null,
-    };
+    return { ...followed(scene, set), futures: withCurves(scene, set.futures), fresh: null };
   }
 
   // -------------------------------------------------------------- absence
