@@ -246,10 +246,12 @@ pub(super) fn own(actor: &Actor, leading: Slot, candidates: &[Candidate]) -> usi
     of(Origin::Settled(leading)).or_else(|| of(Origin::Mode(leading))).unwrap_or(0)
 }
 
-/// The alternatives of an answer, at most `count`, and which of them is shown; `None` where the actor goes on with
-/// what it was given. A shown candidate that is no alternative takes the place of the one of its slot.
+/// The alternatives of an answer by falling probability, at most `count`, and which of them is shown; `None` where the
+/// actor goes on with what it was given. A shown candidate that is no alternative takes the place of the one of its
+/// slot. `lawful` is the share of each candidate's probability that is left to it by the rules it breaks.
 pub(super) fn shown(
-    mut candidates: Vec<Candidate>,
+    candidates: Vec<Candidate>,
+    lawful: &[f64],
     chosen: usize,
     count: usize,
 ) -> Option<(usize, Vec<Candidate>)> {
@@ -257,19 +259,29 @@ pub(super) fn shown(
     if origin.is_given() {
         return None;
     }
-    candidates.retain(|c| c.origin.is_alternative());
     let stands_for = |c: &Candidate| match origin {
         Origin::Rest => c.origin == Origin::Rest,
         _ => c.origin.slot() == origin.slot(),
     };
-    let mut at = candidates.iter().position(stands_for)?;
-    candidates[at] = Candidate { origin, motion, ..candidates[at] };
-    if at >= count {
-        candidates.swap(at, 0);
-        at = 0;
+    let weighed = candidates.into_iter().zip(lawful);
+    let mut out: Vec<(Candidate, f64)> =
+        weighed.filter(|(c, _)| c.origin.is_alternative()).map(|(c, share)| (c, *share)).collect();
+    let at = out.iter().position(|(c, _)| stands_for(c))?;
+    out[at] = (Candidate { origin, motion, ..out[at].0 }, *lawful.get(chosen)?);
+    let all: f64 = out.iter().map(|(c, _)| c.probability).sum();
+    let left: f64 = out.iter().map(|(c, share)| c.probability * share).sum();
+    for (c, share) in &mut out {
+        c.probability *= *share * all / left.max(f64::MIN_POSITIVE);
     }
-    candidates.truncate(count);
-    Some((at, candidates))
+    let mut out: Vec<(usize, Candidate)> = out.into_iter().map(|(c, _)| c).enumerate().collect();
+    out.sort_by(|a, b| b.1.probability.total_cmp(&a.1.probability));
+    let mut place = out.iter().position(|(i, _)| *i == at)?;
+    if place >= count {
+        out.swap(place, 0);
+        place = 0;
+    }
+    out.truncate(count);
+    Some((place, out.into_iter().map(|(_, c)| c).collect()))
 }
 
 /// Whether first drafts lead by probability or by draw.
@@ -301,27 +313,46 @@ mod tests {
         let mut all = six();
         all[3].probability = 0.5;
         all.push(candidate(0.0, Origin::Guided(slot)));
-        let (at, alternatives) = shown(all, 6, 6).unwrap();
-        assert_eq!((at, alternatives.len()), (3, 6));
-        assert_eq!((alternatives[3].origin, alternatives[3].probability), (Origin::Guided(slot), 0.5));
+        let (at, alternatives) = shown(all, &[1.0; 7], 6, 6).unwrap();
+        assert_eq!((at, alternatives.len()), (0, 6));
+        assert_eq!((alternatives[0].origin, alternatives[0].probability), (Origin::Guided(slot), 0.5));
+    }
+
+    #[test]
+    fn who_breaks_rules_is_less_likely_and_the_others_more() {
+        let lawful = [0.25, 1.0, 1.0, 1.0, 0.5, 1.0];
+        let (at, alternatives) = shown(six(), &lawful, 4, 6).unwrap();
+        let origins: Vec<usize> = alternatives.iter().map(|c| c.origin.slot().unwrap().index()).collect();
+        assert_eq!((at, origins), (4, vec![1, 2, 3, 5, 4, 0]));
+        assert!((alternatives.iter().map(|c| c.probability).sum::<f64>() - 0.6).abs() < 1e-12);
+        assert!((alternatives[5].probability / alternatives[0].probability - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_shown_in_place_of_a_mode_that_breaks_rules_is_weighed_by_what_it_does_itself() {
+        let mut all = six();
+        all.push(candidate(0.0, Origin::Evading(Slot::new(2))));
+        let (at, alternatives) = shown(all, &[1.0, 1.0, 0.1, 1.0, 1.0, 1.0, 1.0], 6, 6).unwrap();
+        assert_eq!((at, alternatives[2].origin), (2, Origin::Evading(Slot::new(2))));
+        assert!(alternatives.iter().all(|c| (c.probability - 0.1).abs() < 1e-12));
     }
 
     #[test]
     fn what_is_shown_is_among_the_alternatives_however_few_are_asked_for() {
         let mut all = six();
         all.push(candidate(0.0, Origin::PathMean(Slot::new(4))));
-        let (at, alternatives) = shown(all, 6, 2).unwrap();
+        let (at, alternatives) = shown(all, &[1.0; 7], 6, 2).unwrap();
         let origins: Vec<Origin> = alternatives.iter().map(|c| c.origin).collect();
         assert_eq!((at, origins), (0, vec![Origin::PathMean(Slot::new(4)), Origin::Mode(Slot::new(1))]));
     }
 
     #[test]
     fn what_is_given_is_no_part_of_the_answer() {
-        assert!(shown(vec![candidate(0.0, Origin::Pinned)], 0, 6).is_none());
+        assert!(shown(vec![candidate(0.0, Origin::Pinned)], &[1.0], 0, 6).is_none());
         let mut reacting = vec![candidate(0.0, Origin::Kept)];
         reacting.extend(six());
-        assert!(shown(reacting.clone(), 0, 6).is_none());
-        let (at, alternatives) = shown(reacting, 1, 6).unwrap();
+        assert!(shown(reacting.clone(), &[1.0; 7], 0, 6).is_none());
+        let (at, alternatives) = shown(reacting, &[1.0; 7], 1, 6).unwrap();
         assert_eq!((at, alternatives.len(), alternatives[0].origin), (0, 6, Origin::Mode(Slot::FIRST)));
     }
 
@@ -329,7 +360,7 @@ mod tests {
     fn rest_stands_for_itself() {
         let mut all = vec![candidate(0.7, Origin::Rest)];
         all.extend(six().into_iter().take(5));
-        let (at, alternatives) = shown(all, 0, 6).unwrap();
+        let (at, alternatives) = shown(all, &[1.0; 6], 0, 6).unwrap();
         assert_eq!((at, alternatives[0].origin, alternatives.len()), (0, Origin::Rest, 6));
     }
 }

@@ -17,6 +17,8 @@ pub(super) struct Choosable {
     pub(super) boxes: SweptBoxes,
     /// What it costs by itself.
     pub(super) cost: f64,
+    /// Of that, what it costs to break rules.
+    pub(super) broken: f64,
     /// The motion that the road user has anyway: how near it comes to others that keep theirs is how it was.
     pub(super) kept: bool,
 }
@@ -215,7 +217,7 @@ mod tests {
 
     fn ride(y: f64, speed: f64, cost: f64) -> Choosable {
         let at = |i: usize| Some(OrientedBox::new(Vec2::new(0.3 * speed * i as f64, y), 2.3, 1.0, 0.0));
-        Choosable { boxes: SweptBoxes::new((0..30).map(at).collect()), cost, kept: false }
+        Choosable { boxes: SweptBoxes::new((0..30).map(at).collect()), cost, broken: 0.0, kept: false }
     }
 
     #[test]

@@ -47,6 +47,12 @@ pub(super) struct Yardstick<'a> {
 pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_>) -> Vec<Choosable> {
     let tuning = by.tuning;
     let size = &actor.plan.present.size;
+    let broken = |c: &Candidate| match &c.motion.states {
+        // What is given costs nothing by itself.
+        _ if c.origin.is_given() => 0.0,
+        states => broken_rules(actor, states, by) + stepping_out(actor, states, by),
+    };
+    let broken: Vec<f64> = candidates.iter().map(broken).collect();
     let costs = match &actor.kept {
         Some(kept) => candidates
             .iter()
@@ -54,12 +60,6 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .collect(),
         None => central(&actor.plan, candidates, by.around, tuning),
     };
-    let broken = |c: &Candidate| match &c.motion.states {
-        // What is given costs nothing by itself.
-        _ if c.origin.is_given() => 0.0,
-        states => broken_rules(actor, states, by) + stepping_out(actor, states, by),
-    };
-    let broken: Vec<f64> = candidates.iter().map(broken).collect();
     let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
     let shown_breaks = candidates.iter().position(is_shown).map_or(0.0, |shown| broken[shown]);
     let option = |((c, cost), broken): ((&Candidate, f64), &f64)| {
@@ -74,7 +74,7 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
         };
         let binds = if *broken < shown_breaks - LAWFUL { BOUND_TO_WRONG } else { 1.0 };
         let cost = if c.origin.is_given() { 0.0 } else { cost + broken + binds * leaving(c, by) };
-        Choosable { boxes, cost, kept: c.origin == Origin::Kept }
+        Choosable { boxes, cost, broken: *broken, kept: c.origin == Origin::Kept }
     };
     candidates.iter().zip(costs).zip(&broken).map(option).collect()
 }

@@ -102,10 +102,11 @@ impl Window<'_> {
             changed = self.changed(&candidates, &chosen);
             answered = self.answers(&changed);
         }
-        let count = self.request.modes.max(1);
+        let (count, unlawful) = (self.request.modes.max(1), self.tuning().probability.unlawful);
         let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
         let actors = each.filter_map(|(i, ((actor, candidates), chosen))| {
-            let (chosen, alternatives) = shown(candidates, chosen, count)?;
+            let lawful: Vec<f64> = choice.agents[i].iter().map(|o| (-unlawful * o.broken).exp()).collect();
+            let (chosen, alternatives) = shown(candidates, &lawful, chosen, count)?;
             let reaction = causes[i].as_ref().and_then(|cause| {
                 let motion = &alternatives[chosen].motion.states;
                 let from_s = self.world.step as f64 * STEP_S;
