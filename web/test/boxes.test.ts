@@ -2,7 +2,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { gapAtLeast, gapBetween, touching, type Footprint } from '../src/model/boxes';
-import { closestOf, gapNow } from '../src/model/closest';
+import { closestOf, gapNow, timeGapOf } from '../src/model/closest';
 import { KIND_NAMES, kindsWords } from '../src/model/kinds';
 import { newcomer, settle } from '../src/model/newcomer';
 import { PRESETS } from '../src/model/kinds';
@@ -94,6 +94,35 @@ describe('the closest moment', () => {
     expect(closestOf(Array(81).fill(car), 9)).toBeNull();
     expect(gapNow([box(0, 0)])).toBeNull();
     expect(gapNow([box(0, 0), box(10, 0), box(40, 0)])).toBeCloseTo(6);
+  });
+});
+
+describe('the time between two', () => {
+  // The one drives east along y = 0 at 10 m/s, the other comes from the south along x = 40.
+  const east = straight('car', '1', 0, 0, 10, 0);
+  const north = (y: number): readonly [Agent, Motion] => straight('car', '2', 40, y, 0, 10);
+
+  it('is from the one leaving the ground to the other coming to it', () => {
+    const found = timeGapOf(east, north(-61), 9)!;
+    const half = (a: Agent): number => (a.length + a.width) / 2;
+    // The rear of the one leaves at 4 s and half a box, the front of the other comes at 6.1 s less half a box.
+    expect(Math.abs(found.gap - (2.1 - (half(east[0]) + half(north(0)[0])) / 10))).toBeLessThan(0.11);
+    expect([found.first.id, found.second.id]).toEqual(['1', '2']);
+    expect(found.time).toBeGreaterThan(5);
+    expect(timeGapOf(north(-61), east, 9)).toEqual(found);
+  });
+
+  it('is that of one behind the other on one lane', () => {
+    const behind = straight('car', '2', -20, 0, 10, 0);
+    const found = timeGapOf(behind, east, 9)!;
+    expect(found.first.id).toBe('1');
+    expect(Math.abs(found.gap - (2 - east[0].length / 10))).toBeLessThan(0.11);
+  });
+
+  it('is none where they touch, share no ground, or one stands', () => {
+    expect(timeGapOf(east, north(-40), 9)).toBeNull();
+    expect(timeGapOf(east, straight('car', '2', 0, 6, 10, 0), 9)).toBeNull();
+    expect(timeGapOf(east, straight('car', '2', 40, 0, 0, 0), 3)).toBeNull();
   });
 });
 

@@ -169,12 +169,12 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
   }
 }
 
-/** F first, A over it, the chosen one on top. */
+/** F first, A over it, the chosen one on top; -1 where none is. */
 const drawOrder = (n: number, chosen: number): number[] =>
   [...Array(n).keys()]
     .filter((i) => i !== chosen)
     .reverse()
-    .concat(chosen < n ? [chosen] : []);
+    .concat(chosen >= 0 && chosen < n ? [chosen] : []);
 
 export interface Chip {
   readonly index: number;

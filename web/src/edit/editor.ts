@@ -3,7 +3,7 @@
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, type Camera, type HistoryStep, type KeptHistory } from '../model/history';
 import type { Command } from '../model/commands';
-import { startPose, touchedIn, type Agent, type Scene } from '../model/scene';
+import { startPose, touched, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
 import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
@@ -265,6 +265,11 @@ export class Editor {
     if (!f || !a) return 0;
     if (this.deck.ofAgent(a.id)) return this.deck.current.value;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
+  });
+  /** The selected one does what was recorded: of its futures none is in force. */
+  readonly replays = computed(() => {
+    const a = this.agent.value;
+    return a !== null && !touched(a) && !this.motion.value.driving.has(a.id) && !this.deck.ofAgent(a.id);
   });
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);

@@ -283,11 +283,16 @@ export class Overlay {
     return this.editor.beside.value?.tried === true;
   }
 
+  /** Index of the future that stands out; of who does what was recorded none does. */
+  private get bold(): number {
+    return this.editor.replays.value ? -1 : this.editor.chosen.value;
+  }
+
   private paintSix(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const f = e.futures.value;
     if (!f) return;
-    const chosen = e.chosen.value;
+    const chosen = this.bold;
     const d = e.draft.value;
     const outdated = e.outdated.value;
     if (d && d.id === a.id)
@@ -307,6 +312,7 @@ export class Overlay {
       said: e.deck.ofAgent(a.id) ? saidOf(e).map((s) => s?.verdict ?? null) : [],
     });
     this.verdicts.paintStretches(g, v, f, judged, until);
+    if (e.replays.value) trail(g, v, a.log, { colour: colours().ink, width: 2, from: 0, halo: true, dash: [5, 4] });
     if (f.sketch) {
       const m = f.modes[0].motion,
         i = m.x.length >> 1;
@@ -355,7 +361,7 @@ export class Overlay {
         v,
         f,
         this.chipIndexes(a, f.modes.length, this.committed(a)),
-        this.editor.chosen.value,
+        this.bold,
         this.tooFar(a) ? a.goal.time : undefined,
       );
   }

@@ -65,6 +65,50 @@ export function closestTo(one: Moving, others: readonly Moving[], duration: numb
   return best;
 }
 
+/** One is where the other was a moment before. */
+export interface TimeGap {
+  readonly first: Agent;
+  readonly second: Agent;
+  /** From the first leaving the ground that they share to the second coming to it, seconds. */
+  readonly gap: number;
+  /** When the second comes, seconds of the scene. */
+  readonly time: number;
+}
+
+/** Who goes less far than this uses no ground that another could come to after it, metres: as the engine has it. */
+const LEAST_WAY_M = 2;
+
+/**
+ * Post-encroachment time of two: the least shift in time at which their boxes would meet, as the engine's score has it
+ * of ways that cross; of one behind the other it is the time between them. Null where their ways share no ground, where
+ * one hardly moves, and where they touch.
+ */
+export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap | null {
+  const steps = Math.round(duration / STEP_S);
+  const [p, q] = [one, other].map((m) => Array.from({ length: steps + 1 }, (_, step) => boxAt(m, step)));
+  if (wayOf(p) < LEAST_WAY_M || wayOf(q) < LEAST_WAY_M) return null;
+  for (let shift = 0; shift <= steps; shift++)
+    for (let step = shift; step <= steps; step++) {
+      const oneFirst = share(p[step - shift], q[step]);
+      if (!oneFirst && !share(q[step - shift], p[step])) continue;
+      const [first, second] = oneFirst ? [one[0], other[0]] : [other[0], one[0]];
+      return shift ? { first, second, gap: shift * STEP_S, time: step * STEP_S } : null;
+    }
+  return null;
+}
+
+const share = (p: Footprint | null, q: Footprint | null): boolean =>
+  p !== null && q !== null && gapAtLeast(p, q) <= 0 && gapBetween(p, q) <= 0;
+
+function wayOf(boxes: readonly (Footprint | null)[]): number {
+  let way = 0;
+  boxes.reduce((before, box) => {
+    if (before && box) way += Math.hypot(box.pose.x - before.pose.x, box.pose.y - before.pose.y);
+    return box ?? before;
+  }, null);
+  return way;
+}
+
 /** The same at one moment: how far the two closest are apart, metres. */
 export function gapNow(boxes: readonly Footprint[]): number | null {
   if (boxes.length < 2 || boxes.length > MOST) return null;

@@ -65,6 +65,7 @@ export const TEXTS = table('agent', {
   of: (n: number | string) => `of ${n}`,
   noGoalSet: (n: number | string) => `${n}, no goal set`,
   nonePicked: (n: number | string) => `${n}, none picked yet`,
+  asRecorded: 'As recorded',
   itDoesWhatTheLog: 'It does what the log says until one of them is picked or a goal is set.',
   futures: 'Futures',
   keepAndReject: 'Keep and reject in rounds',

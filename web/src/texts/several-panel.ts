@@ -37,6 +37,8 @@ export const TEXTS = table('several-panel', {
   forThese: (count: number) => `for these ${count}`,
   whatTheyDoWhile: 'What they do while others change',
   goThere: 'Go there',
+  timeGap: (gap: string, first: string, second: string) => `Time gap ${gap}: ${first}, then ${second}`,
+  timeGapIs: 'From one leaving the ground they share to the other coming to it (post-encroachment time)',
   andGap: (name: string, name2: string, gap: string) => `${name} and ${name2}: ${gap}`,
   andTheyTouch: (name: string, name2: string) => `${name} and ${name2}: they touch`,
   at: (time: string) => `at ${time}`,

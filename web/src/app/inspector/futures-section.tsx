@@ -5,9 +5,10 @@ import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
 import type { Command } from '../../model/commands';
 import { takePin, unpin } from '../../model/pins';
 import { endsBefore } from '../../model/motion';
-import { goalTimeOf, hasGoal, nameIn, type Agent, type Pin, type Scene } from '../../model/scene';
+import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene } from '../../model/scene';
 import { seconds } from '../../model/units';
 import { placeWord } from '../../model/verdict-words';
+import { perform } from '../../actions/registry';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { takeFuture } from '../../edit/moves';
 import { pinnedAt, pinsApart, togglePin, type ShownPin } from '../../edit/pins';
@@ -20,8 +21,6 @@ import { TEXTS as PINS } from '../../texts/pins';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  // Nobody follows the bold one yet: it is shown doing something else.
-  const replays = useComputed(() => !agent.value.placed && !editor.motion.value.driving.has(agent.value.id));
   const note = useComputed(() => {
     const f = editor.toldFutures.value;
     const a = agent.value;
@@ -32,13 +31,13 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
     const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
     if (hasGoal(a.goal)) return TEXTS.of(n);
-    return replays.value ? TEXTS.nonePicked(n) : TEXTS.noGoalSet(n);
+    return editor.replays.value ? TEXTS.nonePicked(n) : TEXTS.noGoalSet(n);
   });
   return (
     <section class="sect last futsec" aria-label={TEXTS.futures}>
       <h3>
         {TEXTS.futures}
-        <small title={replays.value ? TEXTS.itDoesWhatTheLog : undefined}>{note}</small>
+        <small>{note}</small>
       </h3>
       <FutureList agent={agent} />
       <Remark agent={agent} />
@@ -67,6 +66,7 @@ function FutureList({ agent }: { agent: LiveAgent }) {
   if (sketch) return <p class="mut">{TEXTS.aPlainCurveIs}</p>;
   return (
     <div class="futures" role="radiogroup" aria-label={TEXTS.futures}>
+      <RecordedRow agent={agent} />
       {[...LETTERS].slice(0, count).map((letter, i) => (
         <FutureRow key={letter} agent={agent} index={i} />
       ))}
@@ -84,13 +84,44 @@ function Waiting() {
   return <p class="mut">{words}</p>;
 }
 
+/** What was recorded, where it is what happens or would be again without the pick. */
+function RecordedRow({ agent }: { agent: LiveAgent }) {
+  const c = useApp();
+  const replays = useComputed(() => c.editor.calm.read(() => c.editor.replays.value));
+  const checked = useComputed(() => String(replays.value));
+  const shown = useComputed(() => {
+    const a = agent.value;
+    return replays.value || (a.chosen !== null && !touched({ ...a, chosen: null }));
+  }).value;
+  if (!shown) return null;
+  return (
+    <div class="furow">
+      <button
+        type="button"
+        class="fu recorded"
+        role="radio"
+        aria-checked={checked as never}
+        title={TEXTS.itDoesWhatTheLog}
+        onClick={() => {
+          if (!replays.peek()) perform(c, 'reset-agent');
+        }}
+      >
+        <span class="l" />
+        <span class="nm">{TEXTS.asRecorded}</span>
+      </button>
+    </div>
+  );
+}
+
 function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mode = useComputed(() => editor.toldFutures.value?.modes[index]);
   const name = useComputed(() => mode.value?.name ?? '');
   const percent = useComputed(() => `${percents(editor.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
   const title = useComputed(() => inWords(editor.resting.value, mode.value));
-  const checked = useComputed(() => String(editor.toldChosen.value === index));
+  const checked = useComputed(() =>
+    String(editor.toldChosen.value === index && !editor.calm.read(() => editor.replays.value)),
+  );
   const pick = () => takeFuture(editor, agent.peek(), index);
   const point = () => editor.pointAt({ future: index });
   const leave = () => editor.pointAt({});

@@ -6,7 +6,7 @@ import { doing, hasGoal, type Agent, type AgentType, type Others } from '../../m
 import { metres, seconds, speedLabel } from '../../model/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
-import { closestOf, gapNow } from '../../model/closest';
+import { closestOf, gapNow, timeGapOf, type Closest } from '../../model/closest';
 import { poseShown } from '../../edit/frame';
 import { shownPose } from '../../edit/moves';
 import { OTHERS_DO } from '../parts/others';
@@ -261,32 +261,50 @@ function Rule({ all }: { all: Live }) {
 
 const firstOf = (scene: Parameters<typeof doing>[0], all: readonly Agent[]): Others => doing(scene, all[0]);
 
-/** When the two of them come closest that come closest; a click goes there. */
-function ClosestLine({ those }: { those: Live }) {
+/** How near they come: in space the two that come closest, and of two alone in time as well. */
+function Nearest({ those }: { those: Live }) {
   const { editor } = useApp();
-  const found = useComputed(() => {
+  const moving = useComputed(() => {
     const scene = editor.scene.value;
     if (!scene || editor.dragging.value || editor.motion.value.stale) return null;
-    return closestOf(
-      those.value.map((a) => [a, editor.motionFor(a)] as const),
-      scene.duration,
-    );
+    return { all: those.value.map((a) => [a, editor.motionFor(a)] as const), duration: scene.duration };
+  });
+  const closest = useComputed(() => moving.value && closestOf(moving.value.all, moving.value.duration)).value;
+  const between = useComputed(() => {
+    const { all, duration } = moving.value ?? { all: [], duration: 0 };
+    return all.length === 2 ? timeGapOf(all[0], all[1], duration) : null;
   }).value;
-  if (!found) return null;
-  const { a, b, gap, time } = found;
+  return (
+    <>
+      {closest ? <Moment time={closest.time} title={TEXTS.goThere} words={closestWords(closest)} /> : null}
+      {between ? (
+        <Moment
+          time={between.time}
+          title={TEXTS.timeGapIs}
+          words={TEXTS.timeGap(seconds(between.gap), between.first.name, between.second.name)}
+        />
+      ) : null}
+    </>
+  );
+}
+
+const closestWords = ({ a, b, gap }: Closest): string =>
+  gap > 0.005 ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name);
+
+/** What happens at a moment; a click goes there. */
+function Moment({ time, title, words }: { time: number; title: string; words: string }) {
+  const { editor } = useApp();
   return (
     <button
       type="button"
       class="closest"
-      title={TEXTS.goThere}
+      title={title}
       onClick={() => {
         editor.playhead.pause();
         editor.setTime(time);
       }}
     >
-      <span class="grow">
-        {gap > 0.005 ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name)}
-      </span>
+      <span class="grow">{words}</span>
       <span class="mut">{TEXTS.at(seconds(time))}</span>
     </button>
   );
@@ -316,7 +334,7 @@ function Who({ those }: { those: Live }) {
         {TEXTS.who}
         <small>{gap === null ? '' : TEXTS.smallestGap(metres(gap, 1))}</small>
       </h3>
-      <ClosestLine those={those} />
+      <Nearest those={those} />
       {shown.map((a) => (
         <button
           key={a.id}

@@ -2,7 +2,7 @@
 import { untracked } from '@preact/signals';
 import { thinned, type Vec } from '../../model/geometry';
 import { smoothSpeed, STEP_S, stretches, type Motion } from '../../model/motion';
-import { isSettled, type Futures } from '../../model/futures';
+import { isSettled, type Future, type Futures } from '../../model/futures';
 import { startPose, touched, type Agent } from '../../model/scene';
 import { toUnit } from '../../model/units';
 import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
@@ -108,7 +108,8 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   // What is to be taken hold of is drawn apart; while a handle is dragged nothing is.
   const taken = editor.curve.points.peek().length > 0 && !editor.dragging.peek();
   // Of two dashed lines one would be taken for the other.
-  const showLog = !before && (editor.layers.peek().log || !f);
+  const showLog = !before && (editor.layers.peek().log || !f || editor.replays.peek());
+  const inForce = !f || editor.replays.peek();
   return (
     <>
       {before ? <Curve axes={axes} motion={before} colour="var(--ink-2)" width={1.5} opacity={0.9} dash="4 3" /> : null}
@@ -116,8 +117,8 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
         <Curve
           axes={axes}
           motion={agent.log}
-          colour={f ? 'var(--log)' : 'var(--ink)'}
-          width={f ? 1.5 : 2.25}
+          colour={inForce ? 'var(--ink)' : 'var(--log)'}
+          width={inForce ? 2.25 : 1.5}
           opacity={0.9}
           dash={f ? '4 3' : ''}
           smooth
@@ -138,13 +139,13 @@ const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 /** The one in force last, on top of the others. */
 function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
   const { editor } = useApp();
-  const chosen = editor.chosen.peek();
+  const chosen = editor.replays.peek() ? -1 : editor.chosen.peek();
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';
   // Of a speed drawn by hand the others are no answer.
   const others = !editor.curve.profile.peek();
-  const inForce = f.modes[chosen];
+  const inForce: Future | undefined = f.modes[chosen];
   return (
     <>
       {f.modes.map((m, i) =>

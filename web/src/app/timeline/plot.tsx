@@ -25,6 +25,7 @@ const shown = ({ editor, variants }: Context): unknown => [
   editor.selected.value.length > 1 && editor.hover.value,
   editor.futures.value,
   editor.chosen.value,
+  editor.replays.value,
   editor.motion.value,
   editor.shownEvents.value,
   editor.beside.value,

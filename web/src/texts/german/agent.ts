@@ -65,6 +65,7 @@ export const german: Said<typeof TEXTS> = {
   of: (n: number | string) => `von ${n}`,
   noGoalSet: (n: number | string) => `${n}, kein Ziel gesetzt`,
   nonePicked: (n: number | string) => `${n}, noch keine gewählt`,
+  asRecorded: 'Wie aufgezeichnet',
   itDoesWhatTheLog: 'Es geht wie aufgezeichnet weiter, bis eine gewählt oder ein Ziel gesetzt ist.',
   futures: 'Zukünfte',
   keepAndReject: 'In Runden auswählen',

@@ -42,6 +42,8 @@ export const german: Said<typeof TEXTS> = {
   forThese: (count) => `für diese ${count}`,
   whatTheyDoWhile: 'Was sie tun, während andere sich ändern',
   goThere: 'Dorthin',
+  timeGap: (gap, first, second) => `Zeitlücke ${gap}: ${first}, dann ${second}`,
+  timeGapIs: 'Von dem, der gemeinsamen Boden verlässt, bis zum anderen, der dorthin kommt (Post-Encroachment-Time)',
   andGap: (name, name2, gap) => `${name} und ${name2}: ${gap}`,
   andTheyTouch: (name, name2) => `${name} und ${name2}: berühren sich`,
   at: (time) => `bei ${time}`,
