@@ -1,6 +1,6 @@
 //! What a user fixes about a road user: start and goal, each field free (`None`) or fixed, and the places between.
 
-use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Vec2, Via};
+use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Size, Vec2, Via};
 use serde::Serialize;
 
 /// Most road edges that one road user may be allowed to drive over.
@@ -77,6 +77,15 @@ impl Conditions {
     pub fn unknown_edges(&self, map: &LaneMap) -> Vec<usize> {
         let known = |id: &String| map.road_edges.iter().any(|edge| edge.id == *id);
         (0..self.may_cross.len()).filter(|i| !known(&self.may_cross[*i])).collect()
+    }
+
+    /// The box of a road user that has this one by itself.
+    pub fn size_of(&self, own: Size) -> Size {
+        Size {
+            length_m: self.length_m.unwrap_or(own.length_m),
+            width_m: self.width_m.unwrap_or(own.width_m),
+            ..own
+        }
     }
 
     /// What a road user counts as under these conditions.

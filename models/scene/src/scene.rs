@@ -25,6 +25,33 @@ pub const MAX_SIGNALS: usize = 512;
 /// Farthest a coordinate may lie from the origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 
+/// What an answer knows of how somebody moved before.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Before {
+    /// Hash of the recording.
+    Recorded(ContentHash),
+    /// A lone state: somebody was put there.
+    Put { step: usize, position: Vec2, heading_rad: f64, speed_mps: f64 },
+}
+
+impl Before {
+    fn of(agent: &Agent) -> Self {
+        let mut steps = agent.track.valid_steps();
+        let lone = steps.next().filter(|_| steps.next().is_none());
+        let Some((step, state)) = lone.and_then(|step| Some((step, agent.track.at(step)?))) else {
+            return Self::Recorded(agent.track.hash());
+        };
+        let fixed = &agent.conditions.start;
+        Self::Put {
+            step,
+            position: fixed.position.unwrap_or_else(|| state.position()),
+            heading_rad: fixed.heading_rad.unwrap_or(state.heading_rad),
+            speed_mps: fixed.speed_mps.unwrap_or_else(|| state.speed_mps()),
+        }
+    }
+}
+
 /// Where the scene lies in its source's frame: `source = rotate(scene, rotation) + (x, y, z)`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
@@ -160,12 +187,13 @@ impl Scene {
 
     /// Hash of what the user made: everything that decides an answer except the generated futures,
     /// the id and the name. Map and recordings are known by their own hashes, which clones of the scene
-    /// share.
+    /// share. What a condition fixes counts as fixed, whatever lies below it: a scene that is asked about with conditions
+    /// beside it has the hash of the one that they are written into.
     pub fn input_hash(&self) -> ContentHash {
         let agents: Vec<_> = self
             .agents
             .iter()
-            .map(|a| (&a.id, a.agent_type, a.subtype, a.size, a.track.hash(), &a.conditions))
+            .map(|a| (&a.id, a.agent_type, a.subtype, a.shown_size(), Before::of(a), &a.conditions))
             .collect();
         ContentHash::of(&(self.time, self.map.hash(), &self.signals, agents))
     }
@@ -346,5 +374,49 @@ fn check_ids<'a>(at: &str, ids: impl Iterator<Item = &'a String>, problems: &mut
         if problems.len() > 64 {
             return;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Size, State, Subtype};
+
+    fn scene_of(agent: Agent) -> Scene {
+        Scene::bare("one", LaneMap::default(), vec![agent])
+    }
+
+    fn put_at(x_m: f64) -> Agent {
+        let mut agent =
+            Agent::bare("1", AgentType::Vehicle, Subtype::Car, vec![Some(State { x_m, ..State::default() })]);
+        let start = &mut agent.conditions.start;
+        (start.position, start.heading_rad, start.speed_mps) =
+            (Some(Vec2::new(7.0, 0.0)), Some(0.0), Some(5.0));
+        (agent.conditions.length_m, agent.conditions.width_m) = (Some(4.0), Some(1.8));
+        agent
+    }
+
+    #[test]
+    fn who_was_put_somewhere_is_known_by_what_is_fixed_wherever_it_was_before() {
+        let moved = scene_of(put_at(7.0)).input_hash();
+        assert_eq!(scene_of(put_at(3.0)).input_hash(), moved);
+        let sized = Agent { size: Size { length_m: 4.0, width_m: 1.8, ..put_at(7.0).size }, ..put_at(7.0) };
+        assert_eq!(scene_of(sized).input_hash(), moved);
+        let mut elsewhere = put_at(7.0);
+        elsewhere.conditions.start.position = Some(Vec2::new(8.0, 0.0));
+        assert_ne!(scene_of(elsewhere).input_hash(), moved);
+        let mut free = put_at(3.0);
+        free.conditions.start.heading_rad = None;
+        assert_ne!(scene_of(free).input_hash(), moved, "a free field is what lies below it");
+    }
+
+    #[test]
+    fn a_recording_counts_whatever_is_fixed() {
+        let recorded = |x_m: f64| {
+            let states =
+                vec![Some(State { x_m, ..State::default() }), Some(State { x_m: 9.0, ..State::default() })];
+            Agent { track: crate::Track { first_step: 0, states, z_m: None }.into(), ..put_at(0.0) }
+        };
+        assert_ne!(scene_of(recorded(1.0)).input_hash(), scene_of(recorded(2.0)).input_hash());
     }
 }

@@ -22,12 +22,7 @@ pub struct Shown<'a> {
 impl Agent {
     /// The box with the length and width that the user gave it.
     pub fn shown_size(&self) -> Size {
-        let Size { length_m, width_m, height_m } = self.size;
-        Size {
-            length_m: self.conditions.length_m.unwrap_or(length_m),
-            width_m: self.conditions.width_m.unwrap_or(width_m),
-            height_m,
-        }
+        self.conditions.size_of(self.size)
     }
 
     /// With one of its futures after its history, or with its log for `None`. A start that is fixed holds from

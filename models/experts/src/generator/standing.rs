@@ -27,11 +27,7 @@ pub(super) fn background_traces(world: &World<'_>, actors: &[Actor], late: bool)
         .map(|(_, (agent, conditions))| {
             let known = Known::of(&world.scene, agent, world.step);
             let at = |step: usize| known.at(step + 1);
-            let size = scene::Size {
-                length_m: conditions.length_m.unwrap_or(agent.size.length_m),
-                width_m: conditions.width_m.unwrap_or(agent.size.width_m),
-                ..agent.size
-            };
+            let size = conditions.size_of(agent.size);
             Trace::new(&agent.id, conditions.kind_of(agent), &size, HORIZON_STEPS, at)
         })
         .collect()

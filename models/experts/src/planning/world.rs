@@ -218,11 +218,7 @@ impl AgentAtStart {
             (None, Some(s)) => s.velocity(),
             (None, None) => Vec2::zeros(),
         };
-        let size = Size {
-            length_m: conditions.length_m.unwrap_or(agent.size.length_m),
-            width_m: conditions.width_m.unwrap_or(agent.size.width_m),
-            ..agent.size
-        };
+        let size = conditions.size_of(agent.size);
         let start =
             State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
         Some(Self { index, agent_type: conditions.kind_of(agent), size, start })

@@ -44,7 +44,7 @@ export async function film(
     await frame();
     g.setTransform(1, 0, 0, 1, 0, 0);
     g.drawImage(map, 0, 0);
-    stage.paintOn(canvas, ['agents']);
+    stage.paintOn(canvas, ['agents', 'overlay']);
     progress(Math.min(1, t / duration));
   }
   recorder.stop();

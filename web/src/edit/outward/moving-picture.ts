@@ -39,7 +39,7 @@ export async function movingPicture(
 /** What is on screen, in a size that can be sent around. */
 function taken(stage: Stage): Picture {
   const whole = document.createElement('canvas');
-  stage.paintOn(whole, ['map', 'agents']);
+  stage.paintOn(whole, ['map', 'agents', 'overlay']);
   const scale = Math.min(1, MOST_WIDTH_PX / whole.width);
   const [width, height] = [Math.round(whole.width * scale), Math.round(whole.height * scale)];
   const small = Object.assign(document.createElement('canvas'), { width, height });

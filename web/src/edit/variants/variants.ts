@@ -83,6 +83,8 @@ interface Made {
   readonly why: string | null;
   readonly wanted: number;
   readonly stopped: boolean;
+  /** They go through a range of a number. */
+  readonly ranged: boolean;
 }
 
 const USUAL_COUNT = 6;
@@ -269,7 +271,7 @@ export class Variants {
 
   // -------------------------------------------------------------- making them
 
-  /** New ones in place of those that nobody kept, as one step; the first of them is shown. */
+  /** New ones in place of those that nobody kept, as one step; the first of them is shown, but of a range. */
   async make(): Promise<void> {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -289,7 +291,7 @@ export class Variants {
       : this.maker.make(open, subject, nextSeed(scene, subject), wanted);
     const { takes, why } = await this.#takesOf(source, subject, wanted, turn);
     const stopped = turn !== this.#turn;
-    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
+    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped, ranged: values !== null });
   }
 
   /** Takes one after the other until somebody stops it, and waits while it is paused. */
@@ -338,19 +340,20 @@ export class Variants {
     });
   }
 
-  #put(takes: readonly Take[], { subject, why, wanted, stopped }: Made): void {
+  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: Made): void {
     const { editor } = this;
     const { notices } = editor;
     const now = editor.scene.peek()!;
     const motion = editor.motion.peek();
-    // Work that is none of the variants gives way to the first of them: it can be kept beside them.
-    const isWork = this.shown.peek() === null && !motion.stale && editor.touchedIds(now).length > 0;
+    // Work that is none of the variants gives way to the first of them: it can be kept beside them. Values of a range
+    // stand beside the one that the document has.
+    const isWork = !ranged && this.shown.peek() === null && !motion.stale && editor.touchedIds(now).length > 0;
     const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
     if (takes.length && takes[0].scene.roster === now.roster) {
       this.#keepSets(takes);
       const states = takes.map((t) => stateOfVariant(t.scene, subject));
       const put = replaceVariants(now, states);
-      editor.run(inOneStep(put, takeVariant(now, states[0], put.name)));
+      editor.run(ranged ? put : inOneStep(put, takeVariant(now, states[0], put.name)));
       this.#current.value = null;
     }
     const n = takes.length;

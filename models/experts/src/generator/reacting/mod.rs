@@ -203,11 +203,7 @@ fn role(world: &World<'_>, request: &Request, cast: &Cast, index: usize) -> Opti
         return None;
     }
     let conditions = &world.conditions[index];
-    let size = Size {
-        length_m: conditions.length_m.unwrap_or(agent.size.length_m),
-        width_m: conditions.width_m.unwrap_or(agent.size.width_m),
-        ..agent.size
-    };
+    let size = conditions.size_of(agent.size);
     let boxes = known.iter().map(|s| s.as_ref().map(|s| OrientedBox::of_state(s, &size)));
     let moving = Moving::new(boxes.collect());
     let chosen = request.scene.generated.as_ref().and_then(|g| g.chosen_future(&agent.id));
