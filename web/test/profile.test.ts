@@ -1,6 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import { limitsOf } from '../src/model/domain';
-import { addedPoint, motionOf, movedPoint, pathOf, readProfile, stopsOf, timeOfStop } from '../src/model/profile';
+import {
+  addedPoint,
+  motionOf,
+  movedPoint,
+  pathOf,
+  readProfile,
+  stopsOf,
+  timeOfStop,
+  wantedSpeed,
+} from '../src/model/profile';
 import { hardestBraking } from '../src/model/motion';
 
 const line = (metres: number) => ({
@@ -44,6 +53,23 @@ describe('a speed drawn by hand', () => {
     expect(hardestBraking(m)).toBeLessThanOrEqual(CAR.brake_mps2 + 1e-6);
     for (let i = 1; i < m.speed.length; i++)
       expect((m.speed[i] - m.speed[i - 1]) / 0.1).toBeLessThanOrEqual(CAR.accel_mps2 + 1e-6);
+  });
+
+  it('goes from point to point at an even acceleration, and through a point between them at a like one', () => {
+    const ramp = [
+      { t: 0, v: 14, hold: 2 },
+      { t: 5.5, v: 0, hold: 3.5 },
+    ];
+    const braking = (points: typeof ramp, t: number): number =>
+      (wantedSpeed(points, t - 0.05) - wantedSpeed(points, t + 0.05)) / 0.1;
+    // 14 m/s in 3.5 s, half a second of which it takes to brake and to stop braking.
+    for (const t of [2.6, 3.5, 4.9]) expect(braking(ramp, t)).toBeCloseTo(14 / 3);
+    const through = [ramp[0], { t: 3.75, v: 7, hold: 0 }, ramp[1]];
+    for (let t = 2.6; t < 4.9; t += 0.1) expect(Math.abs(braking(through, t) - 4.4)).toBeLessThan(0.5);
+    for (const { t, v } of through) expect(wantedSpeed(through, t)).toBeCloseTo(v);
+    // Where the speed turns it does not overshoot.
+    const dip = [ramp[0], { t: 4, v: 5, hold: 0 }, { t: 6, v: 9, hold: 3 }];
+    for (let t = 0; t < 9; t += 0.05) expect(wantedSpeed(dip, t)).toBeGreaterThanOrEqual(5 - 1e-9);
   });
 
   it('goes straight on past the end of its path, and has none where it goes backwards', () => {

@@ -399,11 +399,15 @@ describe('events', () => {
           stretches: [
             { what: 'off_road', agent: '1', time: 3.3, until: 4.1, extent: 0.5 },
             { what: 'harsh_braking', agent: '3', time: 2, until: 2.4, extent: 5 },
+            { what: 'harsh_braking', agent: '3', time: 3.2, until: 3.9, extent: 6.5 },
           ],
         },
       }),
     );
     expect(events.map((e) => e.what)).toEqual(['harsh_braking', 'over_median', 'collision']);
+    // Twice within a second is once, as hard as the harder.
+    expect(events[0].words).toContain('6.5 m/s²');
+    expect([events[0].time, events[0].until]).toEqual([2, 3.9]);
     expect(events.map((e) => e.inLog)).toEqual([true, false, false]);
   });
 

@@ -6,6 +6,7 @@ import { limitsOf, topSpeed } from '../model/domain';
 import type { Futures, Score } from '../model/futures';
 import {
   addedPoint,
+  EASING_S,
   endsOf,
   lineOf,
   motionOf,
@@ -30,7 +31,7 @@ const THERE_M = 0.6;
 
 /** A new point keeps so far from others, seconds. */
 const ROOM_S = 0.4;
-/** Braking at most for a stop that is added, m/s²: one and a half times the mean, as a curve goes down. */
+/** Braking at most for a stop that is added, m/s². */
 const CALM_MPS2 = 3;
 
 const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? 0);
@@ -198,7 +199,7 @@ export class SpeedCurve {
     const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
     const middle = (widest.from + widest.to - (hold ?? 0)) / 2;
     // A stop nobody has chosen the time of is one that can be braked for calmly, where there is room.
-    const calm = widest.from + (1.5 * speedAt(motion, widest.from)) / CALM_MPS2;
+    const calm = widest.from + speedAt(motion, widest.from) / CALM_MPS2 + EASING_S;
     const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(calm, widest.to - hold - ROOM_S));
     const v = hold === null ? speedAt(motion, t) : 0;
     this.add(t, v, hold ?? 0);

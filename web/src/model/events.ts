@@ -155,10 +155,11 @@ function inWords(scene: Scene, set: MotionSet, unit: SpeedUnit, all: readonly Ra
   const byTime = [...all].sort((p, q) => p.time - q.time);
   // Faults name the place and the extent, so they stand before what the score says of the same.
   for (const r of [...byTime.filter((x) => x.at), ...byTime.filter((x) => !x.at)]) {
-    const known = r.b === null ? kept.some((k) => sameStretch(k, r)) : false;
+    const same = r.b === null ? kept.findIndex((k) => sameStretch(k, r)) : -1;
+    if (same >= 0) kept[same] = joined(kept[same], r);
     const meets = (k: Raw): boolean =>
       k.what === r.what && pairOf(k) === pairOf(r) && (r.what === 'collision' || near(k, r) < SAME_PASS_S);
-    if (known || (r.b !== null && ((r.what !== 'collision' && hit.has(pairOf(r))) || kept.some(meets)))) continue;
+    if (same >= 0 || (r.b !== null && ((r.what !== 'collision' && hit.has(pairOf(r))) || kept.some(meets)))) continue;
     kept.push(r);
   }
   return kept
@@ -174,6 +175,15 @@ const sameKind = (a: FaultKind, b: FaultKind): boolean =>
 
 const sameStretch = (a: Raw, b: Raw): boolean =>
   a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_STRETCH_S && b.time <= a.until + SAME_STRETCH_S;
+
+/** Two stretches as one: as long as both, as bad as the worse; metres that follow each other add up. */
+function joined(a: Raw, b: Raw): Raw {
+  if (a.what !== b.what) return a;
+  const adds = a.what === 'wrong_way' && (b.time > a.until || a.time > b.until);
+  const [p, q] = [a.extent ?? b.extent, b.extent ?? a.extent];
+  const extent = p === null || q === null ? null : adds ? p + q : Math.max(p, q);
+  return { ...a, time: Math.min(a.time, b.time), until: Math.max(a.until, b.until), extent };
+}
 
 const WORDS: Readonly<Record<FaultKind, string>> = {
   collision: TEXTS.collision,

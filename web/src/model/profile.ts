@@ -53,15 +53,41 @@ export function endsOf(m: Motion, end: number): SpeedPoint[] {
   return [at(0), at(end)];
 }
 
-/** The speed that is asked for at a time: from point to point without a jump in the acceleration's sign. */
+/** A change of acceleration takes so long, seconds, and at most this share of the time between two points. */
+export const EASING_S = 0.5;
+const EASING_SHARE = 1 / 3;
+
+/**
+ * The speed that is asked for at a time: through the points, at one acceleration from each to the next but for a short
+ * easing at both, so that a line of even braking is one.
+ */
 export function wantedSpeed(points: readonly SpeedPoint[], t: number): number {
   const next = points.findIndex((p) => p.t > t);
   if (next === 0) return points[0].v;
-  const from = points.at(next < 0 ? -1 : next - 1)!;
-  if (next < 0 || t <= from.t + from.hold) return from.v;
+  const at = next < 0 ? points.length - 1 : next - 1;
+  const from = points[at];
+  const left = from.t + from.hold;
+  if (next < 0 || t <= left) return from.v;
   const to = points[next];
-  const u = clamp((t - from.t - from.hold) / Math.max(1e-6, to.t - from.t - from.hold), 0, 1);
-  return lerp(from.v, to.v, u * u * (3 - 2 * u));
+  const lasts = Math.max(1e-6, to.t - left);
+  const easing = Math.min(EASING_S, lasts * EASING_SHARE);
+  const [first, last] = [slopeAt(points, at), slopeAt(points, next)];
+  const even = (to.v - from.v - ((first + last) / 2) * easing) / (lasts - easing);
+  // The acceleration goes from the one at the first point to the even one, and from that to the one at the second.
+  const eased = (slope: number, for_s: number): number => slope * for_s + ((even - slope) / easing / 2) * for_s * for_s;
+  const [gone, left_s] = [t - left, to.t - t];
+  if (gone < easing) return from.v + eased(first, gone);
+  if (left_s < easing) return to.v - eased(last, left_s);
+  return from.v + eased(first, easing) + even * (gone - easing);
+}
+
+/** Acceleration at a point, m/s²: none where the speed is held or turns, else between those on both sides. */
+function slopeAt(points: readonly SpeedPoint[], i: number): number {
+  const [before, here, after] = [points[i - 1], points[i], points[i + 1]];
+  if (!before || !after || here.hold) return 0;
+  const meanTo = (p: SpeedPoint, q: SpeedPoint): number => (q.v - p.v) / Math.max(1e-6, q.t - p.t - p.hold);
+  const [a, b] = [meanTo(before, here), meanTo(here, after)];
+  return a * b > 0 ? (2 * a * b) / (a + b) : 0;
 }
 
 /** The motion along the path at these speeds; what cannot be done in time is done as soon as it can be. */

@@ -20,7 +20,8 @@ export function PointFields() {
   const p = i === null ? undefined : curve.points.value[i];
   if (!agent || agent.locked || i === null || !p || !curve.profile.value) return null;
   const unit = editor.unitOf(agent);
-  const now = () => curve.points.value[i] ?? p;
+  // Which point it is, too, is read anew: the fields stay while another is taken.
+  const now = () => curve.points.value[curve.point.value ?? i] ?? p;
   // Of what is in hand, too.
   const shown = editor.futures.value?.modes[editor.chosen.value]?.motion ?? editor.motionFor(agent);
   const braking = hardestBraking(shown);
