@@ -2,7 +2,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { gapAtLeast, gapBetween, touching, type Footprint } from '../src/model/boxes';
-import { closestOf, gapNow, timeGapOf } from '../src/model/closest';
+import { closestOf, gapNow, timeGapOf, timeToCollision } from '../src/model/closest';
 import { KIND_NAMES, kindsWords } from '../src/model/kinds';
 import { newcomer, settle } from '../src/model/newcomer';
 import { PRESETS } from '../src/model/kinds';
@@ -117,6 +117,17 @@ describe('the time between two', () => {
     const found = timeGapOf(behind, east, 9)!;
     expect(found.first.id).toBe('1');
     expect(Math.abs(found.gap - (2 - east[0].length / 10))).toBeLessThan(0.11);
+  });
+
+  it('is at each moment what is left if both go on as they go', () => {
+    const driven = (x: number, speed: number) => {
+      const { pose, ...rest } = box(x, 0);
+      return { ...rest, pose: { ...pose, speed } };
+    };
+    expect(timeToCollision(driven(0, 10), driven(24, 0))).toBeCloseTo(2);
+    expect(timeToCollision(driven(24, 0), driven(0, 10))).toBeCloseTo(2);
+    expect(timeToCollision(driven(0, 10), driven(24, 10))).toBeNull();
+    expect(timeToCollision(driven(0, 10), driven(3, 0))).toBeNull();
   });
 
   it('is none where they touch, share no ground, or one stands', () => {

@@ -1,7 +1,7 @@
 // A case that is looked for: what is to happen to whom, whether it happens in a motion, and how near to it one comes.
 import { compareMarks } from './about';
 import { motionOf } from './changes';
-import { closestTo, type Closest, type Moving } from './closest';
+import { closestTo, timeGapOf, type Closest, type Moving } from './closest';
 import { readEvents, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
 import { pointAt, wrapAngle, type Vec } from './geometry';
@@ -154,7 +154,9 @@ function precedence(one: Moving, two: Moving, scene: Scene, set: MotionSet, s: S
   const crossing = crossingOf(one[1], two[1], scene.duration);
   if (!crossing) return null;
   const { mine, theirs } = crossing;
-  const ahead = theirs - mine;
+  // As the score has it: from the one leaving the ground to the other coming to it.
+  const between = timeGapOf(one, two, scene.duration);
+  const ahead = between ? (between.first === one[0] ? between.gap : -between.gap) : theirs - mine;
   const hit = collides(closestTo(one, [two], scene.duration), scene, set, s);
   const found = ahead > 0 && ahead <= s.limit && !hit;
   const miss = found ? ahead : s.limit + Math.abs(ahead - s.limit / 2) + (hit ? s.limit : 0);

@@ -206,9 +206,9 @@ function timeBetween(s: Float64Array, distance: number): number {
 
 const firstStep = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
 
-/** Words for the ghost of the log: how far the edited road user gets from what was recorded. */
+/** Words for the ghost of the log: how far the edited road user gets from what was recorded, where it was. */
 export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: number; t: number; words: string } | null {
-  if (m === a.log) return null;
+  if (m === a.log || a.placed) return null;
   const f = furthest(a.log, m, duration);
   if (f.d < 0.3) return null;
   const last = Math.round(duration / STEP_S);

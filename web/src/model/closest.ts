@@ -1,5 +1,6 @@
 // When several come closest to each other.
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
+import type { Pose } from './geometry';
 import { poseAtStep, STEP_S, type Motion } from './motion';
 import type { Agent } from './scene';
 
@@ -94,6 +95,26 @@ export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap
       const [first, second] = oneFirst ? [one[0], other[0]] : [other[0], one[0]];
       return shift ? { first, second, gap: shift * STEP_S, time: step * STEP_S } : null;
     }
+  return null;
+}
+
+/** A box on its way. */
+export interface Driven extends Footprint {
+  readonly pose: Pose;
+}
+
+/** Nobody looks further ahead than this, seconds. */
+const LOOKS_S = 10;
+
+/** Seconds until two would touch if both went straight on as they go now; null where they touch already or would not. */
+export function timeToCollision(p: Driven, q: Driven): number | null {
+  const on = ({ pose, ...box }: Driven, t: number): Footprint => {
+    const { x, y, heading, speed } = pose;
+    const way = speed * t;
+    return { ...box, pose: { ...pose, x: x + way * Math.cos(heading), y: y + way * Math.sin(heading) } };
+  };
+  for (let step = 0; step * STEP_S <= LOOKS_S; step++)
+    if (share(on(p, step * STEP_S), on(q, step * STEP_S))) return step ? step * STEP_S : null;
   return null;
 }
 

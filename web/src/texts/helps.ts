@@ -125,7 +125,7 @@ export const HELPS = table('helps', {
   canBeUndone: 'Can be undone for a while; examples stay',
   aLinkWithThe: 'A link with the whole scene inside',
   filesForOther: 'Files for other programs, pictures, a film, a report',
-  everybodyYou: 'Everybody you gave no goal adapts when you let go',
+  everybodyYou: 'Everybody adapts when you let go; who has a goal still meets it',
   theyDoWhat: 'They do what was recorded',
   theyStayWhere: 'They stay where they start, and nobody else comes in',
   dropsEvery: 'Drops every change; can be undone',

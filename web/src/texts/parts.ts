@@ -11,7 +11,7 @@ export const TEXTS = table('parts', {
   replayLog: 'Replay log',
   goOn: 'Go on',
   holdStill: 'Hold still',
-  everybodyYou: 'Everybody you gave no goal adapts when you let go.',
+  everybodyYou: 'Everybody adapts when you let go; who has a goal still meets it.',
   theyDoWhatWas: 'They do what was recorded; who was put here goes on as it did.',
   theyStayWhere: 'They stay where they start, and nobody else comes in.',
 });

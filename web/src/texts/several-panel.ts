@@ -43,6 +43,7 @@ export const TEXTS = table('several-panel', {
   andTheyTouch: (name: string, name2: string) => `${name} and ${name2}: they touch`,
   at: (time: string) => `at ${time}`,
   who: 'Who',
+  gapAndTime: (gap: string, left: string) => `now ${gap}, ${left} to collision`,
   smallestGap: (gap: string) => `smallest gap ${gap} now`,
   selectThisOne: 'Select this one alone; with Shift take it away',
   andMore: (more: number) => `and ${more} more`,

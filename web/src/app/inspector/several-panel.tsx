@@ -2,11 +2,11 @@
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { KIND_WORDS, kindsWords, PLACED_KINDS } from '../../model/kinds';
-import { doing, hasGoal, type Agent, type AgentType, type Others } from '../../model/scene';
+import { doing, hasGoal, touched, type Agent, type AgentType, type Others } from '../../model/scene';
 import { metres, seconds, speedLabel } from '../../model/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
-import { closestOf, gapNow, timeGapOf, type Closest } from '../../model/closest';
+import { closestOf, gapNow, timeGapOf, timeToCollision, type Closest } from '../../model/closest';
 import { poseShown } from '../../edit/frame';
 import { shownPose } from '../../edit/moves';
 import { OTHERS_DO } from '../parts/others';
@@ -235,8 +235,11 @@ const DO: Record<Others, readonly [string, string]> = {
   still: [TEXTS.holdsStill, TEXTS.holdStillWithin],
 };
 
-function Rule({ all }: { all: Live }) {
+/** It is about those who were asked nothing: the others do what they were asked. */
+function Rule({ all: chosen }: { all: Live }) {
   const { editor } = useApp();
+  const all = useComputed(() => chosen.value.filter((a) => !touched(a)));
+  const any = useComputed(() => all.value.length > 0).value;
   const words = useComputed(() => {
     const scene = editor.scene.value!;
     const count = (does: Others): number => all.value.filter((a) => doing(scene, a) === does).length;
@@ -247,6 +250,7 @@ function Rule({ all }: { all: Live }) {
       ? TEXTS.mixed(parts.join(', '))
       : OTHERS_DO[parts.length ? firstOf(scene, all.value) : 'react'];
   });
+  if (!any) return null;
   return (
     <section class="sect">
       <h3>
@@ -316,23 +320,24 @@ function Who({ those }: { those: Live }) {
   const c = useApp();
   const { editor } = c;
   // While a hand moves them nothing is compared.
-  const gap = useComputed(() =>
-    editor.dragging.value
-      ? null
-      : gapNow(
-          those.value.flatMap((a) => {
-            const pose = poseShown(editor, a);
-            return pose ? [{ pose, length: a.length, width: a.width }] : [];
-          }),
-        ),
-  ).value;
+  const now = useComputed(() => {
+    if (editor.dragging.value) return '';
+    const boxes = those.value.flatMap((a) => {
+      const pose = poseShown(editor, a);
+      return pose ? [{ pose, length: a.length, width: a.width }] : [];
+    });
+    const gap = gapNow(boxes);
+    const left = boxes.length === 2 ? timeToCollision(boxes[0], boxes[1]) : null;
+    if (gap === null) return '';
+    return left === null ? TEXTS.smallestGap(metres(gap, 1)) : TEXTS.gapAndTime(metres(gap, 1), seconds(left));
+  }).value;
   const shown = those.value.slice(0, LISTED);
   const more = those.value.length - shown.length;
   return (
     <section class="sect last">
       <h3>
         {TEXTS.who}
-        <small>{gap === null ? '' : TEXTS.smallestGap(metres(gap, 1))}</small>
+        <small>{now}</small>
       </h3>
       <Nearest those={those} />
       {shown.map((a) => (

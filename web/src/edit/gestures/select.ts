@@ -135,6 +135,14 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
   const { hit } = press;
   const a = editor.agent.peek();
   const adds = chart.modifiers.shift;
+  // Whoever adds to what is selected means the road user, not what of the selected one lies over it.
+  const over = adds && (hit.kind === 'grip' || hit.kind === 'future');
+  const other = over ? chart.parts.agentsAt(press).find((id) => id !== a?.id) : undefined;
+  if (other !== undefined) {
+    editor.playhead.pause();
+    editor.toggleSelected(other);
+    return;
+  }
   switch (hit.kind) {
     case 'agent':
       editor.playhead.pause();

@@ -291,7 +291,8 @@ export class Variants {
       : this.maker.make(open, subject, nextSeed(scene, subject), wanted);
     const { takes, why } = await this.#takesOf(source, subject, wanted, turn);
     const stopped = turn !== this.#turn;
-    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped, ranged: values !== null });
+    if (editor.scene.peek()?.id === scene.id)
+      this.#put(takes, { subject, why, wanted, stopped, ranged: values !== null });
   }
 
   /** Takes one after the other until somebody stops it, and waits while it is paused. */

@@ -129,7 +129,7 @@ export const german: Said<typeof HELPS> = {
   canBeUndone: 'Lässt sich eine Weile rückgängig machen; Beispiele bleiben',
   aLinkWithThe: 'Ein Link, der die ganze Szene enthält',
   filesForOther: 'Dateien für andere Programme, Bilder, ein Film, ein Bericht',
-  everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an',
+  everybodyYou: 'Alle passen sich beim Loslassen an; wer ein Ziel hat, erreicht es weiterhin',
   theyDoWhat: 'Sie tun, was aufgezeichnet wurde',
   theyStayWhere: 'Sie bleiben, wo sie beginnen, und niemand kommt hinzu',
   dropsEvery: 'Verwirft jede Änderung; lässt sich rückgängig machen',

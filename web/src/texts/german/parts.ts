@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   replayLog: 'Wiedergabe',
   goOn: 'Weiter',
   holdStill: 'Stehen',
-  everybodyYou: 'Alle ohne Ziel passen sich beim Loslassen an.',
+  everybodyYou: 'Alle passen sich beim Loslassen an; wer ein Ziel hat, erreicht es weiterhin.',
   theyDoWhatWas: 'Sie tun, was aufgezeichnet wurde; wer eingesetzt wurde, fährt weiter wie bisher.',
   theyStayWhere: 'Sie bleiben, wo sie beginnen, und niemand kommt hinzu.',
 };

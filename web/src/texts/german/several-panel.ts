@@ -48,6 +48,7 @@ export const german: Said<typeof TEXTS> = {
   andTheyTouch: (name, name2) => `${name} und ${name2}: berühren sich`,
   at: (time) => `bei ${time}`,
   who: 'Wer',
+  gapAndTime: (gap, left) => `jetzt ${gap}, ${left} bis zum Aufprall`,
   smallestGap: (gap) => `kleinster Abstand jetzt ${gap}`,
   selectThisOne: 'Nur diesen auswählen; mit Umschalt herausnehmen',
   andMore: (more) => `und ${more} weitere`,

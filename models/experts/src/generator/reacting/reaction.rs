@@ -75,7 +75,15 @@ pub(in crate::generator) fn reaction_of(
     let last = states.len().saturating_sub(1);
     let end = states.last().copied().unwrap_or_default();
     let delay_s = (last as f64 - nearest(&end).0 as f64) * STEP_S;
-    let aside = (0..states.len()).map(|i| (i, nearest(&states[i]).1)).max_by(|a, b| a.1.total_cmp(&b.1));
+    let beside: Vec<(usize, f64)> = states.iter().map(nearest).collect();
+    let aside = beside.iter().map(|(_, apart)| *apart).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    // Who is to be somewhere at a time is late or early on the way alone.
+    let late = beside.iter().enumerate().map(|(i, (place, _))| i as f64 - *place as f64);
+    let (earliest, lead) = late
+        .clone()
+        .enumerate()
+        .fold((last, 0.0), |most, (i, late)| if -late > most.1 { (i, -late) } else { most });
+    let lag = late.fold(0.0, f64::max);
     let slowest = (0..states.len()).min_by(|a, b| states[*a].speed_mps().total_cmp(&states[*b].speed_mps()));
     let slowest = slowest.unwrap_or(0);
     let stands = states.get(slowest).is_some_and(|s| s.speed_mps() < STANDING_MPS);
@@ -83,7 +91,7 @@ pub(in crate::generator) fn reaction_of(
     let (kind, at) = match aside {
         _ if stands && !stood => (ReactionKind::Waits, slowest),
         Some((at, away)) if away > ASIDE_M && delay_s.abs() < 1.0 => (ReactionKind::KeepsClear, at),
-        _ if delay_s < 0.0 => (ReactionKind::SpeedsUp, last),
+        _ if lead > lag => (ReactionKind::SpeedsUp, earliest),
         _ => (ReactionKind::Slows, slowest),
     };
     let state = states.get(at).copied().unwrap_or(end);
