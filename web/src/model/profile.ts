@@ -150,6 +150,9 @@ export interface Stop {
   readonly lasts: number;
 }
 
+/** A stop that begins and lasts like a drawn one within this is that one, seconds: who hardly moves stands already. */
+const SAME_STOP_S = 0.5;
+
 /**
  * Where a motion stands for at least half a second. A stop that was drawn lasts as long as it was drawn: states, one
  * each 0.1 s, say it only to a step.
@@ -163,7 +166,7 @@ export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
     const lasts = (end - i) * STEP_S;
     if (lasts >= 0.45) {
       const from = (m.first + i) * STEP_S;
-      const near = (a: number, b: number): boolean => Math.abs(a - b) < 1.5 * STEP_S;
+      const near = (a: number, b: number): boolean => Math.abs(a - b) < SAME_STOP_S;
       const drawn = points.find((p) => p.v === 0 && near(p.t, from) && near(p.hold, lasts));
       const pose = { x: m.x[i], y: m.y[i], heading: m.heading[i], speed: 0 };
       out.push({ pose, from, lasts: drawn?.hold ?? lasts });
@@ -175,6 +178,20 @@ export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
 
 // -------------------------------------------------------------- changes
 
+type Range = readonly [number, number];
+
+/** When a point of a curve may come, and for how long it may hold if it comes at `t`, seconds: it passes no other. */
+export function roomOf(
+  points: readonly SpeedPoint[],
+  i: number,
+  end: number,
+  t = points[i].t,
+): { t: Range; hold: Range } {
+  const before = i ? points[i - 1].t + points[i - 1].hold + APART_S : 0;
+  const after = i + 1 < points.length ? points[i + 1].t - APART_S : end;
+  return { t: i ? [before, Math.max(before, after)] : [0, 0], hold: [0, Math.max(0, after - t)] };
+}
+
 /** A point moved; it passes no other, and the start stays at 0 s. */
 export function movedPoint(
   points: readonly SpeedPoint[],
@@ -183,10 +200,8 @@ export function movedPoint(
   end: number,
 ): SpeedPoint[] {
   const was = points[i];
-  const before = i ? points[i - 1].t + points[i - 1].hold + APART_S : 0;
-  const after = i + 1 < points.length ? points[i + 1].t - APART_S : end;
-  const t = i ? clamp(to.t ?? was.t, before, Math.max(before, after)) : 0;
-  const hold = clamp(to.hold ?? was.hold, 0, Math.max(0, (i + 1 < points.length ? after : end) - t));
+  const t = clamp(to.t ?? was.t, ...roomOf(points, i, end).t);
+  const hold = clamp(to.hold ?? was.hold, ...roomOf(points, i, end, t).hold);
   const p = { t: round(t, 100), v: Math.max(0, to.v ?? was.v), hold: round(hold, 100) };
   return points.map((q, k) => (k === i ? p : q));
 }

@@ -1,6 +1,7 @@
 // The point of the speed curve that is in use, in numbers: how fast, for how long, when.
 import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/units';
 import { hardestBraking } from '../../model/motion';
+import { roomOf } from '../../model/profile';
 import { topSpeed } from '../../model/domain';
 import { useApp } from '../parts/app-context';
 import { CurveMisfit } from './curve-misfit';
@@ -21,7 +22,9 @@ export function PointFields() {
   if (!agent || agent.locked || i === null || !p || !curve.profile.value) return null;
   const unit = editor.unitOf(agent);
   // Which point it is, too, is read anew: the fields stay while another is taken.
-  const now = () => curve.points.value[curve.point.value ?? i] ?? p;
+  const at = () => curve.point.value ?? i;
+  const room = () => roomOf(curve.points.value, at(), editor.scene.value?.duration ?? 9);
+  const now = () => curve.points.value[at()] ?? p;
   // Of what is in hand, too.
   const shown = editor.futures.value?.modes[editor.chosen.value]?.motion ?? editor.motionFor(agent);
   const braking = hardestBraking(shown);
@@ -52,7 +55,7 @@ export function PointFields() {
           unit={() => 's'}
           quantity={() => 'time'}
           step={0.1}
-          range={() => [0, editor.scene.value?.duration ?? 9]}
+          range={() => room().hold}
           value={() => now().hold}
           text={() => num(now().hold, 1)}
           set={(hold) => curve.set(i, { hold })}
@@ -66,7 +69,7 @@ export function PointFields() {
               unit={() => 's'}
               quantity={() => 'time'}
               step={0.1}
-              range={() => [0, editor.scene.value?.duration ?? 9]}
+              range={() => room().t}
               value={() => now().t}
               text={() => num(now().t, 1)}
               set={(t) => curve.set(i, { t })}
