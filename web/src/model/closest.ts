@@ -106,7 +106,7 @@ export interface Driven extends Footprint {
 /** Nobody looks further ahead than this, seconds. */
 const LOOKS_S = 10;
 
-/** Seconds until two would touch if both went straight on as they go now; null where they touch already or would not. */
+/** Seconds until two would touch if both went straight on as they go; null where they touch already or would not. */
 export function timeToCollision(p: Driven, q: Driven): number | null {
   const on = ({ pose, ...box }: Driven, t: number): Footprint => {
     const { x, y, heading, speed } = pose;

@@ -74,6 +74,17 @@ pub(super) fn each(
     Ok(())
 }
 
+/// States less apart than this are one, metres and m/s: of a road user that was put somewhere the one is the other,
+/// rounded.
+const SAME: f64 = 5e-3;
+
+fn is_same(a: Option<&State>, b: Option<&State>) -> bool {
+    let near = |a: &State, b: &State| {
+        (a.position() - b.position()).norm() < SAME && (a.velocity() - b.velocity()).norm() < SAME
+    };
+    a.zip(b).is_some_and(|(a, b)| near(a, b))
+}
+
 /// What was recorded of a road user; it is shown where no future has taken its place.
 fn logged(
     scene: &Scene,
@@ -93,7 +104,7 @@ fn logged(
     for i in 0..track.states.len().max(1) {
         let step = track.first_step + i;
         let state = track.at(step);
-        let chosen = state.is_some() && (motion == ExportedMotion::Log || shown.track.at(step) == state);
+        let chosen = state.is_some() && (motion == ExportedMotion::Log || is_same(shown.track.at(step), state));
         take(&Row {
             scenario: name,
             agent: &agent.id,

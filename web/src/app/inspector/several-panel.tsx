@@ -6,13 +6,14 @@ import { doing, hasGoal, touched, type Agent, type AgentType, type Others } from
 import { metres, seconds, speedLabel } from '../../model/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
-import { closestOf, gapNow, timeGapOf, timeToCollision, type Closest } from '../../model/closest';
+import { gapNow, timeToCollision } from '../../model/closest';
 import { poseShown } from '../../edit/frame';
 import { shownPose } from '../../edit/moves';
 import { OTHERS_DO } from '../parts/others';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { Nearest } from './nearest';
 import { SharedField, sharedFields, type Shared } from './shared-field';
 import { inSentence } from '../../texts/language';
 import { TEXTS } from '../../texts/several-panel';
@@ -264,55 +265,6 @@ function Rule({ all: chosen }: { all: Live }) {
 }
 
 const firstOf = (scene: Parameters<typeof doing>[0], all: readonly Agent[]): Others => doing(scene, all[0]);
-
-/** How near they come: in space the two that come closest, and of two alone in time as well. */
-function Nearest({ those }: { those: Live }) {
-  const { editor } = useApp();
-  const moving = useComputed(() => {
-    const scene = editor.scene.value;
-    if (!scene || editor.dragging.value || editor.motion.value.stale) return null;
-    return { all: those.value.map((a) => [a, editor.motionFor(a)] as const), duration: scene.duration };
-  });
-  const closest = useComputed(() => moving.value && closestOf(moving.value.all, moving.value.duration)).value;
-  const between = useComputed(() => {
-    const { all, duration } = moving.value ?? { all: [], duration: 0 };
-    return all.length === 2 ? timeGapOf(all[0], all[1], duration) : null;
-  }).value;
-  return (
-    <>
-      {closest ? <Moment time={closest.time} title={TEXTS.goThere} words={closestWords(closest)} /> : null}
-      {between ? (
-        <Moment
-          time={between.time}
-          title={TEXTS.timeGapIs}
-          words={TEXTS.timeGap(seconds(between.gap), between.first.name, between.second.name)}
-        />
-      ) : null}
-    </>
-  );
-}
-
-const closestWords = ({ a, b, gap }: Closest): string =>
-  gap > 0.005 ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name);
-
-/** What happens at a moment; a click goes there. */
-function Moment({ time, title, words }: { time: number; title: string; words: string }) {
-  const { editor } = useApp();
-  return (
-    <button
-      type="button"
-      class="closest"
-      title={title}
-      onClick={() => {
-        editor.playhead.pause();
-        editor.setTime(time);
-      }}
-    >
-      <span class="grow">{words}</span>
-      <span class="mut">{TEXTS.at(seconds(time))}</span>
-    </button>
-  );
-}
 
 const LISTED = 8;
 
