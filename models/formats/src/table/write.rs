@@ -104,7 +104,8 @@ fn logged(
     for i in 0..track.states.len().max(1) {
         let step = track.first_step + i;
         let state = track.at(step);
-        let chosen = state.is_some() && (motion == ExportedMotion::Log || is_same(shown.track.at(step), state));
+        let chosen =
+            state.is_some() && (motion == ExportedMotion::Log || is_same(shown.track.at(step), state));
         take(&Row {
             scenario: name,
             agent: &agent.id,

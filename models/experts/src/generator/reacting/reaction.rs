@@ -106,3 +106,42 @@ pub(in crate::generator) fn reaction_of(
     }
     .rounded()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::Vec2;
+    use scene::motion::MotionState;
+
+    /// Walks east: the way after each step at the speed of that step.
+    fn walk(speed_mps: impl Fn(usize) -> f64) -> Trajectory {
+        let mut x_m = 0.0;
+        let at = |i: usize| {
+            if i > 0 {
+                x_m += speed_mps(i) * STEP_S;
+            }
+            MotionState {
+                position: Vec2::new(x_m, 0.0),
+                heading_rad: 0.0,
+                velocity: Vec2::new(speed_mps(i), 0.0),
+            }
+        };
+        (0..=90).map(at).collect()
+    }
+
+    fn answer(speed_mps: impl Fn(usize) -> f64) -> Reaction {
+        let kept: Vec<State> = walk(|_| 1.4).iter().skip(1).map(State::from).collect();
+        reaction_of(&kept, &walk(speed_mps), "car".into(), 0.0)
+    }
+
+    #[test]
+    fn who_is_due_somewhere_and_hurries_first_speeds_up() {
+        // 4 m ahead half the way, and there when it was.
+        let hurries = answer(|i| if i <= 45 { 2.0 } else { 0.8 });
+        assert_eq!(hurries.kind, ReactionKind::SpeedsUp);
+        assert!((hurries.time_s - 4.5).abs() < 1.5, "{}", hurries.time_s);
+        let dawdles = answer(|i| if i <= 45 { 0.8 } else { 2.0 });
+        assert_eq!(dawdles.kind, ReactionKind::Slows);
+        assert!(dawdles.time_s < 4.6, "{}", dawdles.time_s);
+    }
+}
