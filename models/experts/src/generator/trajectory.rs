@@ -11,7 +11,7 @@ use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
     Gear, GoalError, Kind, Knots, Limiting, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit,
-    project,
+    project, refit_after,
 };
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -264,7 +264,8 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
 /// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
 /// this slot.
 fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
-    let knots = fit(&plan.model, &samples(plan, &places));
+    let samples = samples(plan, &places);
+    let knots = fit(&plan.model, &samples);
     let target = projected_onto(plan);
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };
@@ -275,14 +276,30 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Mot
         let due = target.step / PER_INSTANT;
         let off_m = places.iter().enumerate().take(due).map(off).fold(0.0, f64::max);
         if motion.reach.is_reached() && off_m < ALONG_LANE_M {
-            return motion.into();
+            return on_after(plan, motion, &samples).into();
         }
     }
     let motion = projected(plan, &knots, &target);
     if motion.reach.is_reached() {
-        return motion.into();
+        return on_after(plan, motion, &samples).into();
     }
     reversing(plan, &motion).unwrap_or_else(|| motion.into())
+}
+
+/// The same motion to the goal, and from there on past the places after it.
+fn on_after(plan: &AgentPlan, motion: Projection, samples: &[Sampled]) -> Projection {
+    let (model, step) = (&plan.model, plan.target.step);
+    if projected_onto(plan).is_free() {
+        return motion;
+    }
+    let knots = refit_after(model, &motion.knots, step, samples);
+    if knots == motion.knots {
+        return motion;
+    }
+    let trajectory = model.rollout(&knots);
+    // One that was found with another gear is not of this model.
+    let same = (trajectory[step].position - motion.trajectory[step].position).norm() < 1e-9;
+    if same { Projection { knots, trajectory, ..motion } } else { motion }
 }
 
 /// Braking of what rolls backwards without a reason to, m/s2.

@@ -7,7 +7,7 @@
 use super::drive::{rollout, sensitivities};
 use super::walk::position_row;
 use super::{CONTROLS, Gear, Kind, Knots, MotionModel};
-use crate::{KNOT_S, KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
 /// One wanted state of the box centre, scene frame.
@@ -39,6 +39,18 @@ pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
         Kind::Drive => fit_drive(model, samples),
         Kind::Walk => fit_walk(model, samples),
     }
+}
+
+/// The same motion up to a step, and from there on past the samples after it: on wheels, what was changed to meet a goal
+/// at that step leaves it with another place, speed and heading than the knots after it were made for.
+pub fn refit_after(model: &MotionModel, knots: &Knots, step: usize, samples: &[Sampled]) -> Knots {
+    // Up to the one before, the motion before that step depends on them.
+    let free = step.div_ceil(KNOT_STEPS) + 1;
+    let after = samples.partition_point(|s| s.step <= step);
+    if model.kind != Kind::Drive || free >= KNOTS || after == samples.len() {
+        return *knots;
+    }
+    refine_positions(model, &samples[after..], *knots, free)
 }
 
 /// `weight` times the integral of the squared second derivative over time, by second differences, plus `size` times
@@ -76,7 +88,7 @@ fn fit_drive(model: &MotionModel, samples: &[Sampled]) -> Knots {
     let mut knots = model.legal(&Knots { first, second: [0.0; KNOTS] });
     knots.second = fit_headings(model, samples, &knots);
     knots = model.legal(&knots);
-    refine_positions(model, samples, knots)
+    refine_positions(model, samples, knots, 0)
 }
 
 /// Acceleration knots from the distance travelled.
@@ -129,7 +141,8 @@ fn fit_headings(model: &MotionModel, samples: &[Sampled], knots: &Knots) -> [f64
     ridge(&rows, &wanted, &smoothness(ROUGHNESS[1], SIZE[1]))
 }
 
-fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots) -> Knots {
+/// Steps towards knots that pass the samples; those before `free` stay as they are.
+fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots, free: usize) -> Knots {
     let steps: Vec<usize> = samples.iter().map(|s| s.step).collect();
     let goals: Vec<Vec2> = samples.iter().map(|s| model.to_local(s.position)).collect();
     let mut penalty = Square::<CONTROLS>::zeros();
@@ -155,11 +168,17 @@ fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots) 
             break;
         }
         let (mut normal, mut right) = (penalty, -(penalty * u));
+        let held = |i: usize| i % KNOTS < free;
         for (row, r) in rows {
             let row = SVector::<f64, CONTROLS>::from_column_slice(row);
             right += row * r;
             // Its lower half is all that the factors are made of.
             normal.syger(1.0, &row, &row, 1.0);
+        }
+        for i in (0..CONTROLS).filter(|i| held(*i)) {
+            normal.row_mut(i).fill(0.0);
+            normal.column_mut(i).fill(0.0);
+            (normal[(i, i)], right[i]) = (1.0, 0.0);
         }
         let Some(change) = normal.cholesky().map(|c| c.solve(&right)) else { break };
         let next = u + change;

@@ -11,7 +11,7 @@ pub mod tension;
 pub mod walk;
 mod whiten;
 
-pub use fit::{Sampled, fit};
+pub use fit::{Sampled, fit, refit_after};
 pub use project::{GoalError, Limiting, Pass, Projection, Reach, Target, project, project_through};
 pub use tension::Tension;
 pub use whiten::knot_covariance_factor;
