@@ -84,6 +84,12 @@ tuning! {
         /// A goal on a lane with its heading free is met along the lane where the path there is within this of it,
         /// radians. Set by hand. 2026-11-22.
         along_lane_rad = 1.0, off 0.0;
+        /// How long what was learned of the line to a goal goes on after it, seconds: the way goes on along the lane there,
+        /// and to a lane that is changed to early little was learned. Vehicles on a straight road with a goal in the other
+        /// lane before 6 s: of six futures 74 % left the road, none does, and they stay in the lane; with goals of
+        /// recordings 4 s ahead on 30 of the 71 scenes 8 % left it, now 3 %, and are as near to the log (mean of six
+        /// 10.7 m, now 10.6). 2026-11-26.
+        after_goal_s = 0.5, off 1e9;
         /// Pace of drivers on a long way round to a goal, m/s. Set by hand. 2026-11-22.
         easy_mps = 13.0;
         /// Speed that is taken for allowed, over the limit that the map names. Set by hand. 2026-11-21.

@@ -5,16 +5,16 @@ use super::ahead::PathFacts;
 use super::encode::{self, Frame};
 use super::tables::ANCHOR;
 use super::tangent::tangent;
-use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
 use crate::planning::crossing::{Kerb, kerb};
 use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::through::Waypoint;
 use crate::planning::world::{AgentAtStart, World};
+use crate::planning::{INSTANT_S, INSTANTS, MODES};
 use scene::geometry::obb::OrientedBox;
-use scene::motion::{MotionModel, Target};
+use scene::motion::{Kind, MotionModel, Target};
 use scene::score::Drivable;
-use scene::{AgentType, STANDING_MPS, Vec2, wrap_angle};
+use scene::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use std::sync::Arc;
 
 /// So far beyond the road's edge a corner still counts as on the road, metres.
@@ -42,6 +42,8 @@ pub struct AgentPlan {
     pub lane_headings: [Option<f64>; MODES],
     /// How those who stand set off towards a goal, m/s2.
     pub easy_mps2: f64,
+    /// Share of the learned offsets that is driven at each instant: less and less after a goal.
+    pub aside_share: [f64; INSTANTS],
     /// Where it may drive: [`World::ground`].
     pub drivable: Arc<Drivable>,
     /// The same; `None` for who does not start there or is no vehicle.
@@ -112,6 +114,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         kerbs,
         lane_headings,
         easy_mps2,
+        aside_share: aside_share(&model, &target, world.tuning.anchors.after_goal_s),
         drivable,
         ground,
         features,
@@ -134,6 +137,15 @@ impl AgentPlan {
 }
 
 /// See [`AgentPlan::ground`].
+/// On wheels it fades after a goal with a place, by e in `fading_s` seconds; on foot nobody keeps to a lane.
+fn aside_share(model: &MotionModel, target: &Target, fading_s: f64) -> [f64; INSTANTS] {
+    let fades = model.kind == Kind::Drive && target.position.is_some();
+    std::array::from_fn(|i| {
+        let past_s = (i + 1) as f64 * INSTANT_S - target.step as f64 * STEP_S;
+        if fades && past_s > 0.0 { (-past_s / fading_s).exp() } else { 1.0 }
+    })
+}
+
 fn ground(ground: &Arc<Drivable>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
     let outline = OrientedBox::of_state(&who.start, &who.size);
     let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);

@@ -67,6 +67,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
             along += f64::from(ALONG_SCALE * BASIS.along[i][k] * residual[k]);
             across += f64::from(ACROSS_SCALE * BASIS.across[i][k] * residual[KNOTS + k]);
         }
+        across *= plan.aside_share[i];
         // Nobody rolls back along a path.
         last = along.max(last);
         *place = (last, across);
@@ -394,5 +395,27 @@ mod tests {
         let asked = Goal { position: Some(Vec2::new(0.4, 0.0)), ..Goal::default() };
         assert_eq!(crept(&car_on_a_street(0.0, asked), 0.4), 0.4);
         assert_eq!(crept(&car_on_a_street(1.0, Goal::default()), 0.4), 0.4);
+    }
+
+    #[test]
+    fn who_has_met_a_goal_goes_on_along_the_lane() {
+        let time_s = Some(4.0);
+        let goal =
+            Goal { position: Some(Vec2::new(48.0, 0.0)), heading_rad: Some(0.0), time_s, ..Goal::default() };
+        let plan = car_on_a_street(12.0, goal);
+        // Two metres aside all the time but at the goal.
+        let mut residual = [0.0; crate::planning::RESIDUAL];
+        for (k, across) in residual[KNOTS..].iter_mut().enumerate().skip(1) {
+            *across = if k == 4 { 0.0 } else { -2.0 };
+        }
+        for slot in Slot::all() {
+            let motion = to_trajectory(&plan, slot, &residual);
+            assert!(motion.reach.is_reached(), "{slot:?}: {:?}", motion.reach);
+            let (before, after) = (motion.states[20], &motion.states[60..]);
+            assert!(before.position.y < -1.0, "{slot:?} before the goal: {before:?}");
+            let beside =
+                after.iter().map(|s| s.position.y.abs() + 3.0 * s.heading_rad.abs()).fold(0.0, f64::max);
+            assert!(beside < 0.5, "{slot:?} after the goal: {beside}");
+        }
     }
 }
