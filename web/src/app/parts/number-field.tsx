@@ -1,6 +1,6 @@
 // A field for one number: shows what the handle shows, takes sums and units, steps with the arrow keys, and is
 // scrubbed by dragging its letter. What is typed belongs to the field until it is taken over.
-import { useRef } from 'preact/hooks';
+import { useId, useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
 import { useApp } from './app-context';
@@ -69,6 +69,7 @@ export function NumberField(props: NumberFieldProps) {
   const p = inUnitOfLengths(props);
   const { form, editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
+  const id = useId();
   /** Something is typed that has not been taken over. */
   const typed = useRef(false);
   /** Why what was typed is not taken. */
@@ -160,11 +161,13 @@ export function NumberField(props: NumberFieldProps) {
     }
   };
   return (
-    <label class={className}>
+    // Without a name to stand for, a label presses its first button: a step less.
+    <label class={className} for={id}>
       {p.letter ? <Scrub letter={p.letter} {...p} /> : null}
       {stepper(-1)}
       <input
         ref={input}
+        id={id}
         type="text"
         inputmode="decimal"
         autocomplete="off"
