@@ -27,6 +27,8 @@ export class Form {
   readonly #size = signal({ w: 1440, h: 900 });
   readonly #touch = signal(false);
   readonly #height = signal<SheetHeight>('peek');
+  /** Was the sheet pulled down by hand? It stays there until a hand pulls it up. */
+  #keptDown = false;
 
   /** Is a finger what one mostly points with? */
   readonly touch: ReadonlySignal<boolean> = this.#touch;
@@ -65,14 +67,26 @@ export class Form {
     return Math.round(DRAGGED_SHARE * this.#size.value.h);
   }
 
+  /** By itself, for what is shown in it. */
   open(height: SheetHeight): void {
     this.#height.value = height;
   }
 
-  /** One height up, or down; from the top on to the bottom. */
+  /** Half open for somebody who was selected, unless it is wanted down. */
+  offer(): void {
+    if (!this.#keptDown && this.#height.peek() === 'peek') this.open('half');
+  }
+
+  /** By hand, which is how it is wanted from now on. */
+  pull(height: SheetHeight): void {
+    this.#keptDown = height === 'peek';
+    this.open(height);
+  }
+
+  /** By hand one height up, or down; from the top on to the bottom. */
   step(by: 1 | -1): void {
     const n = SHEET_HEIGHTS.length;
-    this.open(SHEET_HEIGHTS[(SHEET_HEIGHTS.indexOf(this.#height.peek()) + by + n) % n]);
+    this.pull(SHEET_HEIGHTS[(SHEET_HEIGHTS.indexOf(this.#height.peek()) + by + n) % n]);
   }
 
   /** The height nearest to so many pixels. */

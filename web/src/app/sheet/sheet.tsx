@@ -32,7 +32,7 @@ export function Sheet() {
   useLiveEffect(() => {
     const id = editor.selection.value;
     const room = !variants.open.peek() && !rounds.isOpen.peek();
-    if (room && id !== null && id !== opened.current && form.height.peek() === 'peek') form.open('half');
+    if (room && id !== null && id !== opened.current) form.offer();
     opened.current = id;
   });
   // Strip and open sheet together would leave nothing of the picture.
@@ -53,6 +53,11 @@ export function Sheet() {
       data-height={form.height}
       data-held={useComputed(() => (inHand.value === null ? null : ''))}
       style={useComputed(() => `height: ${px.value}px`)}
+      onClick={(e) => {
+        const at = e.target as Element;
+        // Hardly open it is its title, and a tap on that says: show me more. What is pressed in it does what it does.
+        if (form.height.peek() === 'peek' && at.closest('.ih') && !at.closest('button')) form.pull('half');
+      }}
     >
       <button type="button" class="grip" aria-label={label} {...grip} />
       <div class="peekplay">
@@ -68,7 +73,10 @@ export function Sheet() {
 function useGrip({ form }: Context, inHand: { value: number | null }) {
   const from = useRef<{ y: number; px: number; far: number } | null>(null);
   const last = useRef({ y: 0, at: 0, speed: 0 });
+  /** With a mouse a click follows the release; one that ended a drag is none. */
+  const moved = useRef(false);
   const start = (e: PointerEvent & { currentTarget: HTMLElement }) => {
+    moved.current = false;
     from.current = { y: e.clientY, px: form.pixels(form.height.peek()), far: 0 };
     last.current = { y: e.clientY, at: e.timeStamp, speed: 0 };
     e.currentTarget.setPointerCapture(e.pointerId);
@@ -91,13 +99,11 @@ function useGrip({ form }: Context, inHand: { value: number | null }) {
     if (!f || px === null) return;
     const speed = e.timeStamp - last.current.at < 80 ? last.current.speed : 0;
     const near = form.nearest(px);
-    if (Math.abs(speed) < FLICK || near !== form.height.peek()) form.open(near);
+    if (Math.abs(speed) < FLICK || near !== form.height.peek()) form.pull(near);
     else if (speed > 0 && near !== 'full') form.step(1);
     else if (speed < 0 && near !== 'peek') form.step(-1);
     moved.current = true;
   };
-  /** A click follows the release; one that ended a drag is none. */
-  const moved = useRef(false);
   return {
     onPointerDown: start,
     onPointerMove: move,
