@@ -1,4 +1,6 @@
 // The hint of the first minute, and the toast.
+import type { Context } from '../../actions/context';
+import { FLAG_HEIGHT } from '../../draw/handles';
 import { poseShown } from '../../edit/frame';
 import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
@@ -8,12 +10,15 @@ import { viewTick } from './view-tick';
 import { TEXTS } from '../../texts/hud';
 
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
-/** How far the hint reaches to both sides of the middle, and up from the lower edge, with some air, in pixels. */
+/** How far the hint reaches to both sides of the middle, with all steps and with one, and up or down from its edge. */
 const HALF_WIDTH_PX = 340;
-const REACHES_UP_PX = 120;
+const HALF_STEP_PX = 200;
+const REACHES_PX = 120;
+const REACHES_DOWN_PX = 150;
 
 export function Coach() {
-  const { editor, form, rounds, searching, stage, ui, variants } = useApp();
+  const c = useApp();
+  const { editor, form, rounds, searching, ui, variants } = c;
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -30,20 +35,10 @@ export function Coach() {
       !variants.open.value &&
       editor.resting.value !== null,
   );
-  // It speaks of the car and of its flag, and must not lie over them.
-  const above = useComputed(() => {
-    void viewTick.value;
-    const a = shown.value && !form.sheet.value ? editor.agent.value : null;
-    const { view: v } = stage;
-    return [a && poseShown(editor, a), a && editor.goalPose(a)].some((p) => {
-      if (!p) return false;
-      const [x, y] = v.to(p.x, p.y);
-      return y > v.h - REACHES_UP_PX && Math.abs(x - v.w / 2) < HALF_WIDTH_PX;
-    });
-  });
+  const place = useComputed(() => (shown.value ? placeOf(c) : '')).value;
   if (!shown.value) return null;
   return (
-    <div class={`card coach ${ui.drawer.value ? 'shift' : ''} ${above.value ? 'above' : ''}`}>
+    <div class={`card coach ${ui.drawer.value ? 'shift' : ''} ${place}`}>
       {STEPS.map((text, i) => (
         <div key={i} class={`st ${ui.coach.value === i + 1 ? 'now' : ''}`}>
           <span class="n">{i + 1}</span>
@@ -55,6 +50,29 @@ export function Coach() {
       </button>
     </div>
   );
+}
+
+/** It speaks of the car and of its flag, and must not lie over them: elsewhere than usual where it would. */
+function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'left' | 'right' {
+  void viewTick.value;
+  const a = editor.agent.value;
+  const [car, goal] = [a && poseShown(editor, a), a && editor.goalPose(a)].map((p) => p && v.to(p.x, p.y));
+  const flag = goal && ([goal[0], goal[1] - FLAG_HEIGHT * v.grip] as const);
+  const covers = (x0: number, x1: number, y0: number, y1: number): boolean =>
+    [car, goal, flag].some((p) => !!p && p[0] > x0 && p[0] < x1 && p[1] > y0 && p[1] < y1);
+  const mid = v.w / 2;
+  if (!form.sheet.value) return covers(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, v.h - REACHES_PX, v.h) ? 'above' : '';
+  if (form.small.value) {
+    const foot = v.h - v.inset.bottom;
+    return covers(0, v.w, foot - REACHES_PX, foot) ? 'above' : '';
+  }
+  const wide = 2 * HALF_STEP_PX;
+  const starts = [
+    ['', mid - HALF_STEP_PX],
+    ['left', v.inset.left],
+    ['right', v.w - wide],
+  ] as const;
+  return starts.find(([, x]) => !covers(x, x + wide, 0, REACHES_DOWN_PX))?.[0] ?? '';
 }
 
 export function Toast() {
