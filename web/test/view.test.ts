@@ -32,6 +32,23 @@ const near = (a: readonly number[], b: readonly number[], by = 1e-6): void => {
 };
 
 describe('a view', () => {
+  it('moves just as far as brings a rectangle out from under what covers it', () => {
+    const side = fc.double({ min: 1, max: 600, noNaN: true });
+    fc.assert(
+      fc.property(view, pixel, pixel, side, side, (v, x, y, wide, high) => {
+        const box = { x0: x, y0: y, x1: x + wide, y1: y + high };
+        const corners = [v.from(box.x0, box.y0), v.from(box.x1, box.y1)] as const;
+        const clear = () => corners.every(([cx, cy]) => v.isClear(cx, cy, 20 - 1e-6));
+        const [was, { cx, cy }] = [clear(), v.camera];
+        const fits = v.panInto(box, 20);
+        expect(clear()).toBe(fits);
+        if (was || !fits) near([v.cx, v.cy], [cx, cy]);
+        const { left, right, top, bottom } = v.inset;
+        expect(fits).toBe(wide <= v.w - left - right - 40 && high <= v.h - top - bottom - 40);
+      }),
+    );
+  });
+
   it('leads from the world to the screen and back', () => {
     fc.assert(
       fc.property(view, coordinate, coordinate, (v, x, y) => {

@@ -27,6 +27,7 @@ import { focusAgent, focusField, focusGroup, focusName, focusText } from './focu
 import { followView, gliding } from './hud/view-tick';
 import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
+import { keepInSight } from './sheet/in-sight';
 import { drawPage } from './shell';
 import { coach } from './watching';
 
@@ -90,6 +91,7 @@ function connect(c: Context): void {
   followView(stage);
   lookAtMade(c);
   keepInView(c);
+  keepInSight(c);
   stage.onFrame = (now) => {
     gestures.frame(now);
     playback.frame(now);

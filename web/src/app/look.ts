@@ -107,7 +107,7 @@ const AROUND_M = 12;
 const FURTHER = 0.6;
 
 /** Where somebody will be at its goal time, before anything was worked out as recorded; null away from the start. */
-function endShown(editor: Opening['editor'], a: Agent): Vec | null {
+export function endShown(editor: Opening['editor'], a: Agent): Vec | null {
   if (editor.time.peek() > 0.05 || !canChange(a)) return null;
   if (a.goal.pos) return a.goal.pos;
   const m = editor.motionFor(a);
@@ -117,19 +117,22 @@ function endShown(editor: Opening['editor'], a: Agent): Vec | null {
 
 /** Brings road users into the picture, where they are not in it; one alone with where it ends. */
 export function reveal(c: Opening, ids: readonly string[]): void {
-  const { editor, stage } = c;
   bringIn(c, ids);
+  whenItsEndIsKnown(c, ids, () => bringIn(c, ids));
+}
+
+/** Where one ends is known when its futures are; done then, if nobody has moved the picture meanwhile. */
+export function whenItsEndIsKnown({ editor, stage }: Opening, ids: readonly string[], does: () => void): void {
   const [id] = ids;
   if (ids.length !== 1 || editor.motion.peek().futures.has(id)) return;
-  // Where it ends is known when its futures are, if nobody has moved the picture meanwhile.
-  const { cx, cy, z } = stage.view;
+  const { cx, cy, z } = stage.glide.end;
   const end = effect(() => {
     const there = editor.motion.value.futures.has(id);
     const left = editor.selection.value !== id;
     if (!there && !left) return;
     queueMicrotask(() => end());
-    const v = stage.view;
-    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.dragging.peek()) bringIn(c, ids);
+    const v = stage.glide.end;
+    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.dragging.peek()) does();
   });
 }
 

@@ -74,7 +74,9 @@ function connect(o: Opening): void {
   effect(() => {
     const drawer = editor.layouts.isOpen.value ? 'map' : ui.drawer.value;
     const left = INSET_LEFT[drawer ?? 'rail'];
+    const before = stage.view.copy();
     stage.view.inset = form.sheet.value ? insetBesideSheet(o, INSET, INSET_LEFT.rail) : { ...INSET, left };
+    if (stage.view.inset.bottom > before.inset.bottom) stage.onCovered?.(before);
     stage.element.dataset.drawer = drawer ?? '';
   });
   effect(() => followForm(o));

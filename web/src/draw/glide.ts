@@ -23,11 +23,16 @@ export class Glide {
     return this.#to !== null;
   }
 
+  /** Where the picture looks, or will look when it is there. */
+  get end(): Required<Camera> {
+    return this.#to ?? this.view.camera;
+  }
+
   /** Moves the view as `move` does, in a while. While it glides already `move` starts from where that would end. */
   by(move: (v: View) => void): void {
     const { view } = this;
     const end = view.copy();
-    if (this.#to) end.look(this.#to);
+    end.look(this.end);
     move(end);
     this.to(end.camera);
   }

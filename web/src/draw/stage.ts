@@ -34,6 +34,8 @@ export class Stage {
   private hurried = false;
   /** Called when a panel, or a smaller window, has taken room from the picture; it looked as the view says. */
   onSmaller: ((before: View) => void) | null = null;
+  /** Called when a sheet has come over a part of the picture; it looked as the view says. */
+  onCovered: ((before: View) => void) | null = null;
   /** Called once per frame before painting, for animation. */
   onFrame: ((now: number) => void) | null = null;
   readonly #watchers = new Set<() => void>();

@@ -155,6 +155,21 @@ export class View {
     return x !== 0 || y !== 0;
   }
 
+  /**
+   * Moves just as far as brings a rectangle of the screen into the part that no panel covers, so many pixels away from
+   * its edge; one that is too large for that moves nothing, and the answer is false.
+   */
+  panInto(b: Box, edge = 0): boolean {
+    const { left, right, top, bottom } = this.inset;
+    const wide = this.w - left - right - 2 * edge,
+      high = this.h - top - bottom - 2 * edge;
+    if (b.x1 - b.x0 > wide || b.y1 - b.y0 > high) return false;
+    const by = (from: number, to: number, start: number, size: number): number =>
+      from < start ? start - from : Math.min(0, start + size - to);
+    this.panBy(by(b.x0, b.x1, left + edge, wide), by(b.y0, b.y1, top + edge, high));
+    return true;
+  }
+
   /** Zooms so that the world point under (sx, sy) stays there. */
   zoomAt(sx: number, sy: number, factor: number): void {
     this.#about(sx, sy, () => (this.z = clamp(this.z * factor, MIN_ZOOM, MAX_ZOOM)));

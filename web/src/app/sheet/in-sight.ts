@@ -1,0 +1,69 @@
+// Who is selected comes out from under a sheet that opens: the picture moves just as far as that takes.
+import type { Opening } from '../../actions/context';
+import { FLAG_HEIGHT } from '../../draw/handles';
+import type { View } from '../../draw/view';
+import { poseShown } from '../../edit/frame';
+import { boxOf, type OnLine, type Vec } from '../../model/geometry';
+import type { Agent } from '../../model/scene';
+import { endShown, whenItsEndIsKnown } from '../look';
+
+/** This near to the edge of the sheet somebody is as good as under it, pixels. */
+const EDGE_PX = 20;
+/** How far a flag reaches to the side of its foot, pixels of a plain one. */
+const FLAG_WIDTH = 26;
+
+type Shown = readonly (readonly [Agent, OnLine])[];
+
+export function keepInSight(c: Opening): void {
+  const { editor, stage } = c;
+  stage.onCovered = (before) => {
+    const ids = editor.selected.peek();
+    const seen = shownOf(c, ids).some(([, p]) => before.shows(p.x, p.y));
+    // Who is taken along at once by the hand that selected it stays under that hand.
+    queueMicrotask(() => {
+      if (!seen || editor.dragging.peek()) return;
+      panTo(c, ids);
+      whenItsEndIsKnown(c, ids, () => panTo(c, ids));
+    });
+  };
+}
+
+function shownOf({ editor }: Opening, ids: readonly string[]): Shown {
+  const agents = editor.scene.peek()?.agents;
+  return ids.flatMap((id) => {
+    const a = agents?.get(id);
+    const p = a && poseShown(editor, a);
+    return p ? [[a, p] as const] : [];
+  });
+}
+
+/** With its flag where there is room for both. */
+function panTo(c: Opening, ids: readonly string[]): void {
+  const { editor, stage } = c;
+  const all = shownOf(c, ids);
+  if (!all.length) return;
+  const v = stage.view.copy();
+  v.look(stage.glide.end);
+  const { cx, cy } = v;
+  const bodies = all.flatMap(([a, p]) => around(v, p, a.length / 2));
+  const end = all.length === 1 ? endShown(editor, all[0][0]) : null;
+  if (!end || !v.panInto(boxOf([...bodies, ...flagAt(v, end)]), EDGE_PX)) v.panInto(boxOf(bodies), EDGE_PX);
+  if (v.cx !== cx || v.cy !== cy) stage.glide.to(v.camera);
+}
+
+function around(v: View, p: OnLine, metres: number): readonly Vec[] {
+  const [x, y] = v.to(p.x, p.y);
+  const r = metres * v.z;
+  return [
+    [x - r, y - r],
+    [x + r, y + r],
+  ];
+}
+
+function flagAt(v: View, end: Vec): readonly Vec[] {
+  const [x, y] = v.to(...end);
+  return [
+    [x, y],
+    [x + FLAG_WIDTH * v.grip, y - FLAG_HEIGHT * v.grip],
+  ];
+}
