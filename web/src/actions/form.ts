@@ -20,6 +20,8 @@ const HALF_ROOMY_PX = 412;
 /** Of the height that there is, at most. */
 const HALF_SHARE = 0.55;
 const FULL_SHARE = 0.92;
+/** A list over the picture needs so many pixels above the sheet. */
+const LIST_PX = 420;
 /** While something is dragged, the picture needs the rest. */
 const DRAGGED_SHARE = 0.62;
 
@@ -60,6 +62,11 @@ export class Form {
     if (height === 'full') return Math.round(Math.min(most, FULL_SHARE * h));
     const half = this.small.value ? HALF_PX : HALF_ROOMY_PX;
     return Math.round(this.low.value ? Math.min(most, 0.68 * h) : Math.min(most, half, HALF_SHARE * h));
+  }
+
+  /** Would an open sheet leave too little of the picture for a list or a card over it? */
+  get crowded(): boolean {
+    return this.#size.value.h - this.pixels('half') < LIST_PX;
   }
 
   /** No higher than this while something is dragged in the picture. */

@@ -13,7 +13,7 @@ import { Thumbnail } from './thumbnail';
 import { TEXTS } from '../../texts/scenes';
 
 export function Drawer() {
-  const { scenes } = useApp();
+  const { form, scenes } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const query = useSignal('');
   const wanted = query.value.trim().toLowerCase().split(/\s+/);
@@ -45,11 +45,15 @@ export function Drawer() {
       <div class="scns">
         <List items={scenes.list.value.filter((s) => wanted.every((w) => words(s).includes(w)))} />
       </div>
-      <div class="drop">
-        <b>{TEXTS.dropSceneFiles}</b>
-        {TEXTS.or}
-        <ChooseFiles />
-      </div>
+      {form.touch.value ? (
+        <ActionButton id="choose-files" class="line bring" />
+      ) : (
+        <div class="drop">
+          <b>{TEXTS.dropSceneFiles}</b>
+          {TEXTS.or}
+          <ChooseFiles />
+        </div>
+      )}
     </section>
   );
 }

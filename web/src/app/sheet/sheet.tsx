@@ -20,7 +20,7 @@ const FLICK = 0.45;
 
 export function Sheet() {
   const c = useApp();
-  const { editor, form, rounds, variants } = c;
+  const { editor, form, rounds, ui, variants } = c;
   /** Pixels while the grip is in hand. */
   const inHand = useSignal<number | null>(null);
   const px = useComputed(() => {
@@ -28,16 +28,21 @@ export function Sheet() {
     return editor.dragging.value ? Math.min(wanted, form.whileDragging) : wanted;
   });
   const opened = useRef<string | null>(null);
-  // Who is selected has fields to show, unless the strip of variants has their room.
+  /** Is a list over the picture that has no room beside an open sheet? */
+  const list = useComputed(() => form.crowded && editor.isOpen.value && ui.drawer.value !== null);
+  const instead = useComputed(() => variants.open.value || rounds.isOpen.value || list.value);
+  // Who is selected has fields to show, unless something else has their room.
   useLiveEffect(() => {
     const id = editor.selection.value;
-    const room = !variants.open.peek() && !rounds.isOpen.peek();
-    if (room && id !== null && id !== opened.current) form.offer();
+    if (!instead.peek() && id !== null && id !== opened.current) form.offer();
     opened.current = id;
   });
   // Strip and open sheet together would leave nothing of the picture.
   useLiveEffect(() => {
-    if (variants.open.value || rounds.isOpen.value) form.open('peek');
+    if (instead.value) form.open('peek');
+  });
+  useLiveEffect(() => {
+    if (form.height.value !== 'peek' && list.peek()) ui.showDrawer(null);
   });
   // What floats over the picture stands above the sheet; a sheet that covers everything leaves it where it was.
   useLiveEffect(() => {
