@@ -83,6 +83,8 @@ function connect(o: Opening): void {
   library.onOpen = (scene, again) => {
     nameInAddress(o, scene.id);
     if (!again) {
+      // What can be done with nobody there is said over the picture, beside which an open sheet leaves no room.
+      if (!scene.agents.size) form.open('peek');
       stage.view.turn = 0;
       lookAtOpened(o);
     }
