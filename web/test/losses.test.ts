@@ -2,6 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../src/model/commands';
+import { found, meant } from '../src/edit/outward/finding';
 import { inKinds, outFormats } from '../src/edit/outward/formats';
 import { lossesOf, stays } from '../src/edit/outward/losses';
 import type { FormatInfo } from '../src/net/types';
@@ -70,6 +71,26 @@ describe('formats', () => {
       ['dragtraffic', 'again', 'Saved scene', '.json'],
       ['csv', 'table', 'Table', '.csv'],
       ['newest', 'more', 'The newest', '.newest'],
+    ]);
+  });
+
+  it('are found by what is said of them, and the one that ends so is meant', () => {
+    const all = [
+      { label: 'Recording alone', ending: '.fcd.xml', says: 'As it is written.', name: 'Floating data (XML or CSV)' },
+      { label: 'Table', ending: '.csv', says: 'For Excel.', name: 'Table of motion (CSV)' },
+      { label: 'Report', ending: '.html', says: 'A few lines with a picture.' },
+      { label: 'Image', ending: '.png', says: 'For slides.', name: 'picture, photo' },
+      { label: 'Moving image', ending: '.gif', says: 'Again and again.' },
+    ];
+    const labels = (sought: string) => found(all, sought).map((k) => k.label);
+    const first = (sought: string) => meant(found(all, sought), sought)?.label;
+    expect([labels('csv'), first('csv'), first('.CSV')]).toEqual([['Recording alone', 'Table'], 'Table', 'Table']);
+    expect([labels('picture'), first('picture')]).toEqual([['Report', 'Image'], 'Image']);
+    expect([labels('image'), first('image')]).toEqual([['Image', 'Moving image'], 'Image']);
+    expect([labels(' photo  slides '), labels('photo excel'), first('photo excel')]).toEqual([
+      ['Image'],
+      [],
+      undefined,
     ]);
   });
 

@@ -23,6 +23,7 @@ export const TEXTS = table('formats', {
   whereEverybody: 'Where everybody is at each step, as SUMO itself writes it.',
   table: 'Table',
   aRowForEachRoad: 'A row for each road user and step, for Excel and others.',
+  tableNames: 'spreadsheet, Excel',
   tableCompact: 'Table, compact',
   theSameRowsFor: 'The same rows for pandas, R and DuckDB: smaller and quicker.',
   mapLayers: 'Map layers',

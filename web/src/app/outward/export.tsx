@@ -3,6 +3,7 @@ import { num } from '../../model/units';
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
 import { saveAll, whyNot, type ExportedFile } from '../../edit/download';
+import { found, meant } from '../../edit/outward/finding';
 import { WISHES } from '../../edit/outward/formats';
 import { stays, type Loss } from '../../edit/outward/losses';
 import type { Scope } from '../../edit/variants/variants';
@@ -105,11 +106,12 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const stop = useRef(new AbortController());
   useEffect(() => () => stop.current.abort(), []);
   const made = useFiles(kinds, chosen, stop.current.signal);
-  const shown = within(kinds, sought.value);
+  const shown = found(kinds, sought.value);
   const kind = kinds.find((k) => k.id === chosen.value)!;
   const { editor } = useApp();
   const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.motion.peek()));
-  const ready = made.value.get(kind.id);
+  // What earlier letters have chosen is not meant any more.
+  const ready = shown.length ? made.value.get(kind.id) : TEXTS.noFormatOfThat;
   const choose = (step: number) => {
     if (!shown.length) return;
     const next = shown[(shown.indexOf(kind) + step + shown.length) % shown.length];
@@ -127,9 +129,9 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
             aria-label={TEXTS.findAFormat}
             onInput={(e) => {
               sought.value = e.currentTarget.value;
-              // What is saved is in sight.
-              const found = within(kinds, sought.value);
-              if (found.length && !found.includes(kind)) chosen.value = found[0].id;
+              // What is saved is in sight, and what the last letter makes of the search.
+              const best = sought.value.trim() && meant(found(kinds, sought.value), sought.value);
+              if (best) chosen.value = best.id;
             }}
           />
         </label>
@@ -156,7 +158,6 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
             </section>
           );
         })}
-        {shown.length ? null : <p class="mut nothing">{TEXTS.noFormatOfThat}</p>}
       </div>
       <div class="dfoot">
         <span class="grow">
@@ -170,15 +171,6 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
     </>
   );
 }
-
-/** Those that all words of a search are said of. */
-const within = (kinds: readonly Kind[], sought: string): readonly Kind[] => {
-  const words = sought.toLowerCase().trim().split(/\s+/);
-  return kinds.filter(({ label, ending, says, name = '' }) => {
-    const said = `${label} ${ending} ${says} ${name}`.toLowerCase();
-    return words.every((w) => said.includes(w));
-  });
-};
 
 function fileWords({ name, blob, others = [] }: ExportedFile): string {
   const size = [blob, ...others.map((f) => f.blob)].reduce((sum, b) => sum + b.size, 0);
@@ -301,7 +293,13 @@ function SaveButton({ kind, ready, progress, stop }: SaveButtonProps) {
   };
   const words = n ? TEXTS.saveLosingThings(n) : TEXTS.save;
   return (
-    <button type="button" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off} onClick={() => void go()}>
+    <button
+      type="button"
+      class={`btn pri ${off ? 'off' : ''}`}
+      aria-disabled={off}
+      title={typeof ready === 'string' ? ready : undefined}
+      onClick={() => void go()}
+    >
       {progress.value === null ? words : progress.value > 0 ? `${Math.round(progress.value * 100)} %` : TEXTS.saving}
     </button>
   );

@@ -4,6 +4,7 @@ import { num, seconds } from '../../model/units';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
 import { eventsTable } from '../../edit/outward/events-table';
+import type { Findable } from '../../edit/outward/finding';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
 import { movingPicture } from '../../edit/outward/moving-picture';
 import { outFormats, type Wish } from '../../edit/outward/formats';
@@ -15,16 +16,10 @@ import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
 import { TEXTS } from '../../texts/export';
 
-export interface Kind {
+export interface Kind extends Findable {
   readonly id: string;
   readonly wish: Wish;
-  readonly label: string;
-  readonly ending: string;
   readonly icon: string;
-  /** One plain sentence: what it is good for. */
-  readonly says: string;
-  /** The name under which others know it. */
-  readonly name?: string;
   /** In place of a loss, for what is to be looked at. */
   readonly tag?: string;
   make(c: Context, progress: (share: number) => void, stop: AbortSignal): Promise<ExportedFile | null>;
@@ -102,6 +97,7 @@ export function ofScreen(c: Context): Kind[] {
       label: TEXTS.image,
       ending: '.png',
       icon: 'image',
+      name: TEXTS.imageNames,
       tag: view,
       make: async () => {
         const canvas = pictureOf(c);
@@ -116,6 +112,7 @@ export function ofScreen(c: Context): Kind[] {
       label: TEXTS.drawing,
       ending: '.svg',
       icon: 'image',
+      name: TEXTS.drawingNames,
       tag: view,
       make: async () => {
         const pen = new SvgPen();
@@ -136,6 +133,8 @@ export function ofScreen(c: Context): Kind[] {
       label: TEXTS.movingImage,
       ending: '.gif',
       icon: 'film',
+      // Where no film can be made it is what comes nearest to one.
+      name: moving ? TEXTS.movingImageNames : `${TEXTS.movingImageNames}, ${TEXTS.filmNames}`,
       tag: TEXTS.s10ASecond(num(scene.duration, 1)),
       make: async (_, progress, stop) => {
         const blob = await movingPicture(editor, stage, progress, stop);
@@ -151,6 +150,7 @@ export function ofScreen(c: Context): Kind[] {
             label: TEXTS.film,
             ending: `.${filmEnding(moving)}`,
             icon: 'film',
+            name: TEXTS.filmNames,
             tag: TEXTS.s30ASecond(num(scene.duration, 1)),
             make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
               const blob = await film(editor, stage, moving, progress, stop);

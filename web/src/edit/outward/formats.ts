@@ -21,6 +21,8 @@ export interface OutFormat {
   readonly icon: string;
   /** One plain sentence: what it is good for. */
   readonly says: string;
+  /** Other words by which people look for it. */
+  readonly sought?: string;
 }
 
 const OUT: readonly OutFormat[] = [
@@ -79,6 +81,7 @@ const OUT: readonly OutFormat[] = [
     label: TEXTS.table,
     icon: 'table',
     says: TEXTS.aRowForEachRoad,
+    sought: TEXTS.tableNames,
   },
   {
     id: 'parquet',
@@ -162,14 +165,18 @@ const OUT: readonly OutFormat[] = [
 /** A format without words here still goes out, under the name that the server gives it. */
 const plain = ({ id, name }: FormatInfo): OutFormat => ({ id, wish: 'more', label: name, icon: 'file', says: '' });
 
-/** What the server writes, in the order of the wishes; each with its ending and the name under which others know it. */
+/** What the server writes, by the order of wishes; each with its ending and the names under which others know it. */
 export function outFormats(known: readonly FormatInfo[]): (OutFormat & { ending: string; name: string })[] {
   const written = known.filter((f) => f.export);
   const worded = OUT.filter((o) => written.some((f) => f.id === o.id));
   const others = written.filter((f) => !OUT.some((o) => o.id === f.id)).map(plain);
   return [...worded, ...others].map((o) => {
     const f = written.find(({ id }) => id === o.id)!;
-    return { ...o, ending: `.${o.id === 'dragtraffic' ? 'json' : f.extensions[0]}`, name: f.name };
+    return {
+      ...o,
+      ending: `.${o.id === 'dragtraffic' ? 'json' : f.extensions[0]}`,
+      name: [f.name, o.sought].filter(Boolean).join(', '),
+    };
   });
 }
 

@@ -24,6 +24,7 @@ export const german: Said<typeof TEXTS> = {
   whereEverybody: 'Wo alle bei jedem Schritt sind, so wie SUMO es selbst schreibt.',
   table: 'Tabelle',
   aRowForEachRoad: 'Eine Zeile je Verkehrsteilnehmer und Schritt, für Excel und andere.',
+  tableNames: 'Tabellenkalkulation, Spreadsheet, Excel',
   tableCompact: 'Tabelle, kompakt',
   theSameRowsFor: 'Dieselben Zeilen für pandas, R und DuckDB: kleiner und schneller.',
   mapLayers: 'Kartenebenen',
