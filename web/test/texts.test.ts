@@ -1,17 +1,18 @@
 // Tables of texts: all have their German, which says the same values; how numbers are told, and who gets what language.
 import { describe, expect, it } from 'vitest';
 import { readFileSync } from 'node:fs';
-import { german, refused } from '../src/texts/german';
+import { german, refused, taps } from '../src/texts/german';
 import { inSentence, languageFor, LANGUAGE, plural } from '../src/texts/language';
 import { marked } from '../src/texts/marked';
 import { table, type Word, type Words } from '../src/texts/table';
+import { ENGLISH, tapping } from '../src/texts/tapping';
 
 const modules = import.meta.glob<Record<string, unknown>>('../src/texts/*.ts', { eager: true });
-const NO_TABLES = ['language', 'table', 'german', 'german-heard', 'german-plural', 'german-refused', 'marked'];
+const NO_TABLES = /^(language|table|marked|tapping|german(-.*)?)$/;
 const areas = new Map<string, Words>();
 for (const [path, module] of Object.entries(modules)) {
   const name = /([\w-]+)\.ts$/.exec(path)![1];
-  if (!NO_TABLES.includes(name)) areas.set(name, Object.values(module)[0] as Words);
+  if (!NO_TABLES.test(name)) areas.set(name, Object.values(module)[0] as Words);
 }
 
 /** All texts of an area, each with its path. */
@@ -46,6 +47,21 @@ describe('texts', () => {
       if (taken[0] !== taken[1] || values[0] !== values[1]) differ.push(`${key}: ${values.join(' / ')}`);
     }
     expect(differ).toEqual([]);
+  });
+
+  it('speak of taps where fingers are the hand', () => {
+    const spoken = (all: Record<string, Words>, as: typeof taps) =>
+      Object.entries(all).flatMap(([area, words]) => textsOf(tapping(words, as), area));
+    const left = [...spoken(Object.fromEntries(areas), ENGLISH), ...spoken(german, taps)].filter(
+      ([, w]) => typeof w === 'string' && /click|klick/i.test(w),
+    );
+    expect(left).toEqual([]);
+    expect(tapping({ of: { a: 'Click a car' }, by: (n: string) => `click ${n}` }, ENGLISH).of).toEqual({
+      a: 'Tap a car',
+    });
+    expect(tapping({ a: 'Doppelklick: ein Klick zum Anklicken' }, taps)).toEqual({
+      a: 'Doppeltippen: ein Tippen zum Antippen',
+    });
   });
 
   it('say every refusal of the server in German', () => {

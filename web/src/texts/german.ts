@@ -2,6 +2,7 @@
 // wait for it.
 export { heard } from './german-heard';
 export { refused } from './german-refused';
+export { taps } from './german-tapping';
 import type { Words } from './table';
 
 const files = import.meta.glob<{ readonly german: Words }>('./german/*.ts', { eager: true });

@@ -55,7 +55,6 @@ export const TEXTS = table('hud', {
   dashedBoxesWhere: 'Dashed boxes: where they would wait',
   putBack: 'put back',
   clickACar: 'Click a car',
-  tapACar: 'Tap a car',
   add: 'Add',
   dragItsFlagTo: 'Drag its flag to where it should be in 9 s',
   letGoTheOthers: 'Let go: the others react',

@@ -1,6 +1,7 @@
 // The language of the page: the one that was chosen in the menu, else the browser's.
 // It is known before any word is said: the tables wait for it, and the page is loaded anew when another one is chosen.
 import type { Words } from './table';
+import type { Taps } from './tapping';
 
 /** What people choose from. The words of English stand in the tables themselves. */
 export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const;
@@ -58,16 +59,17 @@ interface Change {
   heard(words: string): string;
   /** What the server refuses, by its code; `undefined` where that is not known. */
   refused(code: string): string | undefined;
+  readonly taps: Taps;
 }
 
 async function changeOf(): Promise<Change | null> {
   if (chosen === MARKED) {
     const { marked } = await import('./marked');
-    return { area: marked, heard: (words) => words, refused: () => undefined };
+    return { area: marked, heard: (words) => words, refused: () => undefined, taps: [] };
   }
   if (LANGUAGE === 'en') return null;
-  const { german, heard, refused } = await import('./german');
-  return { area: (area) => german[area], heard, refused: (code) => refused[code] };
+  const { german, heard, refused, taps } = await import('./german');
+  return { area: (area) => german[area], heard, refused: (code) => refused[code], taps };
 }
 
 export const change = await changeOf();

@@ -1,6 +1,7 @@
 // All that a person reads stands in tables, one a part of the page, so that a script brings its own words alone. A text
 // with values in it is a function of them. Another language is a table of the same shape (`german`).
 import { change } from './language';
+import { ENGLISH, FINGERS, tapping } from './tapping';
 
 export { plural } from './language';
 
@@ -17,5 +18,6 @@ export type Said<T> = {
 
 /** The words of an area, as this language says them. */
 export function table<const T extends Words>(area: string, english: T): Said<T> {
-  return (change ? change.area(area, english) : english) as Said<T>;
+  const said = change ? change.area(area, english) : english;
+  return (FINGERS ? tapping(said, change ? change.taps : ENGLISH) : said) as Said<T>;
 }

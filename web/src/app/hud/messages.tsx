@@ -18,7 +18,7 @@ const REACHES_DOWN_PX = 150;
 
 export function Coach() {
   const c = useApp();
-  const { editor, form, rounds, searching, ui, variants } = c;
+  const { editor, rounds, searching, ui, variants } = c;
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -42,7 +42,7 @@ export function Coach() {
       {STEPS.map((text, i) => (
         <div key={i} class={`st ${ui.coach.value === i + 1 ? 'now' : ''}`}>
           <span class="n">{i + 1}</span>
-          {i === 0 && form.touch.value ? TEXTS.tapACar : text}
+          {text}
         </div>
       ))}
       <button type="button" class="btn i" aria-label={TEXTS.closeTheHint} onClick={() => ui.endCoach()}>

@@ -60,7 +60,6 @@ export const german: Said<typeof TEXTS> = {
   dashedBoxesWhere: 'Gestrichelt: wo sie warten würden',
   putBack: 'zurücklegen',
   clickACar: 'Auf ein Auto klicken',
-  tapACar: 'Auf ein Auto tippen',
   add: 'Einsetzen',
   dragItsFlagTo: 'Seine Fahne dorthin ziehen, wo es in 9 s sein soll',
   letGoTheOthers: 'Loslassen: die anderen reagieren',
