@@ -25,20 +25,29 @@ export function Timeline() {
         <IconButton id="next-event" />
         <IconButton id="tall-timeline" />
         <span class="grow" />
-        <span class="fieldlab">{TEXTS.length}</span>
-        <Segments label={TEXTS.howMuchIsWorked} items={seconds('length', LENGTHS)} />
-        <span class="fieldlab">{TEXTS.planAnew}</span>
-        <Segments label={TEXTS.howOftenEverybody} items={seconds('replan', REPLANS)} />
-        <span class="fieldlab">{TEXTS.others}</span>
-        <Segments label={TEXTS.whatTheOthers} items={others} />
+        <Choice name={TEXTS.length} label={TEXTS.howMuchIsWorked} items={seconds('length', LENGTHS)} />
+        <Choice name={TEXTS.planAnew} label={TEXTS.howOftenEverybody} items={seconds('replan', REPLANS)} />
+        <Choice name={TEXTS.others} label={TEXTS.whatTheOthers} items={others} />
       </div>
       <Plot />
     </footer>
   );
 }
 
+type Items = readonly (readonly [string, string])[];
+
+/** What is chosen, by name, and from what; they stay side by side where the line is broken. */
+function Choice({ name, label, items }: { name: string; label: string; items: Items }) {
+  return (
+    <span class="choice">
+      <span class="fieldlab">{name}</span>
+      <Segments label={label} items={items} />
+    </span>
+  );
+}
+
 /** Seconds side by side; the unit stands once, at the end. */
-const seconds = (action: string, all: readonly number[]): (readonly [string, string])[] =>
+const seconds = (action: string, all: readonly number[]): Items =>
   all.map((s, i) => [`${action}-${s}`, i === all.length - 1 ? `${s} s` : `${s}`]);
 
 function Clock() {
