@@ -1,11 +1,12 @@
 // The menu at the pointer: actions for a road user, for several, for a goal, for the ground.
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { PLACED_KINDS } from '../model/kinds';
 import type { MenuOn } from '../edit/gestures/chart';
 import type { ContextMenu as Open } from '../actions/ui';
 import { useApp } from './parts/app-context';
 import { ActionButton } from './parts/buttons';
+import { usePressBeside } from './parts/hooks';
 import { Icon } from './parts/icons';
 import { TEXTS } from '../texts/context-menu';
 
@@ -110,13 +111,7 @@ function Box({ menu }: { menu: Open }) {
     at.value = { left: `${left}px`, top: `${Math.max(EDGE_PX, Math.min(y, lowest))}px` };
     items()[0]?.focus({ preventScroll: true });
   }, []);
-  useEffect(() => {
-    const away = (e: Event) => {
-      if (!box.current?.contains(e.target as Node)) ui.closeContextMenu();
-    };
-    addEventListener('pointerdown', away, true);
-    return () => removeEventListener('pointerdown', away, true);
-  }, [ui]);
+  usePressBeside(box, () => ui.closeContextMenu());
 
   const close = () => {
     ui.closeContextMenu();

@@ -1,7 +1,8 @@
 // A list of actions that opens: it takes the focus, arrows walk in it, and a choice or a press beside it closes it.
 import type { ComponentChildren } from 'preact';
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { useApp } from './app-context';
+import { usePressBeside } from './hooks';
 
 interface MenuListProps {
   readonly label?: string;
@@ -18,14 +19,7 @@ export function MenuList({ label, class: className, style, stays = false, childr
   const items = () => [...box.current!.querySelectorAll<HTMLElement>('button')];
 
   useLayoutEffect(() => items()[0]?.focus({ preventScroll: true }), []);
-  useEffect(() => {
-    const away = (e: Event) => {
-      const at = e.target as Element;
-      if (!box.current?.contains(at) && !at.closest?.('[data-menu]')) ui.closeMenu();
-    };
-    addEventListener('pointerdown', away, true);
-    return () => removeEventListener('pointerdown', away, true);
-  }, [ui]);
+  usePressBeside(box, () => ui.closeMenu(), 'menu');
 
   const step = (e: KeyboardEvent) => {
     if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
