@@ -7,7 +7,7 @@ import { seconds } from '../../model/units';
 import type { Command } from '../../model/commands';
 import { useApp } from '../parts/app-context';
 import { RemedyButton } from '../parts/remedy-button';
-import { trying } from '../parts/trying';
+import { useTrying } from '../parts/trying';
 import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
@@ -80,7 +80,7 @@ function WayOut({ id, words, note, cap, primary, command }: WayOutProps) {
   return (
     <button
       type="button"
-      {...trying(c, command)}
+      {...useTrying(command)}
       data-action={id}
       title={titleOf(id)}
       class={`opt ${primary ? 'pri' : ''}`}

@@ -3,11 +3,11 @@ import type { Remedy } from '../../edit/moves';
 import type { Outcome } from '../../edit/weighing';
 import { useApp } from './app-context';
 import { Icon } from './icons';
-import { trying } from './trying';
+import { useTrying } from './trying';
 
 /** `outcome`: what comes of it, where that is known already. */
 export function RemedyButton({ remedy, outcome }: { remedy: Remedy; outcome?: Outcome }) {
-  const c = useApp();
+  const { editor } = useApp();
   const { label, note, icon, primary, command } = remedy;
   return (
     <button
@@ -15,8 +15,8 @@ export function RemedyButton({ remedy, outcome }: { remedy: Remedy; outcome?: Ou
       class={`opt ${primary ? 'pri' : ''}`}
       data-remedy={label}
       title={outcome?.words}
-      {...trying(c, command)}
-      onClick={() => c.editor.run(command)}
+      {...useTrying(command)}
+      onClick={() => editor.run(command)}
     >
       <Icon name={icon} size={15} />
       {label}

@@ -1,9 +1,25 @@
 // A button that makes a change shows what comes of it while the pointer or the focus is on it.
-import type { Context } from '../../actions/context';
+import { useEffect, useRef } from 'preact/hooks';
 import type { Command } from '../../model/commands';
+import { useApp } from './app-context';
 
-export function trying({ trial }: Context, command: Command) {
-  const begin = () => trial.begin(command);
-  const stop = () => trial.stop();
+export function useTrying(command: Command) {
+  const { trial } = useApp();
+  const on = useRef(false);
+  const begin = () => {
+    on.current = true;
+    trial.begin(command);
+  };
+  const stop = () => {
+    on.current = false;
+    trial.stop();
+  };
+  // A button that goes from under the pointer hears nothing of its leaving.
+  useEffect(
+    () => () => {
+      if (on.current) trial.stop();
+    },
+    [trial],
+  );
   return { onPointerEnter: begin, onPointerLeave: stop, onFocus: begin, onBlur: stop };
 }
