@@ -49,5 +49,5 @@ export function perform(c: Context, id: string): void {
   const a = actionOf(id);
   const can = possible(c, a);
   if (can === true) a.run(c);
-  else c.editor.notices.say(can);
+  else c.editor.notices.refuse(can);
 }

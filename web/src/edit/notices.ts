@@ -48,6 +48,13 @@ export class Notices {
     this.#spoken.value = { text, urgent };
   }
 
+  /** Why something cannot be done: said, and in sight unless a way out of something else stands there. */
+  refuse(why: string): void {
+    this.say(why);
+    const shown = this.#toast.peek();
+    if (!shown?.undo && !shown?.action) this.show({ text: why });
+  }
+
   crashed(error: unknown): void {
     this.#crash.value = error instanceof Error ? `${error.message}\n${error.stack ?? ''}` : String(error);
   }
