@@ -54,6 +54,7 @@ export const TEXTS = table('hud', {
   letGoToWorkIt: 'Let go to work it out',
   dashedBoxesWhere: 'Dashed boxes: where they would wait',
   putBack: 'put back',
+  goToTheFirst: 'Go to the first of them',
   clickACar: 'Click a car',
   add: 'Add',
   dragItsFlagTo: 'Drag its flag to where it should be in 9 s',

@@ -1,10 +1,11 @@
 // The status line: what the generator is doing, or what happens in the scene.
 import type { Lane } from '../../model/lanemap';
 import { num } from '../../model/units';
-import { summary, worstOf, type TrafficEvent } from '../../model/events';
+import { counted, summary, worstOf, type TrafficEvent } from '../../model/events';
 import { KIND_WORDS } from '../../model/kinds';
 import { touched } from '../../model/scene';
 import { placedBy } from '../../actions/place';
+import { goToEvent } from '../../actions/time';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
 import { outOfReach } from '../../edit/goal-verdict';
@@ -15,6 +16,8 @@ interface Line {
   /** Colour of the dot; empty for all well. */
   readonly dot: '' | 'busy' | 'near' | 'collision';
   readonly text: string;
+  /** Where a press on it leads. */
+  readonly go?: () => void;
 }
 
 export function Status() {
@@ -65,12 +68,20 @@ function mapLine({ editor }: Context): Line {
 }
 
 /** Not a component of its own, nor is the other one: a drag goes from one to the other and back in every frame. */
-const row = ({ dot, text }: Line) => (
-  <div class="row">
-    <span class={`dot ${dot}`} />
-    {text}
-  </div>
-);
+function row({ dot, text, go }: Line) {
+  const words = (
+    <>
+      <span class={`dot ${dot}`} />
+      {text}
+    </>
+  );
+  if (!go) return <div class="row">{words}</div>;
+  return (
+    <button type="button" class="row" title={TEXTS.goToTheFirst} onClick={go}>
+      {words}
+    </button>
+  );
+}
 
 type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
 
@@ -138,10 +149,19 @@ function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
   return worst === 'collision' ? 'collision' : worst && worst !== 'short' ? 'near' : '';
 }
 
-/** What happens in the scene. */
-function sceneLine({ editor }: Context): Line {
+/** What happens in the scene; a press leads to the first of what is worst. */
+function sceneLine(c: Context): Line {
+  const { editor } = c;
   const events = editor.events.value;
-  if (worstOf(events)) return { dot: dotOf(events), text: summary(events) };
+  const worst = worstOf(events);
+  if (worst) {
+    const go = () =>
+      goToEvent(
+        c,
+        counted(events).find((e) => e.kind === worst)!,
+      );
+    return { dot: dotOf(events), text: summary(events), go };
+  }
   const scene = editor.scene.value;
   if (!scene) return { dot: '', text: TEXTS.ready };
   const { size } = scene.agents;

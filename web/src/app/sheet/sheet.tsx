@@ -37,6 +37,10 @@ export function Sheet() {
     if (!instead.peek() && id !== null && id !== opened.current) form.offer();
     opened.current = id;
   });
+  // So have events that are asked for.
+  useLiveEffect(() => {
+    if (ui.eventsPanel.value && !instead.peek()) form.offer();
+  });
   // Strip and open sheet together would leave nothing of the picture.
   useLiveEffect(() => {
     if (instead.value) form.open('peek');

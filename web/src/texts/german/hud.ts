@@ -59,6 +59,7 @@ export const german: Said<typeof TEXTS> = {
   letGoToWorkIt: 'Loslassen berechnet es',
   dashedBoxesWhere: 'Gestrichelt: wo sie warten würden',
   putBack: 'zurücklegen',
+  goToTheFirst: 'Zum ersten davon',
   clickACar: 'Auf ein Auto klicken',
   add: 'Einsetzen',
   dragItsFlagTo: 'Seine Fahne dorthin ziehen, wo es in 9 s sein soll',
