@@ -1,6 +1,6 @@
 // A field for one number: shows what the handle shows, takes sums and units, steps with the arrow keys, and is
 // scrubbed by dragging its letter. What is typed belongs to the field until it is taken over.
-import { useId, useRef } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
 import { useApp } from './app-context';
@@ -47,6 +47,9 @@ const PX_PER_STEP = 2;
 /** So long the reason of a refusal stays after the field has been left. */
 export const WHY_MS = 4000;
 
+/** How many fields there have been: the page is drawn in several places, and none may take the name of another's. */
+let made = 0;
+
 /** Sums of steps are kept free of binary dust. */
 const clean = (v: number): number => Number(v.toFixed(6));
 
@@ -69,7 +72,7 @@ export function NumberField(props: NumberFieldProps) {
   const p = inUnitOfLengths(props);
   const { form, editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
-  const id = useId();
+  const [id] = useState(() => `number-${++made}`);
   /** Something is typed that has not been taken over. */
   const typed = useRef(false);
   /** Why what was typed is not taken. */
