@@ -9,6 +9,7 @@ import { TEXTS } from '../texts/page';
 
 /** In the order in which they are likely to be wanted. */
 const PARTS = {
+  hint: () => import('./hud/coach').then((m) => m.Coach),
   'speed points': () => import('./timeline/speed-points').then((m) => m.SpeedPoints),
   agent: () => import('./inspector/agent-panel').then((m) => m.AgentPanel),
   handles: () => import('./inspector/agent-panel').then((m) => m.Sliders),

@@ -11,13 +11,13 @@ import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Later } from '../later';
 import { Banner } from './banner';
-import { Coach, Toast } from './messages';
 import { Compass } from './compass';
 import { HoverCard } from './hover-card';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
 import { LoupeWords } from './loupe-words';
 import { Thumb } from './thumb';
+import { Toast } from './toast';
 import { WayBack } from './way-back';
 import { lengthUnit } from '../../model/units';
 import { TEXTS } from '../../texts/hud';
@@ -30,6 +30,7 @@ export function Hud() {
   const { editor, form, ui } = c;
   const shift = ui.drawer.value ? 'shift' : '';
   const filling = useComputed(() => editor.filling.wish.value !== null).value;
+  const coached = useComputed(() => ui.coach.value > 0).value;
   const placing = useComputed(() => {
     const kind = placedBy(c);
     return kind && editor.placement.choice(kind).spread;
@@ -58,7 +59,7 @@ export function Hud() {
       {filling ? <Later part="fill" /> : null}
       <Later part="empty scene" />
       <WayBack />
-      <Coach />
+      {coached ? <Later part="hint" /> : null}
       <Toast />
       <Banner />
       <HoverCard />

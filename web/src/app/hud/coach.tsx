@@ -1,10 +1,10 @@
-// The hint of the first minute, and the toast.
+// The hint of the first minute.
 import type { Context } from '../../actions/context';
+import { placedBy } from '../../actions/place';
 import { FLAG_HEIGHT } from '../../draw/handles';
 import { poseShown } from '../../edit/frame';
 import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
-import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { viewTick } from './view-tick';
 import { TEXTS } from '../../texts/hud';
@@ -29,11 +29,12 @@ export function Coach() {
       !editor.filling.wish.value &&
       !editor.layouts.isOpen.value &&
       editor.selected.value.length < 2 &&
-      // Those who look for something else have found their way.
+      // Those who look for something else, or put somebody there, have found their way.
+      placedBy(c) === null &&
       !searching.open.value &&
       !rounds.isOpen.value &&
       !variants.open.value &&
-      editor.resting.value !== null,
+      !!editor.resting.value?.agents.size,
   );
   const place = useComputed(() => (shown.value ? placeOf(c) : '')).value;
   if (!shown.value) return null;
@@ -53,7 +54,7 @@ export function Coach() {
 }
 
 /** It speaks of the car and of its flag, and must not lie over them: elsewhere than usual where it would. */
-function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'left' | 'right' {
+function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'below' | 'left' | 'right' {
   void viewTick.value;
   const a = editor.agent.value;
   const [car, goal] = [a && poseShown(editor, a), a && editor.goalPose(a)].map((p) => p && v.to(p.x, p.y));
@@ -62,10 +63,7 @@ function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 
     [car, goal, flag].some((p) => !!p && p[0] > x0 && p[0] < x1 && p[1] > y0 && p[1] < y1);
   const mid = v.w / 2;
   if (!form.sheet.value) return covers(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, v.h - REACHES_PX, v.h) ? 'above' : '';
-  if (form.small.value) {
-    const foot = v.h - v.inset.bottom;
-    return covers(0, v.w, foot - REACHES_PX, foot) ? 'above' : '';
-  }
+  if (form.small.value) return covers(0, v.w, 0, REACHES_PX) ? 'below' : '';
   const wide = 2 * HALF_STEP_PX;
   const starts = [
     ['', mid - HALF_STEP_PX],
@@ -73,38 +71,4 @@ function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 
     ['right', v.w - wide],
   ] as const;
   return starts.find(([, x]) => !covers(x, x + wide, 0, REACHES_DOWN_PX))?.[0] ?? '';
-}
-
-export function Toast() {
-  const { editor, ui } = useApp();
-  const { notices } = editor;
-  const toast = notices.toast.value;
-  if (!toast) return null;
-  const { text, undo, action, second } = toast;
-  return (
-    <div class={`toast ${undo || action ? '' : 'plain'} ${ui.drawer.value ? 'shift' : ''}`}>
-      <span>{text}</span>
-      {undo ? (
-        <button type="button" class="btn" data-action="undo" onClick={() => editor.undo()}>
-          {TEXTS.undo}
-          <KeyCaps of="Ctrl+Z" />
-        </button>
-      ) : null}
-      {[action, second].map((a) =>
-        a ? (
-          <button
-            key={a.label}
-            type="button"
-            class="btn"
-            onClick={() => {
-              notices.hide();
-              a.run();
-            }}
-          >
-            {a.label}
-          </button>
-        ) : null,
-      )}
-    </div>
-  );
 }
