@@ -259,6 +259,27 @@ journeys('fingers', (stage) => {
     await e.page.getByRole('button', { name: 'Add', exact: true }).waitFor();
   });
 
+  it(
+    'a size of its own is typed, and who is put there comes out from under the sheet',
+    { timeout: 40_000 },
+    async () => {
+      const { e, f } = await open(stage, 'tablet on its side');
+      await e.page.locator('[data-action="tool-place-car"]').tap();
+      const length = e.page.getByLabel('Own length in metres', { exact: true });
+      await length.tap();
+      await e.page.keyboard.type('6.2');
+      await e.key('Enter');
+      assert.equal(await length.inputValue(), '6.2');
+      const { cx, cy } = await e.view();
+      await f.tap(await e.at(cx + 6, cy - 22));
+      await e.page.waitForSelector('.fu');
+      await e.settled();
+      const start = await e.pose('Start');
+      const [, y] = await e.at(start.x, start.y);
+      assert.ok(y < (await e.page.locator('.sheet').boundingBox()).y, 'the sheet lies over it');
+    },
+  );
+
   for (const device of Object.keys(devices)) {
     it(`everything can be pressed, and nothing sticks out: ${device}`, { timeout: 60_000 }, async () => {
       const { e, f } = await open(stage, device);
