@@ -17,7 +17,7 @@ journeys(
       await e.page.mouse.click(...(await e.at(car.start.x, car.start.y)));
       await e.page.waitForSelector('.fu');
       await e.settled();
-      assert.equal(await e.page.locator('.fu').count(), 6);
+      assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
       const before = await e.goal();
       // The canvases are painted by a worker: what the page's elements say does not show that.
       const pixels = await Pixels.open(stage.browser);

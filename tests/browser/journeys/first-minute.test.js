@@ -49,7 +49,7 @@ journeys('the first minute', (stage) => {
     await e.page.waitForSelector('.fu');
     await e.settled();
     assert.equal(await e.text('.ih h2'), car.name);
-    const rows = await e.page.locator('.fu').evaluateAll((all) =>
+    const rows = await e.page.locator('.fu[data-future]').evaluateAll((all) =>
       all.map((f) => ({
         letter: f.dataset.future,
         name: f.querySelector('.nm').textContent,

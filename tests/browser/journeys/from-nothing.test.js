@@ -79,7 +79,7 @@ journeys('from nothing', (stage) => {
     const ranked = [...modes].sort((p, q) => q.probability - p.probability);
     for (const [i, mode] of ranked.entries()) {
       const hits = (mode.faults ?? []).some((f) => f.kind === 'collision');
-      const mark = e.page.locator('.fu').nth(i).locator('.mk');
+      const mark = e.page.locator('.fu[data-future]').nth(i).locator('.mk');
       if (hits) assert.match(await mark.getAttribute('class'), /collision/, `${i}`);
     }
     await e.picture('cut-in');

@@ -61,7 +61,7 @@ journeys('long', (stage) => {
     await e.settled();
     const picked = e.wire.last().event('final').samples[0].agents[car.id];
     assert.equal(chosenOf(picked).x_m.length, 200);
-    assert.equal(await e.page.locator('.fu').count(), 6);
+    assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
     await e.picture('long-picked');
   });
 });

@@ -154,7 +154,7 @@ journeys('new map', (stage) => {
     const before = await e.pose('Goal');
     await e.type('goal-speed', '10');
     await e.settled();
-    assert.ok(before && (await e.page.locator('.fu').count()) >= 1, 'it has futures');
+    assert.ok(before && (await e.page.locator('.fu[data-future]').count()) >= 1, 'it has futures');
     await e.picture('new-map-driven');
 
     // The map can be changed later; the scene that it was made for stays.

@@ -55,7 +55,7 @@ journeys('turning', (stage) => {
     const now = await e.at(moved.x, moved.y);
     // A lane may draw it to its middle.
     assert.ok(Math.abs(now[1] - foot[1] - 70) < 6 && Math.abs(now[0] - foot[0]) < 40, `${foot} to ${now}`);
-    assert.equal(await e.page.locator('.fu').count(), 6);
+    assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
 
     // Keys move it as one sees it.
     await leave(e);
