@@ -112,7 +112,7 @@ impl Window<'_> {
                 let from_s = self.world.step as f64 * STEP_S;
                 Some(reaction_of(actor.kept.as_ref()?, motion, cause.clone(), from_s))
             });
-            let halts = matches!(alternatives[chosen].origin, Origin::Halting(_));
+            let halts = alternatives[chosen].motion.reach.is_for_traffic();
             let blocked_by = blockers[i].clone().filter(|_| halts);
             let agent = actor.plan.present.index;
             let answers = self.answers_to_each(i, chosen, &alternatives, &changed);
@@ -217,7 +217,10 @@ impl Window<'_> {
                 !others.iter().any(|o| own.starts_apart(o) && overlap(&boxes, &o.swept).overlaps)
             };
             let mut found: Vec<Candidate> = Vec::new();
-            found.extend(self.material(i).shown_halting().filter(|c| halts && is_clear(c)));
+            // What no way reaches is missed for its own reason, whoever is in the way.
+            let missed_for = |motion: Motion, o: usize| motion.for_want_of(candidates[i][o].motion.reach);
+            let before = self.material(i).shown_halting().filter(|c| halts && is_clear(c));
+            found.extend(before.map(|c| Candidate { motion: missed_for(c.motion, chosen[i]), ..c }));
             for (o, slot) in tried.take(MOST_TRIED) {
                 let plan = &actor.plan;
                 let states = &candidates[i][o].motion.states;
@@ -226,7 +229,8 @@ impl Window<'_> {
                 };
                 add(Origin::Evading(slot), way_round(plan, field, slot, states));
                 if halts {
-                    add(Origin::Halting(slot), short_of(plan, field, states));
+                    let halting = short_of(plan, field, states);
+                    add(Origin::Halting(slot), halting.map(|motion| missed_for(motion, o)));
                 }
             }
             (found, met.map(|(id, _)| (*id).clone()))

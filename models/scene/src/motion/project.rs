@@ -113,6 +113,11 @@ impl Reach {
     pub fn is_reached(&self) -> bool {
         matches!(self, Self::Reached(_))
     }
+
+    /// True where it is missed because somebody is in the way.
+    pub fn is_for_traffic(&self) -> bool {
+        matches!(self, Self::Unreachable { limiting: Limiting::Traffic, .. })
+    }
 }
 
 /// Knots after projection and the motion they make.
