@@ -30,8 +30,9 @@ export class VerdictOverlay {
   ) {}
 
   /** Under the paths: the ground that the shown one crosses and should not. */
-  paintGround(g: Pen, v: View, a: Agent, f: Futures, visible: readonly number[]): void {
-    const crossed = (fault: Fault): boolean => fault.kind === 'over_median' || fault.kind === 'off_road';
+  paintGround(g: Pen, v: View, a: Agent, f: Futures, visible: readonly number[], until = Infinity): void {
+    const crossed = ({ kind, time }: Fault): boolean =>
+      (kind === 'over_median' || kind === 'off_road') && time <= until;
     const shown = visible.length === 1 ? visible : visible.filter((i) => i === this.editor.chosen.value);
     paintGround(g, v, stretchesOf(f, shown, crossed), a.width);
   }

@@ -301,7 +301,7 @@ export class Overlay {
     const judged = this.judged(a, f);
     const until = this.tooFar(a) ? a.goal.time : undefined;
     this.verdicts.paintRoadBand(g, v, a);
-    this.verdicts.paintGround(g, v, a, f, judged);
+    this.verdicts.paintGround(g, v, a, f, judged, until);
     paintFutures(g, v, f, {
       chosen,
       only: e.hoverFuture.value,
