@@ -271,6 +271,8 @@ export class Editor {
     const a = this.agent.value;
     return a !== null && !touched(a) && !this.motion.value.driving.has(a.id) && !this.deck.ofAgent(a.id);
   });
+  /** Index of the future that stands out on the picture and in the plot; -1 where none is in force. */
+  readonly bold = computed(() => (this.replays.value ? -1 : this.chosen.value));
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);
   /** What panels say follows a drag now and then. */

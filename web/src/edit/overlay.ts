@@ -283,16 +283,11 @@ export class Overlay {
     return this.editor.beside.value?.tried === true;
   }
 
-  /** Index of the future that stands out; of who does what was recorded none does. */
-  private get bold(): number {
-    return this.editor.replays.value ? -1 : this.editor.chosen.value;
-  }
-
   private paintSix(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const f = e.futures.value;
     if (!f) return;
-    const chosen = this.bold;
+    const chosen = e.bold.value;
     const d = e.draft.value;
     const outdated = e.outdated.value;
     if (d && d.id === a.id)
@@ -361,7 +356,7 @@ export class Overlay {
         v,
         f,
         this.chipIndexes(a, f.modes.length, this.committed(a)),
-        this.bold,
+        this.editor.bold.value,
         this.tooFar(a) ? a.goal.time : undefined,
       );
   }

@@ -139,7 +139,7 @@ const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 /** The one in force last, on top of the others. */
 function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
   const { editor } = useApp();
-  const chosen = editor.replays.peek() ? -1 : editor.chosen.peek();
+  const chosen = editor.bold.peek();
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';

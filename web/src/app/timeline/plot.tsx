@@ -24,7 +24,7 @@ const shown = ({ editor, variants }: Context): unknown => [
   editor.selected.value,
   editor.selected.value.length > 1 && editor.hover.value,
   editor.futures.value,
-  editor.chosen.value,
+  editor.bold.value,
   editor.replays.value,
   editor.motion.value,
   editor.shownEvents.value,
