@@ -205,15 +205,3 @@ fn only_the_labs_commands_of_the_server_know_the_lab() {
         }
     }
 }
-
-#[test]
-fn the_formats_of_the_readme_are_those_of_the_registry() {
-    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    let (_, rest) = readme.split_once("<!-- formats:").unwrap();
-    let (_, rest) = rest.split_once("-->\n").unwrap();
-    let (table, _) = rest.split_once("<!-- end of formats -->").unwrap();
-    assert!(
-        table == formats::registry::markdown(),
-        "README.md: put between the marks what `dragtraffic info formats --markdown` prints"
-    );
-}

@@ -1,4 +1,4 @@
-//! A score in one line. The words are those of "Words of a score" in the README.
+//! A score in one line. The words are those of `docs/metrics.md`.
 
 use scene::score::Score;
 
