@@ -4,6 +4,7 @@ pub mod contract;
 #[cfg(target_os = "linux")]
 pub mod faults;
 pub mod http;
+pub mod markdown;
 pub mod mutation;
 pub mod program;
 pub mod random;
