@@ -17,15 +17,15 @@ import {
   type Judged,
   type Subject,
   type Verdict,
-} from '../src/model/feedback';
-import { feedbackTable } from '../src/model/feedback-table';
-import { againstWords, reasons, restsOn, wishWords } from '../src/model/feedback-words';
-import { patchScene, takeDealt, type Command } from '../src/model/commands';
-import { applyDiff, diffOf } from '../src/model/scene-diff';
-import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/json';
-import { readScene } from '../src/model/read';
-import { sceneKey, type Scene } from '../src/model/scene';
-import { writeScene } from '../src/model/write';
+} from '../src/model/document/feedback';
+import { feedbackTable } from '../src/model/words/feedback-table';
+import { againstWords, reasons, restsOn, wishWords } from '../src/model/words/feedback-words';
+import { patchScene, takeDealt, type Command } from '../src/model/document/commands';
+import { applyDiff, diffOf } from '../src/model/document/scene-diff';
+import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/document/scene-json';
+import { readScene } from '../src/model/document/scene-reader';
+import { sceneKey, type Scene } from '../src/model/document/scene';
+import { writeScene } from '../src/model/document/scene-writer';
 import { car, crossing, crossingJson } from './helpers';
 
 const like = (harsh: number, more: Partial<FeaturesJson> = {}): FeaturesJson => ({

@@ -1,8 +1,8 @@
 // What happens in motions that are known already.
-import { motionOf } from '../model/changes';
-import type { MotionSet, Score } from '../model/futures';
-import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/scene';
-import { thresholdsOf, trackJson } from '../model/write';
+import { motionOf } from '../model/physics/changes';
+import type { MotionSet, Score } from '../model/document/futures';
+import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/document/scene';
+import { thresholdsOf, trackJson } from '../model/document/scene-writer';
 import type { Generator } from '../net/generator';
 import { readScore } from './read-answer';
 import type { SceneFile } from './scene-file';

@@ -1,6 +1,6 @@
 // What happens above the plot, each sign at its time. What is in the log is a small grey one and takes no room.
 import { goToEvent } from '../../actions/time';
-import { counted, type TrafficEvent } from '../../model/events';
+import { counted, type TrafficEvent } from '../../model/physics/events';
 import { useApp } from '../parts/app-context';
 import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
 import { TEXTS } from '../../texts/timeline';

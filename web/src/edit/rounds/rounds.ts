@@ -17,11 +17,11 @@ import {
   type Subject,
   type Verdict,
   type Wish,
-} from '../../model/feedback';
-import { reasons, wishWords } from '../../model/feedback-words';
-import { LETTERS } from '../../model/futures';
-import { canMove, nameIn } from '../../model/scene';
-import { takeDealt, type Command } from '../../model/commands';
+} from '../../model/document/feedback';
+import { reasons, wishWords } from '../../model/words/feedback-words';
+import { LETTERS } from '../../model/document/futures';
+import { canMove, nameIn } from '../../model/document/scene';
+import { takeDealt, type Command } from '../../model/document/commands';
 import type { Generator } from '../../net/generator';
 import { inWords } from '../../net/refusal';
 import type { FinalEvent } from '../../net/types';

@@ -1,5 +1,5 @@
 // What was said of the cards on the table.
-import { answerTo, everybody, oneSubject, type Answer, type Subject } from '../../model/feedback';
+import { answerTo, everybody, oneSubject, type Answer, type Subject } from '../../model/document/feedback';
 import type { Editor } from '../editor';
 
 const NONE: readonly null[] = Object.freeze([]);
