@@ -1,6 +1,6 @@
 // What somebody does beside what was recorded of it, where the recording has gaps, begins late or goes on for longer.
 import { describe, expect, it } from 'vitest';
-import { comparedWithLog, findChanges } from '../src/model/physics/changes';
+import { comparedWithLog, findChanges } from '../src/model/words/change-words';
 import { emptyMotion } from '../src/model/document/futures';
 import { distances, motionFrom, type Motion } from '../src/model/base/motion';
 import { sceneKey, withAgents, type Agent } from '../src/model/document/scene';

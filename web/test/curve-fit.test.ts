@@ -2,7 +2,8 @@
 import { describe, expect, it } from 'vitest';
 import { misfitOf, type Asked } from '../src/model/physics/curve-fit';
 import { limitsOf } from '../src/model/base/domain';
-import { motionOf, type SpeedPoint } from '../src/model/physics/speed-profile';
+import { motionOf } from '../src/model/physics/speed-profile';
+import type { SpeedPoint } from '../src/model/document/profile';
 
 const LIMITS = limitsOf({ type: 'vehicle', subtype: 'car' });
 const path = {

@@ -1,21 +1,12 @@
 // What is said of futures in rounds: every step can be taken back, a file has it all, words say what it rests on.
 import { describe, expect, it } from 'vitest';
 import {
-  addWish,
   answerTo,
   docOf,
-  everybody,
-  forget,
   hasNews,
-  judge,
-  nextRound,
-  oneSubject,
   presentRound,
-  printOf,
   readFeedback,
   type Asked,
-  type Judged,
-  type Subject,
   type Verdict,
 } from '../src/model/document/feedback';
 import { feedbackTable } from '../src/model/words/feedback-table';
@@ -24,7 +15,17 @@ import { patchScene, takeDealt, type Command } from '../src/model/document/comma
 import { applyDiff, diffOf } from '../src/model/document/scene-diff';
 import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/document/scene-json';
 import { readScene } from '../src/model/document/scene-reader';
-import { sceneKey, type Scene } from '../src/model/document/scene';
+import { printOf, sceneKey, type Scene } from '../src/model/document/scene';
+import {
+  addWish,
+  everybody,
+  forget,
+  judge,
+  nextRound,
+  oneSubject,
+  type Judged,
+  type Subject,
+} from '../src/model/document/feedback-commands';
 import { writeScene } from '../src/model/document/scene-writer';
 import { car, crossing, crossingJson } from './helpers';
 

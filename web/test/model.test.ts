@@ -3,7 +3,7 @@ import { afterEach, describe, expect, it } from 'vitest';
 import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/base/geometry';
 import { findRoute, nearestLanes } from '../src/model/document/lanemap';
 import { limitsOf, rangesOf, topSpeed } from '../src/model/base/domain';
-import { furthestReach, leastReach, localReach } from '../src/model/physics/reach';
+import { furthestReach, leastReach } from '../src/model/physics/reach';
 import {
   areaText,
   densityText,
@@ -21,12 +21,15 @@ import {
   toLength,
 } from '../src/model/base/units';
 import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/base/motion';
-import { readGenerated, readScene, SceneError } from '../src/model/document/scene-reader';
+import { readScene, SceneError } from '../src/model/document/scene-reader';
 import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/document/scene-writer';
 import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/document/commands';
-import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/document/futures';
-import { findChanges, motionOf, seenUntil } from '../src/model/physics/changes';
-import { readEvents } from '../src/model/physics/events';
+import { emptyMotion, placesLike, type MotionSet } from '../src/model/document/futures';
+import { readGenerated, readFutures } from '../src/model/words/named-futures';
+import { findChanges } from '../src/model/words/change-words';
+import { motionOf, seenUntil } from '../src/model/physics/playback';
+import { localReach } from '../src/model/words/reach-words';
+import { readEvents } from '../src/model/words/event-words';
 import { freeGoal, sceneKey, startPose, touched, withAgents } from '../src/model/document/scene';
 import { giveWay, goOn, sixFutures } from './standin/futures.mjs';
 import { car, crossing, crossingJson, walker } from './helpers';

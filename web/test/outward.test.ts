@@ -12,7 +12,7 @@ import { LinkError, MOST_LINK_BYTES, readLink, writeLink } from '../src/edit/sha
 import { isShareLink } from '../src/edit/share-mark';
 import { emptyScene, withoutRoadUsers } from '../src/model/document/blank-scene';
 import { openingCentre } from '../src/model/physics/scene-centre';
-import { readEvents } from '../src/model/physics/events';
+import { readEvents } from '../src/model/words/event-words';
 import { emptyMotion } from '../src/model/document/futures';
 import type { SceneJson } from '../src/model/document/scene-json';
 import { lineOf, linesAround, offsetOf } from '../src/model/document/json-place';

@@ -5,11 +5,11 @@ import {
   motionOf,
   movedPoint,
   pathOf,
-  readProfile,
   stopsOf,
   timeOfStop,
   wantedSpeed,
 } from '../src/model/physics/speed-profile';
+import { readProfile } from '../src/model/document/profile';
 import { hardestBraking } from '../src/model/base/motion';
 
 const line = (metres: number) => ({

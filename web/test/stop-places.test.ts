@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { armWords } from '../src/model/words/arm-names';
 import { pointAt } from '../src/model/base/geometry';
 import { turnOf, type Lane } from '../src/model/document/lanemap';
-import type { Path } from '../src/model/physics/speed-profile';
+import type { Path } from '../src/model/document/profile';
 import type { SceneJson } from '../src/model/document/scene-json';
 import { readScene } from '../src/model/document/scene-reader';
 import { startPose } from '../src/model/document/scene';

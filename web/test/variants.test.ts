@@ -1,7 +1,7 @@
 // Variants: they come back exactly, kept ones are never written over, names and moments tell them apart.
 import { describe, expect, it } from 'vitest';
 import { choose, patchScene, setGoal } from '../src/model/document/commands';
-import type { TrafficEvent } from '../src/model/physics/events';
+import type { TrafficEvent } from '../src/model/words/event-words';
 import { emptyMotion, type Futures, type MotionSet } from '../src/model/document/futures';
 import { partingOf } from '../src/model/words/comparison';
 import { motionFrom, type Motion } from '../src/model/base/motion';

@@ -3,19 +3,13 @@ import { describe, expect, it } from 'vitest';
 import type { FaultJson, ModeJson, RelationJson } from '../src/model/document/scene-json';
 import { FAULT_KINDS, markOf, readAbout } from '../src/model/document/future-facts';
 import { setGoal } from '../src/model/document/commands';
-import { closeInTime, counted, eventsOf, readEvents, summary } from '../src/model/physics/events';
+import { closeInTime, counted } from '../src/model/physics/events';
+import { eventsOf, readEvents, summary } from '../src/model/words/event-words';
 import { faultPlaces } from '../src/model/physics/fault-places';
-import {
-  emptyMotion,
-  keepVerdicts,
-  percents,
-  readFutures,
-  withNames,
-  type Futures,
-  type MotionSet,
-} from '../src/model/document/futures';
+import { emptyMotion, keepVerdicts, percents, type Futures, type MotionSet } from '../src/model/document/futures';
 import type { Naming } from '../src/model/words/future-names';
-import { readGenerated, readScene } from '../src/model/document/scene-reader';
+import { readScene } from '../src/model/document/scene-reader';
+import { readFutures, withNames, readGenerated } from '../src/model/words/named-futures';
 import { metAnew, withMeetingsOf } from '../src/model/physics/verdict-updates';
 import { heldStill } from '../src/model/base/motion';
 import { nameIn, startPose, withAgents } from '../src/model/document/scene';

@@ -1,5 +1,6 @@
 // Time: playback, events, how much is worked out.
-import { counted, type TrafficEvent } from '../model/physics/events';
+import { counted } from '../model/physics/events';
+import type { TrafficEvent } from '../model/words/event-words';
 import { LENGTHS, REPLANS } from '../model/document/scene';
 import { setLength, setReplan } from '../model/document/commands';
 import { STEP_S } from '../model/base/motion';

@@ -2,7 +2,7 @@
 // fixed, hollow is free. Constant size on screen at every zoom.
 import type { Pen } from './pen';
 import type { OnLine, Pose, Vec } from '../model/base/geometry';
-import type { AgentType } from '../model/document/scene';
+import type { AgentType } from '../model/base/kinds';
 import { outline, roundRect, sizeOnScreen, type Sized } from './sprites';
 import { colours } from './theme';
 import type { Labels } from './labels';

@@ -65,3 +65,16 @@ export interface Pen extends Pick<
   /** Strokes are tiles of a sprite from here on, each `scale` times as large as its pixels. */
   strokeTiles(sprite: Sprite, scale: number): void;
 }
+
+/** What of a canvas recordings need. */
+export interface Played extends Omit<
+  Pen,
+  'stroke' | 'fill' | 'strokeStyle' | 'fillStyle' | 'strokeShape' | 'fillShape' | 'stamp' | 'strokeTiles'
+> {
+  strokeStyle: string | CanvasGradient | CanvasPattern;
+  fillStyle: string | CanvasGradient | CanvasPattern;
+  stroke(path?: Path2D): void;
+  fill(path?: Path2D, rule?: CanvasFillRule): void;
+  drawImage(image: CanvasImageSource, x: number, y: number, w: number, h: number): void;
+  createPattern(image: CanvasImageSource, repetition: string): CanvasPattern | null;
+}

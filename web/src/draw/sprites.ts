@@ -1,6 +1,7 @@
 // Road users as small pictures, painted once per kind, size and zoom step and then only stamped.
 import type { Pen, Sprite } from './pen';
-import type { Agent, Kind } from '../model/document/scene';
+import type { Agent } from '../model/document/scene';
+import type { Kind } from '../model/base/kinds';
 import type { OnLine } from '../model/base/geometry';
 import { colours, paletteStamp, type ColourName } from './theme';
 import type { View } from './view';

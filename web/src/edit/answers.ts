@@ -1,7 +1,7 @@
 // What the generator has answered, and how far it is: the motion in force, the draft on its way, who changed, the
 // status line, and whether the generator is there at all.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import { findChanges, type Change } from '../model/physics/changes';
+import { findChanges, type Change } from '../model/words/change-words';
 import {
   ByDocument,
   emptyMotion,

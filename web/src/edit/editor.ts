@@ -5,12 +5,12 @@ import { History, type Camera, type HistoryStep, type KeptHistory } from '../mod
 import type { Command } from '../model/document/commands';
 import { startPose, touched, touchedIn, type Agent, type Scene } from '../model/document/scene';
 import type { Futures, MotionSet } from '../model/document/futures';
-import { motionOf } from '../model/physics/changes';
-import { eventsOf, readEvents, type TrafficEvent } from '../model/physics/events';
+import { motionOf } from '../model/physics/playback';
 import { endPose, poseAtStep } from '../model/base/motion';
 import type { Way } from '../model/document/scene-diff';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/base/geometry';
-import { localReach, type LocalReach } from '../model/physics/reach';
+import { eventsOf, readEvents, type TrafficEvent } from '../model/words/event-words';
+import { localReach, type LocalReach } from '../model/words/reach-words';
 import { type SpeedUnit, toldIn, walkingUnit } from '../model/base/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';

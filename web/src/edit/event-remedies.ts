@@ -1,7 +1,7 @@
 // What can be done about an event: a future of one of the two that does not meet the other, or a slower start.
 import { markOf } from '../model/document/future-facts';
 import { choose } from '../model/document/commands';
-import type { TrafficEvent } from '../model/physics/events';
+import type { TrafficEvent } from '../model/words/event-words';
 import { LETTERS, type Future } from '../model/document/futures';
 import { canMove, startPose, type Agent } from '../model/document/scene';
 import { speedLabel } from '../model/base/units';

@@ -1,10 +1,9 @@
 // What the server says of a wish: who would stand where, and what of it is shown.
 import { insidePolygon, type Vec } from '../model/base/geometry';
 import type { AgentJson } from '../model/document/scene-json';
-import { PLACED_KINDS } from '../model/base/kinds';
+import { PLACED_KINDS, kindOf } from '../model/base/kinds';
 import { isStill, motionFrom } from '../model/base/motion';
 import { comesLater, settle, type Newcomer } from '../model/document/newcomer';
-import { kindOf } from '../model/document/scene-reader';
 import { canMove, startPose, type Scene } from '../model/document/scene';
 import { castJson, wholeAgentJson } from '../model/document/scene-writer';
 import type { Client } from '../net/client';

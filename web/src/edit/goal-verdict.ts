@@ -1,7 +1,8 @@
 // Can the goal of a road user be reached? The generator's verdict where it is known, the quick one while it is not.
 import { markOf } from '../model/document/future-facts';
 import type { Point } from '../model/base/geometry';
-import { isBlocked, reachWords, type Reach } from '../model/document/futures';
+import { isBlocked, type Reach } from '../model/document/futures';
+import { reachWords } from '../model/words/reach-words';
 import { nameIn, type Agent } from '../model/document/scene';
 import { metres } from '../model/base/units';
 import type { Editor } from './editor';

@@ -1,16 +1,10 @@
 // What everybody does once an answer is there: what was known before, and what the answer says in its place.
-import { motionOf } from '../model/physics/changes';
 import { DEFAULTS } from '../model/base/domain';
-import { asIfNotAsked, toBeGivenUp, type Answering } from '../model/document/reaction-records';
+import { asIfNotAsked, toBeGivenUp } from '../model/document/reaction-records';
 import type { AgentFuturesJson } from '../model/document/scene-json';
-import {
-  readFutures,
-  withNames,
-  type Futures,
-  type KeepOrder,
-  type MotionSet,
-  type Score,
-} from '../model/document/futures';
+import type { Answering, Futures, KeepOrder, MotionSet, Score } from '../model/document/futures';
+import { motionOf } from '../model/physics/playback';
+import { readFutures, withNames } from '../model/words/named-futures';
 import type { Naming } from '../model/words/future-names';
 import { firstPose } from '../model/document/scene-reader';
 import { metAnew, withMeetingsOf, type Changed } from '../model/physics/verdict-updates';

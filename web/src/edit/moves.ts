@@ -5,7 +5,8 @@ import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../m
 import { LETTERS } from '../model/document/futures';
 import { limitsOf, topSpeed } from '../model/base/domain';
 import { poseAt } from '../model/base/motion';
-import { localReach, shortfall } from '../model/physics/reach';
+import { shortfall } from '../model/physics/reach';
+import { localReach } from '../model/words/reach-words';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/document/scene';
 import { inTenths, metres, seconds, speedLabel, toUnit } from '../model/base/units';
 import type { Editor, Field, Part } from './editor';

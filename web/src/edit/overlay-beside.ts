@@ -1,5 +1,5 @@
 // Another way that the scene could go, dashed: whoever does another thing there, and the way that it takes.
-import { motionOf } from '../model/physics/changes';
+import { motionOf } from '../model/physics/playback';
 import { poseAt } from '../model/base/motion';
 import { sameSpec, startPose, type Agent, type Scene } from '../model/document/scene';
 import { seconds, speedLabel, type SpeedUnit } from '../model/base/units';

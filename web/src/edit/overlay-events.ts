@@ -1,6 +1,6 @@
 // Events on the overlay: rings around those in one at the playhead, and a label at the one that is picked.
 import type { Pen } from '../draw/pen';
-import type { TrafficEvent } from '../model/physics/events';
+import type { TrafficEvent } from '../model/words/event-words';
 import type { Pose } from '../model/base/geometry';
 import { poseAt } from '../model/base/motion';
 import type { Agent } from '../model/document/scene';

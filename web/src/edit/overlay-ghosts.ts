@@ -1,6 +1,6 @@
 // What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
 import type { Pen } from '../draw/pen';
-import type { Change } from '../model/physics/changes';
+import type { Change } from '../model/words/change-words';
 import type { Pose } from '../model/base/geometry';
 import { STEP_S } from '../model/base/motion';
 import type { Agent } from '../model/document/scene';

@@ -2,7 +2,7 @@
 import type { Pen } from '../draw/pen';
 import type { Pose } from '../model/base/geometry';
 import { endPose, endsBefore, poseAt } from '../model/base/motion';
-import { comparedWithLog } from '../model/physics/changes';
+import { comparedWithLog } from '../model/words/change-words';
 import type { Futures } from '../model/document/futures';
 import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/document/scene';
 import { metres, seconds, speedLabel } from '../model/base/units';

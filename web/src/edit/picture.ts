@@ -3,7 +3,7 @@ import type { Pen } from '../draw/pen';
 import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../model/base/geometry';
 import { isStill, poseAt } from '../model/base/motion';
-import { motionOf } from '../model/physics/changes';
+import { motionOf } from '../model/physics/playback';
 import { conflictZones, type Zone } from '../model/physics/conflicts';
 import type { MotionSet } from '../model/document/futures';
 import type { LaneMap } from '../model/document/lanemap';

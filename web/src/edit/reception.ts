@@ -6,8 +6,6 @@ import {
   isBlocked,
   keepVerdicts,
   percents,
-  readFutures,
-  withNames,
   withOwnFirst,
   type Futures,
   type KeepOrder,
@@ -15,7 +13,8 @@ import {
 } from '../model/document/futures';
 import type { Fault } from '../model/document/future-facts';
 import { goesOneWay } from '../model/document/reaction-records';
-import { findChanges } from '../model/physics/changes';
+import { readFutures, withNames } from '../model/words/named-futures';
+import { findChanges } from '../model/words/change-words';
 import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/document/scene';
 import { whyAnother, whyNot } from '../model/words/verdict-words';
 import type { Handlers } from '../net/generator';

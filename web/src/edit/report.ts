@@ -1,6 +1,7 @@
 // What a change led to, in sentences for the toast and for screen readers.
-import type { Change } from '../model/physics/changes';
-import { counted, type TrafficEvent } from '../model/physics/events';
+import type { Change } from '../model/words/change-words';
+import { counted } from '../model/physics/events';
+import type { TrafficEvent } from '../model/words/event-words';
 import { goalTimeOf, nameIn, type Scene } from '../model/document/scene';
 import { num, seconds } from '../model/base/units';
 import { headline } from '../model/words/verdict-words';

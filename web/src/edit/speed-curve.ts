@@ -13,10 +13,8 @@ import {
   movedPoint,
   pathOf,
   timeOfStop,
-  type Path,
-  type Profile,
-  type SpeedPoint,
 } from '../model/physics/speed-profile';
+import type { Path, Profile, SpeedPoint } from '../model/document/profile';
 import type { Way } from '../model/physics/curve-fit';
 import { pointAt, project, type Pose, type Vec } from '../model/base/geometry';
 import { poseAt, type Motion } from '../model/base/motion';

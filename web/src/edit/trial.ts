@@ -1,7 +1,7 @@
 // A change that is tried and not made: what everybody would do is shown dashed beside what they do.
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../model/document/commands';
-import { findChanges } from '../model/physics/changes';
+import { findChanges } from '../model/words/change-words';
 import type { MotionSet } from '../model/document/futures';
 import type { Beside, Editor } from './editor';
 import { supposition, type Supposing, type Supposition } from './supposing';

@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { buildMap } from '../../src/model/document/lanemap';
 import { firstKerb, laneLeadsTo } from '../../src/model/physics/kerbs';
 import type { Vec } from '../../src/model/base/geometry';
-import { readFutures } from '../../src/model/document/futures';
+import { readFutures } from '../../src/model/words/named-futures';
 import { startPose } from '../../src/model/document/scene';
 import { Resistance } from '../../src/edit/gestures/resistance';
 import { crossingJson } from '../helpers';

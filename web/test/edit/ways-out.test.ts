@@ -1,7 +1,7 @@
 // Out of a goal that is reached over a median: by the road, or with leave to go over it.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
-import { readFutures, withNames } from '../../src/model/document/futures';
+import { readFutures, withNames } from '../../src/model/words/named-futures';
 import type { ModeJson } from '../../src/model/document/scene-json';
 import { nameIn, startPose, type Agent } from '../../src/model/document/scene';
 import { Editor } from '../../src/edit/editor';

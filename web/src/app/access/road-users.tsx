@@ -2,7 +2,8 @@
 import { useEffect, useMemo } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import { canChange, hasGoal, startPose, type Agent, type AgentType } from '../../model/document/scene';
+import { canChange, hasGoal, startPose, type Agent } from '../../model/document/scene';
+import type { AgentType } from '../../model/base/kinds';
 import { speedLabel } from '../../model/base/units';
 import { laneWords } from '../../edit/snap';
 import { useAgent } from '../inspector/use-agent';

@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/physics/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
-import { readEvents } from '../../model/physics/events';
+import { readEvents } from '../../model/words/event-words';
 import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/cases/cases';
 import { PLACE_MORE_M } from '../../model/physics/attempts';
 import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/base/units';

@@ -2,7 +2,7 @@
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { seenUntil } from '../../model/physics/changes';
+import { seenUntil } from '../../model/physics/playback';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/document/scene';
 import { retold, seconds } from '../../model/base/units';
 import { goalFromLog } from '../../edit/moves';

@@ -2,7 +2,8 @@
 import { useComputed } from '@preact/signals';
 import { project } from '../../model/base/geometry';
 import { poseAt, type Motion } from '../../model/base/motion';
-import { lineOf, stopsOf, type SpeedPoint } from '../../model/physics/speed-profile';
+import { lineOf, stopsOf } from '../../model/physics/speed-profile';
+import type { SpeedPoint } from '../../model/document/profile';
 import { metres, seconds, speedLabel } from '../../model/base/units';
 import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';

@@ -1,6 +1,7 @@
 // The list of events, and the facts of the one that is picked.
 import { useEffect, useMemo } from 'preact/hooks';
-import { counted, worstOf, type TrafficEvent } from '../../model/physics/events';
+import { counted, worstOf } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
 import type { Agent } from '../../model/document/scene';
 import { threshold, type ThresholdName } from '../../model/document/thresholds';
 import { num } from '../../model/base/units';

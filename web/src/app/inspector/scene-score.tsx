@@ -1,7 +1,8 @@
 // The scene in four figures: how often somebody is hit, how close it gets, how many goals are reached, how far from
 // the log.
 import { counted } from '../../model/physics/events';
-import { comparedWithLog, meetsGoal } from '../../model/physics/changes';
+import { comparedWithLog } from '../../model/words/change-words';
+import { meetsGoal } from '../../model/physics/playback';
 import { canChange } from '../../model/document/scene';
 import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';

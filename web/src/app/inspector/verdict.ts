@@ -1,8 +1,9 @@
 // What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
 import type { Context } from '../../actions/context';
 import { markOf, type Mark } from '../../model/document/future-facts';
-import { comparedWithLog } from '../../model/physics/changes';
-import { counted, worstOf, type TrafficEvent } from '../../model/physics/events';
+import { comparedWithLog } from '../../model/words/change-words';
+import { counted, worstOf } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/document/futures';
 import { nearestLanes } from '../../model/document/lanemap';
 import { distances, endPose, endsBefore, hardestBraking, poseAt, STEP_S, type Motion } from '../../model/base/motion';

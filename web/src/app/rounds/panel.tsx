@@ -1,5 +1,6 @@
 // What was learned from rounds: wishes with what they rest on, and where answers pull apart.
-import { earlierAnswers, type Answer, type Subject } from '../../model/document/feedback';
+import { earlierAnswers, type Answer } from '../../model/document/feedback';
+import type { Subject } from '../../model/document/feedback-commands';
 import { againstWords, restsOn, wishes, wishKey } from '../../model/words/feedback-words';
 import { nameIn } from '../../model/document/scene';
 import type { Editor } from '../../edit/editor';

@@ -3,7 +3,7 @@ import { useMemo } from 'preact/hooks';
 import { choose } from '../../model/document/commands';
 import type { Scene } from '../../model/document/scene';
 import type { MotionSet } from '../../model/document/futures';
-import { readEvents } from '../../model/physics/events';
+import { readEvents } from '../../model/words/event-words';
 import type { Hand } from '../../edit/rounds/deck';
 import { useAlbum } from '../variants/album';
 import type { Pictured } from '../../edit/variants/cards';

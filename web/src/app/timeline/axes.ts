@@ -1,7 +1,7 @@
 // Where seconds and speeds lie in the plot.
 import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/base/units';
-import { motionOf } from '../../model/physics/changes';
-import type { TrafficEvent } from '../../model/physics/events';
+import { motionOf } from '../../model/physics/playback';
+import type { TrafficEvent } from '../../model/words/event-words';
 import type { Motion } from '../../model/base/motion';
 import { untracked } from '@preact/signals';
 import type { Agent } from '../../model/document/scene';

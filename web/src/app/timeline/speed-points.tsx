@@ -2,7 +2,7 @@
 // pulled on they hold there. Each is a slider for keys.
 import { useRef } from 'preact/hooks';
 import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/base/units';
-import type { SpeedPoint } from '../../model/physics/speed-profile';
+import type { SpeedPoint } from '../../model/document/profile';
 import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
 import { TEXTS } from '../../texts/timeline';

@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { boxOf, type Box, type Vec } from '../../model/base/geometry';
 import { busyBox } from '../../model/physics/scene-centre';
-import { motionOf } from '../../model/physics/changes';
+import { motionOf } from '../../model/physics/playback';
 import { isRecorded } from '../../model/document/scene';
 import { Miniatures } from '../../draw/miniature';
 import { MapPicture } from '../../draw/paint-map';

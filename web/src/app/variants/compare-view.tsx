@@ -1,7 +1,7 @@
 // Two variants beside each other: the left one is the picture itself, the right one another that looks where it looks.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Compared, WholeCard } from '../../edit/variants/cards';
-import { motionOf } from '../../model/physics/changes';
+import { motionOf } from '../../model/physics/playback';
 import { poseAt } from '../../model/base/motion';
 import { isRecorded, startPose, type Agent } from '../../model/document/scene';
 import type { Pose } from '../../model/base/geometry';

@@ -1,7 +1,7 @@
 // The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pictured } from '../../edit/variants/cards';
-import { motionOf } from '../../model/physics/changes';
+import { motionOf } from '../../model/physics/playback';
 import { counted } from '../../model/physics/events';
 import { poseAt } from '../../model/base/motion';
 import { startPose } from '../../model/document/scene';

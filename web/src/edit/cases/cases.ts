@@ -4,7 +4,7 @@ import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/si
 import { attempt, withAttempt, type MayChange } from '../../model/physics/attempts';
 import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../model/physics/cases';
 import { momentWords } from '../../model/words/case-words';
-import { findChanges } from '../../model/physics/changes';
+import { findChanges } from '../../model/words/change-words';
 import { choose } from '../../model/document/commands';
 import { topSpeed } from '../../model/base/domain';
 import type { MotionSet } from '../../model/document/futures';

@@ -1,6 +1,8 @@
 // One page about a scene, to be read and printed: the picture, who is there, what happens, and how it was made.
-import { findChanges, meetsGoal, motionOf } from '../../model/physics/changes';
-import { counted, type TrafficEvent } from '../../model/physics/events';
+import { findChanges } from '../../model/words/change-words';
+import { meetsGoal, motionOf } from '../../model/physics/playback';
+import { counted } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
 import type { MotionSet } from '../../model/document/futures';
 import type { Vec } from '../../model/base/geometry';
 import { endPose } from '../../model/base/motion';

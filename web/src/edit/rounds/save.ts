@@ -1,5 +1,5 @@
 // What was said in rounds, as a file.
-import { oneSubject } from '../../model/document/feedback';
+import { oneSubject } from '../../model/document/feedback-commands';
 import { feedbackTable } from '../../model/words/feedback-table';
 import { nameIn } from '../../model/document/scene';
 import { save, slug } from '../download';

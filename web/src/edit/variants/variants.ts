@@ -2,9 +2,10 @@
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/document/commands';
-import { counted, readEvents, worstOf } from '../../model/physics/events';
+import { counted, worstOf } from '../../model/physics/events';
+import { readEvents } from '../../model/words/event-words';
 import type { Futures, MotionSet } from '../../model/document/futures';
-import { sceneKey, type Agent, type Scene } from '../../model/document/scene';
+import { sceneKey, type Agent, type Scene, type Variant } from '../../model/document/scene';
 import {
   countOf,
   limitsOfSweep,
@@ -26,7 +27,6 @@ import {
   sameCast,
   stateOfVariant,
   takeVariant,
-  type Variant,
 } from '../../model/document/variants';
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';

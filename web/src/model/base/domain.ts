@@ -1,7 +1,13 @@
 // What the server knows of road users and of itself: the limits of motion, the ranges of what may be asked, and the
 // defaults. One file, written from the server's own tables, read at build time.
 import domain from '../../../../assets/domain.json';
-import type { Agent, AgentType } from '../document/scene';
+import type { AgentType } from './kinds';
+
+/** What limits depend on. */
+export interface Typed {
+  readonly type: AgentType;
+  readonly subtype: string | null;
+}
 
 /** Hard limits of motion: no answer ever breaks them. `comfort_…` is what people choose, not what is possible. */
 export interface Limits {
@@ -39,13 +45,12 @@ export const THRESHOLDS: Readonly<Record<string, { readonly usual: number; reado
 export const VIAS = domain.via;
 
 /** By type, and for vehicles by what the scene calls them: one without a word of its own is a car. */
-export function limitsOf(a: Pick<Agent, 'type' | 'subtype'>): Limits {
+export function limitsOf(a: Typed): Limits {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return LIMITS[a.type];
   return (a.subtype && a.subtype !== 'other' && LIMITS[a.subtype]) || LIMITS.car;
 }
 
-export const rangesOf = (a: Pick<Agent, 'type'>): Ranges => RANGES[a.type === 'other' ? 'vehicle' : a.type];
+export const rangesOf = (a: Pick<Typed, 'type'>): Ranges => RANGES[a.type === 'other' ? 'vehicle' : a.type];
 
 /** The fastest that may be asked of a road user and that it can go, m/s. */
-export const topSpeed = (a: Pick<Agent, 'type' | 'subtype'>): number =>
-  Math.min(limitsOf(a).speed_mps, rangesOf(a).speed_mps[1]);
+export const topSpeed = (a: Typed): number => Math.min(limitsOf(a).speed_mps, rangesOf(a).speed_mps[1]);

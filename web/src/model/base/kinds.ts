@@ -1,6 +1,8 @@
 // What can be placed: the kinds with their types, names and usual sizes.
-import type { AgentType, Kind } from '../document/scene';
 import { TEXTS } from '../../texts/kinds';
+
+export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
+export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
 
 /** A size that road users of a kind often have. */
 export interface Preset {
@@ -70,6 +72,29 @@ export const PLACED_KINDS = Object.freeze(Object.keys(PRESETS) as PlacedKind[]);
 
 export const typeOfKind = (kind: PlacedKind): Exclude<AgentType, 'other'> =>
   kind === 'cyclist' || kind === 'pedestrian' ? kind : 'vehicle';
+
+/** The kind by type and subtype; by the size in metres where a vehicle has no known subtype. */
+export function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
+  if (a.type === 'pedestrian' || a.type === 'cyclist') return a.type;
+  if (a.type !== 'vehicle') return 'other';
+  switch (a.subtype) {
+    case 'truck':
+    case 'trailer':
+      return 'truck';
+    case 'bus':
+      return 'bus';
+    case 'motorcycle':
+      return 'motorcycle';
+    case 'car':
+    case 'van':
+    case 'emergency':
+      return 'car';
+    default:
+      break;
+  }
+  if (a.width_m < 1.2) return 'motorcycle';
+  return a.length_m > 11 ? 'bus' : a.length_m > 6.6 ? 'truck' : 'car';
+}
 
 /** `10 pedestrians`, `1 bus` */
 export function countWords(kind: Kind, n: number): string {

@@ -48,6 +48,25 @@ export function motionFrom(c: Columns, start?: Pose): Motion {
   return { first, x, y, heading, speed, valid: c.valid ?? [[first, first + n]] };
 }
 
+const round = (v: number, k: number): number => Math.round(v * k) / k;
+const column = (a: Float64Array, k: number): number[] => Array.from(a, (v) => round(v, k));
+
+/** The columns of a motion as a file has them, from the state `skip` on: metres and m/s to 0.001, radians to 0.0001. */
+export function trackJson(m: Motion, skip = 0) {
+  const x = column(m.x.subarray(skip), 1000),
+    y = column(m.y.subarray(skip), 1000),
+    h = column(m.heading.subarray(skip), 10000);
+  const v = m.speed.subarray(skip);
+  return {
+    first_step: m.first + skip,
+    x_m: x,
+    y_m: y,
+    heading_rad: h,
+    vx_mps: Array.from(v, (s, i) => round(s * Math.cos(h[i]), 1000)),
+    vy_mps: Array.from(v, (s, i) => round(s * Math.sin(h[i]), 1000)),
+  };
+}
+
 /** Velocity against the heading reads as a negative speed, so that reversing is visible. */
 function signedSpeed(vx: number, vy: number, heading: number): number {
   const v = Math.hypot(vx, vy);

@@ -1,14 +1,12 @@
 // What was said of a road user's futures, or of ways that the whole scene could go, round after round: which were kept,
 // which rejected and why, and plain wishes.
 // It is part of the document, and so is what the present cards were drawn by: an undo shows the earlier ones again.
-import { patchAgents, patchScene, type Command } from './commands';
-import type { FeaturesJson, FeedbackDocJson, RoundCardJson, TraitJson, WishJson } from './scene-json';
-import { sceneKey, type Agent, type Scene } from './scene';
-import { TEXTS } from '../../texts/feedback';
+import type { components } from '../base/api';
 
-export type Features = FeaturesJson;
-export type Trait = TraitJson;
-export type Wish = WishJson;
+type Schemas = components['schemas'];
+export type Features = Schemas['Features'];
+export type Trait = Schemas['Trait'];
+export type Wish = Schemas['Wish'];
 export type Verdict = 'keep' | 'reject';
 /** Box centres at every half second, by road user. */
 export type Places = Readonly<Record<string, readonly (readonly number[])[]>>;
@@ -45,30 +43,13 @@ export interface Feedback {
 }
 
 /** As many as a question may carry. */
-const MOST_ANSWERS = 200;
-/** Of scenes fewer are kept: each holds where everybody is. */
-const MOST_ANSWERS_OF_SCENE = 60;
-const MOST_WISHES = 32;
+export const MOST_ANSWERS = 200;
+export const MOST_WISHES = 32;
 /** So many different traits a question may speak of, and so many of them every card has. */
 const MOST_TRAITS = 64;
 const PLAIN_TRAITS = 5;
 
-const NOTHING: Feedback = Object.freeze({ answers: [], wishes: [], forgotten: [], asked: null });
-
-/** Names all that the cards depend on in a document, wherever it is kept. */
-export const printOf = (scene: Scene): string => shortFor(sceneKey({ ...scene, id: '' }));
-
-/** A short text in place of a long one. */
-export function shortFor(text: string): string {
-  // FNV-1a, twice with different beginnings: 64 bits.
-  let [a, b] = [0x811c9dc5, 0x9dc5811c];
-  for (const ch of text) {
-    const c = ch.codePointAt(0)!;
-    a = Math.imul(a ^ c, 0x01000193);
-    b = Math.imul(b ^ (c + 7), 0x01000193);
-  }
-  return [a, b].map((v) => (v >>> 0).toString(16).padStart(8, '0')).join('');
-}
+export const NO_FEEDBACK: Feedback = Object.freeze({ answers: [], wishes: [], forgotten: [], asked: null });
 
 /** The round to be shown: the one that was asked last while the document is the same, else the next one. */
 export function presentRound(f: Feedback | null, key: string): Asked {
@@ -82,7 +63,7 @@ export const earlierAnswers = (f: Feedback | null, asked: Asked): readonly Answe
   (f?.answers ?? []).filter((a) => a.round < asked.round);
 
 /** What is sent. */
-export function docOf(f: Feedback | null, asked: Asked): FeedbackDocJson {
+export function docOf(f: Feedback | null, asked: Asked): Schemas['FeedbackDoc'] {
   const earlier = earlierAnswers(f, asked);
   const lean = leanFeatures(
     earlier.map((a) => a.features),
@@ -141,7 +122,8 @@ function leanFeatures(all: readonly Features[], room: number): readonly Features
   });
 }
 
-const following = (f: Feedback | null, { round, key }: Asked): Asked =>
+/** The round after one. */
+export const following = (f: Feedback | null, { round, key }: Asked): Asked =>
   Object.freeze({ round: round + 1, key, wishes: f?.wishes ?? [], forgotten: f?.forgotten ?? [] });
 
 /** Would the next round have other cards than this one? */
@@ -162,7 +144,7 @@ export function traitOf(t: Trait): Trait {
 export const sameTrait = (a: Trait, b: Trait): boolean => traitKey(a) === traitKey(b);
 
 /** Two of a round are further apart than this somewhere, metres; the same one drawn again is nearer. */
-const SAME_M = 0.3;
+export const SAME_M = 0.3;
 
 function samePlaces(a: Places, b: Places): boolean {
   const ids = Object.keys(a);
@@ -174,104 +156,9 @@ function samePlaces(a: Places, b: Places): boolean {
   });
 }
 
-/** A scene's places in few words: to a tenth of a metre, and one of whoever stands. */
-function shortPlaces(all: Places): Places {
-  const tenth = (v: number): number => Math.round(v * 10) / 10;
-  const short = ([first, ...rest]: readonly (readonly number[])[]): readonly (readonly number[])[] => {
-    const stands = rest.every((p) => Math.hypot(p[0] - first[0], p[1] - first[1]) <= SAME_M / 2);
-    return (stands ? [first] : [first, ...rest]).map(([x, y]) => [tenth(x), tenth(y)]);
-  };
-  return Object.fromEntries(Object.entries(all).flatMap(([id, p]) => (p.length ? [[id, short(p)]] : [])));
-}
-
 /** What was said of a card of this round. */
-export const answerTo = (f: Feedback | null, asked: Asked, card: Pick<RoundCardJson, 'places'>): Answer | null =>
+export const answerTo = (f: Feedback | null, asked: Asked, card: { readonly places: Places }): Answer | null =>
   f?.answers.find((a) => a.round === asked.round && samePlaces(a.places, card.places)) ?? null;
-
-// -------------------------------------------------------------- commands
-
-/** A card as it is on the page. */
-export interface Judged {
-  readonly card: RoundCardJson;
-  readonly letter: string;
-  readonly name: string;
-}
-
-/** Whom rounds are about. */
-export interface Subject {
-  /** Null for everybody: a card is a scene then. */
-  readonly id: string | null;
-  readonly name: string;
-  readonly feedback: Feedback | null;
-  /** The command that keeps what was said. */
-  say(name: string, feedback: Feedback): Command;
-}
-
-export const oneSubject = (a: Agent): Subject => ({
-  id: a.id,
-  name: a.name,
-  feedback: a.feedback,
-  say: (name, feedback) => patchAgents(name, new Map([[a.id, { feedback }]])),
-});
-
-export const everybody = (scene: Scene): Subject => ({
-  id: null,
-  name: TEXTS.theWholeScene,
-  feedback: scene.feedback,
-  say: (name, feedback) => patchScene(name, { feedback }),
-});
-
-const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): Command =>
-  a.say(name, Object.freeze({ ...(a.feedback ?? NOTHING), asked, ...patch }));
-
-const upper = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
-
-/** Keeps or rejects a card; null opens it again. */
-export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
-  const was = answerTo(a.feedback, asked, of.card);
-  const answers = a.feedback?.answers ?? [];
-  const { letter, name } = of;
-  const { features } = of.card;
-  const places = a.id === null ? shortPlaces(of.card.places) : of.card.places;
-  const most = a.id === null ? MOST_ANSWERS_OF_SCENE : MOST_ANSWERS;
-  const said: Answer | null = verdict && {
-    ...{ features, places: was?.places ?? places, verdict, why, letter, name },
-    round: asked.round,
-  };
-  const at = was ? answers.indexOf(was) : answers.length;
-  const next = answers.toSpliced(at, was ? 1 : 0, ...(said ? [Object.freeze(said)] : []));
-  const word = verdict === null ? TEXTS.openAgain : verdict === 'keep' ? TEXTS.kept : TEXTS.rejected;
-  const what = a.id === null ? TEXTS.card : TEXTS.future;
-  const step = was && was.verdict === verdict ? TEXTS.whyWas(what, letter, word) : `${upper(what)} ${letter} ${word}`;
-  return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
-}
-
-/** A wish of one's own; it takes the place of another about the same. */
-export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
-  const { wishes, forgotten } = a.feedback ?? NOTHING;
-  const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
-  return put(TEXTS.wishedFor(words, a.name), a, asked, {
-    wishes: Object.freeze([...others, wish]),
-    forgotten: forgotten.filter((t) => !sameTrait(t, wish)),
-  });
-}
-
-/** Whatever the answers show of it, it does not count. `words`: what is forgotten. */
-export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words: string): Command {
-  const { wishes, forgotten } = a.feedback ?? NOTHING;
-  const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
-  const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
-  return put(TEXTS.forgottenFor(words, a.name), a, asked, {
-    wishes: wishes.filter((w) => !gone(w)),
-    forgotten: Object.freeze(all.slice(-MOST_WISHES)),
-  });
-}
-
-/** Cards by what was said until now. */
-export function nextRound(a: Subject, asked: Asked): Command {
-  const next = following(a.feedback, asked);
-  return put(TEXTS.roundOf(next.round, a.name), a, next, {});
-}
 
 // -------------------------------------------------------------- from a file
 

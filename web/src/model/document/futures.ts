@@ -1,14 +1,11 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
-import type { Answering } from './reaction-records';
-import type { AgentFuturesJson } from './scene-json';
+import type { AgentFuturesJson, ReactionJson } from './scene-json';
 import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './future-facts';
-import type { Point, Pose, Vec } from '../base/geometry';
+import type { Point, Pose } from '../base/geometry';
 import { furthestApart, motionFrom, type Motion } from '../base/motion';
-import { nameAll, type Naming } from '../words/future-names';
-import { metres, num, retold } from '../base/units';
-import { TEXTS } from '../../texts/reach';
 
-export { LETTERS } from '../words/future-names';
+/** The names of six futures on the picture. */
+export const LETTERS = 'ABCDEF';
 
 export interface Future {
   readonly probability: number;
@@ -39,12 +36,12 @@ export interface Futures {
 
 export const isSettled = (f: Futures): boolean => f.step >= f.steps;
 
-export function readFutures(
+/** Futures as they were sent; the name is empty where none was sent. */
+export function unnamedFutures(
   json: AgentFuturesJson,
   start: Pose,
   step: number,
   steps: number,
-  isPedestrian: boolean,
   keep?: KeepOrder,
 ): Futures {
   const sent = json.modes.slice(0, 6);
@@ -53,6 +50,7 @@ export function readFutures(
     const m = sent[i];
     return {
       probability: m.probability,
+      name: m.name ?? '',
       motion: motionFrom(m, start),
       about: readAbout(m),
       sent: sentAbout(m),
@@ -61,9 +59,8 @@ export function readFutures(
   });
   // What is nothing is not sent; of a list that was judged nothing is wrong with the rest.
   if (modes.some((m) => m.about)) for (const m of modes) m.about ??= NOTHING_SAID;
-  const names = nameAll(modes, { onFoot: isPedestrian, nameOf: () => null });
   return {
-    modes: modes.map((m, i) => ({ ...m, ...names[i], name: sent[order[i]].name ?? names[i].name })),
+    modes,
     chosen: Math.max(0, order.indexOf(json.chosen ?? 0)),
     step,
     steps,
@@ -131,12 +128,6 @@ export function keepVerdicts(shown: Futures | null, next: Futures): Futures {
     return old ? { ...m, about: m.about ? { ...m.about, faults: old.faults } : old } : m;
   });
   return { ...next, modes };
-}
-
-/** The same futures, called by how they stand to others. */
-export function withNames(f: Futures, who: Naming): Futures {
-  const names = nameAll(f.modes, who);
-  return { ...f, modes: f.modes.map((m, i) => ({ ...m, ...names[i] })) };
 }
 
 /** What somebody does anyway first, in place of the one of these that is most like it. */
@@ -217,25 +208,17 @@ export interface ByRoad extends Point {
 /** Is it somebody else who keeps it from the goal? */
 export const isBlocked = (r: Reach | null): boolean => r?.status === 'unreachable' && r.limiting === 'traffic';
 
-/** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
-export function reachWords(
-  r: Reach,
-  goal: { readonly pos: Vec | null; readonly time: number },
-  nameOf: (id: string) => string | null = () => null,
-): { title: string; words: string } {
-  if (isBlocked(r) && r.nearest && goal.pos) {
-    const who = (r.with != null && nameOf(r.with)) || TEXTS.somebody;
-    const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
-    return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
-  }
-  const text = retold(r.words?.trim() ?? '');
-  const cut = /[.!?](?=\s|$)/.exec(text);
-  const title = cut ? text.slice(0, cut.index) : text;
-  const rest = cut ? text.slice(cut.index + 1).trim() : '';
-  return {
-    title: title || TEXTS.outOfReachIn(num(goal.time, 1)),
-    words: rest || TEXTS.theNearestReachable,
-  };
+/** Why somebody gave up the motion that it had, and which. */
+export interface Answering {
+  readonly said: ReactionJson;
+  /** Null for the log; absent where nobody knows any more. */
+  readonly gaveUp?: GivenUp | null;
+}
+
+/** A motion that was given up; it may have been an answer to another itself. */
+export interface GivenUp {
+  readonly futures: Futures;
+  readonly answering?: Answering;
 }
 
 /** Everything worked out for one document key. */

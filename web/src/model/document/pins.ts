@@ -1,14 +1,21 @@
 // Pinned futures: ways of a road user that stay while others are drawn anew. Their motion is part of the document, with
 // the start and the goal that it was made for. One that is taken is picked like any other of its futures.
-import { shortFor } from './feedback';
 import type { Future, Futures } from './futures';
 import { wrapAngle } from '../base/geometry';
-import { endPose, endsBefore, motionFrom, poseAt, poseAtStep, type Columns, type Motion } from '../base/motion';
+import {
+  endPose,
+  endsBefore,
+  motionFrom,
+  poseAt,
+  poseAtStep,
+  type Columns,
+  type Motion,
+  trackJson,
+} from '../base/motion';
 import { patchAgents, type AgentPatch, type Command } from './commands';
-import { AT_GOAL_M, startPose, type Agent, type AgentType, type Pin, type Scene } from './scene';
-import { metres, speedLabel, type SpeedUnit } from '../base/units';
+import { shortFor, AT_GOAL_M, startPose, type Agent, type Pin, type Scene } from './scene';
 import { passed } from './vias';
-import { trackJson } from './scene-writer';
+import type { AgentType } from '../base/kinds';
 import { TEXTS } from '../../texts/pins';
 
 /** So many a road user has at most: with six beside them more are not told apart on the picture. */
@@ -61,25 +68,32 @@ const SAME_SPEED_MPS = 0.3;
 const GOAL_HEADING_RAD = 0.17;
 const GOAL_SPEED_MPS = 1;
 
-/** Why a pinned future is no answer any more to what is asked of its road user; null where it is one. */
-export function misfit(a: Agent, pin: Pin, unit: SpeedUnit): string | null {
+/** Why a pinned future no longer answers what is asked: metres, m/s. */
+export type PinMisfit =
+  | { readonly what: 'kind' | 'start-heading' | 'goal-heading' | 'via' }
+  | { readonly what: 'start' | 'goal'; readonly metres: number }
+  | { readonly what: 'start-speed' | 'goal-speed'; readonly speed: number };
+
+/** The first reason why a pinned future no longer answers what is asked of its road user; null where it does. */
+export function pinMisfit(a: Agent, pin: Pin): PinMisfit | null {
   const m = motionOfPin(pin);
   const start = startPose(a);
   const first = poseAtStep(m, m.first);
-  if (pin.type !== a.type || !start || !first) return TEXTS.anotherKind;
+  if (pin.type !== a.type || !start || !first) return { what: 'kind' };
   const away = Math.hypot(start.x - first.x, start.y - first.y);
-  if (away > SAME_PLACE_M) return TEXTS.startsAway(metres(away, 1));
-  if (Math.abs(wrapAngle(start.heading - first.heading)) > SAME_HEADING_RAD) return TEXTS.startsTurned;
-  if (Math.abs(start.speed - Math.abs(first.speed)) > SAME_SPEED_MPS)
-    return TEXTS.startsAt(speedLabel(Math.abs(first.speed), unit));
+  if (away > SAME_PLACE_M) return { what: 'start', metres: away };
+  if (Math.abs(wrapAngle(start.heading - first.heading)) > SAME_HEADING_RAD) return { what: 'start-heading' };
+  const speedAt = Math.abs(first.speed);
+  if (Math.abs(start.speed - speedAt) > SAME_SPEED_MPS) return { what: 'start-speed', speed: speedAt };
   const { pos, heading, speed, time, via } = a.goal;
   const end = (endsBefore(m, time) ? null : poseAt(m, time)) ?? endPose(m);
   const short = pos ? Math.hypot(end.x - pos[0], end.y - pos[1]) : 0;
-  if (short > AT_GOAL_M) return TEXTS.fromTheGoal(metres(short, 0));
-  if (heading !== null && Math.abs(wrapAngle(heading - end.heading)) > GOAL_HEADING_RAD) return TEXTS.endsTurned;
-  if (speed !== null && Math.abs(speed - Math.abs(end.speed)) > GOAL_SPEED_MPS)
-    return TEXTS.endsAt(speedLabel(Math.abs(end.speed), unit));
-  return passed(via, m).every((p) => p.ok) ? null : TEXTS.missesVia;
+  if (short > AT_GOAL_M) return { what: 'goal', metres: short };
+  if (heading !== null && Math.abs(wrapAngle(heading - end.heading)) > GOAL_HEADING_RAD)
+    return { what: 'goal-heading' };
+  const arrives = Math.abs(end.speed);
+  if (speed !== null && Math.abs(speed - arrives) > GOAL_SPEED_MPS) return { what: 'goal-speed', speed: arrives };
+  return passed(via, m).every((p) => p.ok) ? null : { what: 'via' };
 }
 
 // -------------------------------------------------------------- commands
@@ -109,7 +123,7 @@ export function unpin(a: Agent, pin: Pin): Command {
 
 /** The road user goes the pinned way. Where that does not fit, what it was made for comes back with it. */
 export function takePin(a: Agent, pin: Pin): Command {
-  const fits = misfit(a, pin, 'm/s') === null;
+  const fits = pinMisfit(a, pin) === null;
   const asked = fits ? {} : { start: pin.start, goal: pin.goal };
   const patch = { ...asked, chosen: 0, profile: null, dealt: MARK + pin.key };
   return put(TEXTS.taken(pin.name, a.name), a, patch);

@@ -1,22 +1,9 @@
 // Those who gave up a motion for somebody else, and what they would do had nobody been asked anything. What is asked
 // of one road user is answered by the others from there: the order in which a goal was dragged about must not show.
-import type { Futures, MotionSet } from './futures';
+import type { Answering, GivenUp, MotionSet } from './futures';
 import type { ReactionJson } from './scene-json';
 import { takenPin } from './pins';
 import { changedByHand, touched, type Agent, type Scene } from './scene';
-
-/** Why somebody gave up the motion that it had, and which. */
-export interface Answering {
-  readonly said: ReactionJson;
-  /** Null for the log; absent where nobody knows any more. */
-  readonly gaveUp?: GivenUp | null;
-}
-
-/** A motion that was given up; it may have been an answer to another itself. */
-export interface GivenUp {
-  readonly futures: Futures;
-  readonly answering?: Answering;
-}
 
 /** Who takes up its own motion again when `asked` are asked anew, or were taken away. */
 export function thoseWhoAnswer(scene: Scene, set: MotionSet, asked: Iterable<string>): ReadonlySet<string> {

@@ -1,11 +1,10 @@
 // A short code of what a scene's result follows from: what was recorded or placed, what is asked, the options, the seed
 // and the engine. The same code in two windows means the same scene; the name, notes and what one looks at are no part.
 import { VERSION } from '../base/domain';
-import { shortFor } from './feedback';
 import type { Motion } from '../base/motion';
 import type { LaneMap } from './lanemap';
 import type { MotionSet } from './futures';
-import { sceneKey, touchedIn, type Scene } from './scene';
+import { shortFor, sceneKey, touchedIn, type Scene } from './scene';
 
 /** Digits and letters without those that are taken for others. */
 const DIGITS = '0123456789ABCDEFGHJKMNPQRSTVWXYZ';

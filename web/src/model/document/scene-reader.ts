@@ -1,6 +1,5 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
-import { readAnswering, type Answering } from './reaction-records';
-import { readProfile } from '../physics/speed-profile';
+import { readAnswering } from './reaction-records';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
   isMapRef,
@@ -17,14 +16,13 @@ import {
 import { DEFAULTS } from '../base/domain';
 import { readFeedback } from './feedback';
 import { isStill, motionFrom, poseAtStep, type Motion } from '../base/motion';
-import { KIND_NAMES } from '../base/kinds';
-import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
+import { KIND_NAMES, kindOf, type AgentType, type Kind } from '../base/kinds';
+import { type Answering, emptyMotion, unnamedFutures, type Futures, type MotionSet } from './futures';
 import {
   durationOf,
   freeGoal,
   GOAL_TIME,
   logStartSpec,
-  nameIn,
   numberIn,
   readLength,
   readReplan,
@@ -32,19 +30,21 @@ import {
   sceneKey,
   startPose,
   type Agent,
-  type AgentType,
   type GoalSpec,
-  type Kind,
   type Others,
   type Pin,
   type Scene,
   type StartSpec,
+  type Asked,
+  type Variant,
+  type VariantState,
 } from './scene';
 import type { Pose, Vec } from '../base/geometry';
 import { keyOfPin, MOST_PINS } from './pins';
 import { readThresholds } from './thresholds';
 import { readVias } from './vias';
-import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
+import { askedOf, MOST_VARIANTS } from './variants';
+import { readProfile } from './profile';
 import { TEXTS } from '../../texts/reading';
 
 export class SceneError extends Error {}
@@ -206,13 +206,13 @@ export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
   startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
 
 /** The futures saved beside a scene, when they still belong to it. */
-export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
+export function savedFutures(json: SceneJson, scene: Scene): MotionSet | null {
   const g = json.generated;
   return g && !g.stale ? readSample(json, scene, g.chosen_sample ?? 0) : null;
 }
 
 /** One of the answers that were saved beside a scene; `scene` is the document that it answers. */
-export function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | null {
+function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | null {
   const g = json.generated;
   const agents = g?.samples?.[index]?.agents;
   if (!g || !agents) return null;
@@ -222,8 +222,7 @@ export function readSample(json: SceneJson, scene: Scene, index: number): Motion
     const a = scene.agents.get(id),
       start = a && firstPose(a, f);
     if (a && start && f.modes?.length) {
-      const onFoot = a.type === 'pedestrian';
-      futures.set(id, withNames(readFutures(f, start, 1, 1, onFoot), { onFoot, nameOf: nameIn(scene) }));
+      futures.set(id, unnamedFutures(f, start, 1, 1));
       if (f.reaction) answering.set(id, readAnswering(scene, a, f.reaction));
     }
   }
@@ -233,7 +232,7 @@ export function readSample(json: SceneJson, scene: Scene, index: number): Motion
 }
 
 /** What a file keeps of a variant's motion; null where it keeps nothing. */
-export function readVariantSample(json: SceneJson, id: number, scene: Scene): MotionSet | null {
+export function savedVariantFutures(json: SceneJson, id: number, scene: Scene): MotionSet | null {
   const all = json.x_editor?.variants;
   const sample = Array.isArray(all) ? all.find((v) => v?.id === id)?.sample : undefined;
   return whole(sample, 1, MOST_VARIANTS) ? readSample(json, scene, sample) : null;
@@ -319,28 +318,6 @@ const firstSeen = (log: Motion): Pose | null => (log.valid.length ? poseAtStep(l
  */
 function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
-}
-
-export function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
-  if (a.type === 'pedestrian' || a.type === 'cyclist') return a.type;
-  if (a.type !== 'vehicle') return 'other';
-  switch (a.subtype) {
-    case 'truck':
-    case 'trailer':
-      return 'truck';
-    case 'bus':
-      return 'bus';
-    case 'motorcycle':
-      return 'motorcycle';
-    case 'car':
-    case 'van':
-    case 'emergency':
-      return 'car';
-    default:
-      break;
-  }
-  if (a.width_m < 1.2) return 'motorcycle';
-  return a.length_m > 11 ? 'bus' : a.length_m > 6.6 ? 'truck' : 'car';
 }
 
 /** Names carry the number in the id where that is short and unique, else a count of their own. */

@@ -17,7 +17,7 @@ import type {
   VariantJson,
 } from './scene-json';
 import { DEFAULTS } from '../base/domain';
-import type { Motion } from '../base/motion';
+import { trackJson } from '../base/motion';
 import {
   GOAL_TIME,
   hasGoal,
@@ -78,23 +78,6 @@ function writtenCondition(a: Agent): ConditionJson {
 export const isEmptyCondition = (c: ConditionJson): boolean => Object.keys(c).length === 0;
 
 const round = (v: number, k: number): number => Math.round(v * k) / k;
-const column = (a: Float64Array, k: number): number[] => Array.from(a, (v) => round(v, k));
-
-export function trackJson(m: Motion, skip = 0): TrackJson & { first_step: number; vx_mps: number[]; vy_mps: number[] } {
-  const x = column(m.x.subarray(skip), 1000),
-    y = column(m.y.subarray(skip), 1000),
-    h = column(m.heading.subarray(skip), 10000);
-  const v = m.speed.subarray(skip);
-  return {
-    first_step: m.first + skip,
-    x_m: x,
-    y_m: y,
-    heading_rad: h,
-    vx_mps: Array.from(v, (s, i) => round(s * Math.cos(h[i]), 1000)),
-    vy_mps: Array.from(v, (s, i) => round(s * Math.sin(h[i]), 1000)),
-  };
-}
-
 function futuresJson(f: Futures, chosen: number): AgentFuturesJson {
   return {
     chosen,

@@ -1,17 +1,15 @@
 // The document: what the user made. Frozen and structurally shared; motion that the generator worked out
 // is not part of it, it is looked up by the document's key (see futures.ts).
+import type { AgentType, Kind } from '../base/kinds';
 import type { LaneMap } from './lanemap';
 import { DEFAULTS } from '../base/domain';
 import type { Feedback } from './feedback';
 import type { AgentJson } from './scene-json';
 import { wrapAngle, type Pose, type Vec } from '../base/geometry';
 import { STEP_S, type Columns, type Motion } from '../base/motion';
-import type { Profile } from '../physics/speed-profile';
-import type { Variant, VariantState } from './variants';
+import type { Profile } from './profile';
 import { NO_VIAS, type Via } from './vias';
 
-export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
-export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
 export type Others = 'react' | 'log' | 'still';
 
 /** A field that is null is Free: the generator decides it. Position counts as one field. */
@@ -87,6 +85,38 @@ export interface Signal {
   readonly stop: Vec | null;
   readonly states: readonly (readonly [number, string])[];
 }
+
+/** How a variant is called and what is thought of it. */
+export interface Variant {
+  /** Counts up in a scene and is never used twice. */
+  readonly id: number;
+  /** The name that was given by hand; null where what differs is the name. */
+  readonly called: string | null;
+  /** Stays when others are made. */
+  readonly kept: boolean;
+  readonly starred: boolean;
+}
+
+/** What a variant consists of. */
+export interface VariantState {
+  readonly seed: number;
+  readonly diversity: number;
+  readonly others: Others;
+  readonly length: Length;
+  readonly replan: Replan;
+  readonly drawn: number;
+  /** Whose futures the variants made with it were; null where everybody was worked out anew. */
+  readonly subject: string | null;
+  /** Who was in the scene, as `Scene.roster` has it. */
+  readonly roster: string;
+  /** What is asked of whom; of everybody else nothing is. */
+  readonly asked: Readonly<Record<string, Asked>>;
+}
+
+export type Asked = Pick<
+  Agent,
+  'start' | 'goal' | 'chosen' | 'dealt' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'
+>;
 
 export interface Scene {
   readonly id: string;
@@ -245,6 +275,21 @@ function keyOf(scene: Scene): string {
     if (a.does) parts.push([a.id, a.does]);
   }
   return JSON.stringify(parts);
+}
+
+/** Names all that the cards depend on in a document, wherever it is kept. */
+export const printOf = (scene: Scene): string => shortFor(sceneKey({ ...scene, id: '' }));
+
+/** A short text in place of a long one. */
+export function shortFor(text: string): string {
+  // FNV-1a, twice with different beginnings: 64 bits.
+  let [a, b] = [0x811c9dc5, 0x9dc5811c];
+  for (const ch of text) {
+    const c = ch.codePointAt(0)!;
+    a = Math.imul(a ^ c, 0x01000193);
+    b = Math.imul(b ^ (c + 7), 0x01000193);
+  }
+  return [a, b].map((v) => (v >>> 0).toString(16).padStart(8, '0')).join('');
 }
 
 const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];

@@ -1,42 +1,17 @@
 // Variants: ways that the scene could go, side by side. A variant is what was asked and which numbers the generator
 // drew with; its motion is worked out from that like any other and not part of the document.
 import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
-import { durationOf, sceneKey, touched, type Agent, type Length, type Others, type Replan, type Scene } from './scene';
+import {
+  type Asked,
+  type Variant,
+  type VariantState,
+  durationOf,
+  sceneKey,
+  touched,
+  type Agent,
+  type Scene,
+} from './scene';
 import { TEXTS } from '../../texts/variants';
-
-/** How a variant is called and what is thought of it. */
-export interface Variant {
-  /** Counts up in a scene and is never used twice. */
-  readonly id: number;
-  /** The name that was given by hand; null where what differs is the name. */
-  readonly called: string | null;
-  /** Stays when others are made. */
-  readonly kept: boolean;
-  readonly starred: boolean;
-}
-
-/** What a variant consists of. */
-export interface VariantState {
-  readonly seed: number;
-  readonly diversity: number;
-  readonly others: Others;
-  readonly length: Length;
-  readonly replan: Replan;
-  readonly drawn: number;
-  /** Whose futures the variants made with it were; null where everybody was worked out anew. */
-  readonly subject: string | null;
-  /** Who was in the scene, as `Scene.roster` has it. */
-  readonly roster: string;
-  /** What is asked of whom; of everybody else nothing is. */
-  readonly asked: Readonly<Record<string, Asked>>;
-}
-
-export type Asked = Required<
-  Pick<
-    AgentPatch,
-    'start' | 'goal' | 'chosen' | 'dealt' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'
-  >
->;
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
 export const MOST_NEW = 10;

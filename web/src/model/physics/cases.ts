@@ -1,8 +1,8 @@
 // A case that is looked for: what is to happen to whom, whether it happens in a motion, and how near to it one comes.
 import { compareMarks } from '../document/future-facts';
-import { motionOf } from './changes';
+import { motionOf } from './playback';
 import { closestTo, timeGapOf, type Closest, type Moving } from './proximity';
-import { readEvents, type TrafficEvent } from './events';
+import { eventsIn, type SceneEvent } from './events';
 import type { MotionSet } from '../document/futures';
 import { pointAt, wrapAngle, type Vec } from '../base/geometry';
 import { poseAt, poseAtStep, STEP_S, type Motion } from '../base/motion';
@@ -112,9 +112,9 @@ const collides = (c: Closest | null, scene: Scene, set: MotionSet, s: Sought): b
   c?.gap === 0 || eventsBetween(scene, set, s)[0]?.kind === 'collision';
 
 /** What happens between the two, or between one and anybody, the worst first. */
-function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): TrafficEvent[] {
+function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): SceneEvent[] {
   const is = (a: Agent | null, id: string | null): boolean => a !== null && (id === null || a.id === id);
-  return readEvents(scene, set)
+  return eventsIn(scene, set)
     .filter(({ a, b }) => (a.id === who && is(b, other)) || (b?.id === who && is(a, other)))
     .sort((p, q) => compareMarks(p.kind, q.kind) || p.time - q.time);
 }

@@ -1,24 +1,21 @@
 // Who does something else than before, how much, and why.
-import { distances, endsBefore, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from '../base/motion';
+import { distances, lastStep, poseAt, STEP_S, type Motion } from '../base/motion';
 import { asIfNotAsked } from '../document/reaction-records';
-import type { Future, MotionSet } from '../document/futures';
+import type { MotionSet } from '../document/futures';
 import type { Pose } from '../base/geometry';
 import type { ReactionJson } from '../document/scene-json';
-import { answersAhead, guessReaction, reactionWords, type Answered, type Reaction } from './reaction';
+import { answersAhead, guessReaction, type Answered, type Reaction } from './reaction';
 import type { Agent, Scene } from '../document/scene';
-import { doing, GOAL_TIME, startPose, staysAway } from '../document/scene';
-import { heldStill, nowhere, straightOn } from '../base/motion';
-import { metres, type SpeedUnit } from '../base/units';
-import { TEXTS } from '../../texts/reactions';
+import { knownMotion, motionOf } from './playback';
 
 /** A road user that does something else, and where it waits or is slowest. */
-export interface Change {
+export interface MotionChange {
   readonly id: string;
   readonly name: string;
   /** What it does and for whom; null when everybody was worked out anew and nobody in particular is the cause. */
   readonly reaction: Reaction | null;
-  /** `waits 2 s for Car 7` */
-  readonly words: string;
+  /** The road user that it answered before and answers no longer. */
+  readonly released: Agent | null;
   /** Metres between both motions where they are furthest apart. */
   readonly size: number;
   /** Seconds that it comes later than before; negative when earlier. */
@@ -35,67 +32,6 @@ export interface Change {
 const LEAST_M = 0.5;
 const LEAST_S = 0.5;
 
-/**
- * The motion a road user follows in playback. Past 9 s it goes on where nobody says more, as the generator takes it
- * to: straight on from where it was last seen. Who was seen to go away stays away.
- */
-export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
-  const m = knownMotion(scene, set, a);
-  if (scene.length <= GOAL_TIME || (m === a.log && goesAway(scene, m))) return m;
-  return straightOn(m, Math.round(scene.duration / STEP_S));
-}
-
-/** Until when somebody is there who only does what was recorded, seconds; null for one that stays to the end. */
-export function seenUntil(scene: Scene, set: MotionSet, a: Agent): number | null {
-  const gone = !a.placed && motionOf(scene, set, a) === a.log && goesAway(scene, a.log);
-  return gone ? lastStep(a.log) * STEP_S : null;
-}
-
-/** Was it seen for a while, and no more when the recording ended? */
-function goesAway(scene: Scene, log: Motion): boolean {
-  const seen = log.valid.reduce((sum, [from, to]) => sum + to - from, 0);
-  return seen > 1 && lastStep(log) < scene.steps - 1;
-}
-
-/** The future that a road user follows, where it follows one. */
-function followed(set: MotionSet, a: Agent): Future | undefined {
-  const f = set.driving.has(a.id) ? set.futures.get(a.id) : undefined;
-  return f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
-}
-
-/** Is somebody at its goal in time, as it goes now? Null where nobody has said. */
-export function meetsGoal(set: MotionSet, a: Agent): boolean | null {
-  const future = followed(set, a);
-  if (future?.about && !endsBefore(future.motion, a.goal.time))
-    return !future.about.faults.some((f) => f.kind === 'goal_missed');
-  const reach = set.reach.get(a.id);
-  return reach ? reach.status === 'reached' : null;
-}
-
-function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
-  const future = followed(set, a);
-  if (future) return future.motion;
-  // Until the generator has decided, who was put here stands there.
-  if (a.placed || (doing(scene, a) === 'still' && a.type !== 'other')) {
-    if (staysAway(scene, a)) return nowhere;
-    return standing(scene, a);
-  }
-  return a.log;
-}
-
-const stand = new WeakMap<Agent, Motion>();
-
-function standing(scene: Scene, a: Agent): Motion {
-  const p = startPose(a);
-  if (!p) return a.log;
-  const steps = Math.max(scene.steps, Math.round(scene.duration / STEP_S) + 1);
-  const known = stand.get(a);
-  if (known?.x.length === steps) return known;
-  const m = heldStill(p, steps);
-  stand.set(a, m);
-  return m;
-}
-
 interface Moved {
   readonly agent: Agent;
   /** Whom it answered and answers no more. */
@@ -105,13 +41,12 @@ interface Moved {
 }
 
 /** Everybody but `except`, the ones asked something, whose motion is another; who loses most time comes first. */
-export function findChanges(
+export function changesBetween(
   scene: Scene,
   before: MotionSet,
   after: MotionSet,
   except: ReadonlySet<string>,
-  unit: SpeedUnit = 'km/h',
-): Change[] {
+): MotionChange[] {
   const moved: Moved[] = [];
   for (const agent of scene.agents.values()) {
     // Past the end of what was known nobody does anything else than before.
@@ -132,11 +67,11 @@ export function findChanges(
   }));
   return moved
     .filter(({ agent: { id } }) => !except.has(id) && (after.driving.has(id) || before.answering.has(id)))
-    .flatMap((m) => changeOf(scene, after, m, causes, unit) ?? [])
+    .flatMap((m) => changeOf(scene, after, m, causes) ?? [])
     .sort((x, y) => y.lost - x.lost || y.size - x.size);
 }
 
-function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answered[], unit: SpeedUnit): Change | null {
+function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answered[]): MotionChange | null {
   const { agent: a, before, after } = m;
   const { d: size } = furthest(before, after, scene.duration);
   const lost = secondsLost(before, after);
@@ -147,10 +82,19 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   const at = reaction?.time ?? furthest(before, after, scene.duration).t;
   const place = reaction?.place ?? poseAt(after, at) ?? poseAt(before, at);
   if (!place) return null;
-  const alone = m.released ? TEXTS.noLongerAnswers(m.released.name) : TEXTS.workedOutAnew;
-  const words = reaction ? reactionWords(a, reaction, unit) : alone;
   const { id, name } = a;
-  return { id, name, reaction, words, size, lost: reaction?.delay ?? lost, before, after, at, place };
+  return {
+    id,
+    name,
+    reaction,
+    released: m.released ?? null,
+    size,
+    lost: reaction?.delay ?? lost,
+    before,
+    after,
+    at,
+    place,
+  };
 }
 
 /** What the generator said of it. */
@@ -167,7 +111,8 @@ function readReaction(scene: Scene, set: MotionSet, after: Motion, r: ReactionJs
   return { kind: r.kind, cause: { id: cause.id, name: cause.name }, delay: r.delay_s ?? null, time, place, ahead };
 }
 
-function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
+/** How far two motions are apart where they are furthest apart, metres, and when. */
+export function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
   let d = 0,
     at = 0;
   for (let t = 0; t <= duration + 1e-6; t += STEP_S * 2) {
@@ -202,31 +147,4 @@ function timeBetween(s: Float64Array, distance: number): number {
   const i = s.findIndex((v) => v >= distance - 0.05);
   const arrived = s.findIndex((v) => v >= total - 0.05);
   return i < 0 ? 0 : (Math.max(i, arrived) - i) * STEP_S;
-}
-
-const firstStep = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
-
-/** Words for the ghost of the log: how far the edited road user gets from what was recorded, where it was. */
-export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: number; t: number; words: string } | null {
-  if (m === a.log || a.placed) return null;
-  const f = furthest(a.log, m, duration);
-  if (f.d < 0.3) return null;
-  const last = Math.round(duration / STEP_S);
-  const end = poseAtStep(m, last),
-    log = poseAtStep(a.log, last);
-  let words = TEXTS.movesDifferently;
-  if (end && log) {
-    // A recording may begin before, and go on after what is worked out.
-    const from = Math.max(firstStep(m), firstStep(a.log));
-    const gone = (of: Motion): number => {
-      const s = distances(of);
-      return s[last - of.first] - (s[from - of.first] ?? 0);
-    };
-    const [s1, s0] = [gone(m), gone(a.log)];
-    const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
-    if (turn > 0.6) words = TEXTS.endsFacingAnother;
-    else if (s1 < s0 - 2) words = TEXTS.getsLessFar(metres(s0 - s1, 0));
-    else if (s1 > s0 + 2) words = TEXTS.getsFurther(metres(s1 - s0, 0));
-  }
-  return { ...f, words };
 }

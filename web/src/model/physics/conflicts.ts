@@ -1,5 +1,5 @@
 // Where the ways of two road users cross within a short time of each other: the ground of a junction as a heat map.
-import { motionOf } from './changes';
+import { motionOf } from './playback';
 import type { MotionSet } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
 import { poseAtStep, STEP_S } from '../base/motion';

@@ -1,16 +1,13 @@
 // Events as the timeline and the list show them: what is wrong with the futures that are followed, and the facts of
 // the score about everybody else. What the log does by itself is marked so and does not count.
 import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '../document/future-facts';
-import { motionOf } from './changes';
+import { motionOf } from './playback';
 import type { Futures, MotionSet, Score, Stretch } from '../document/futures';
 import { poseAt, STEP_S } from '../base/motion';
-import { nameIn, touched, type Agent, type Scene } from '../document/scene';
-import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../base/units';
-import { placeWord } from '../words/verdict-words';
-import { wrapAngle, type Pose, type Vec } from '../base/geometry';
-import { TEXTS } from '../../texts/events';
+import { touched, type Agent, type Scene } from '../document/scene';
+import type { Pose, Vec } from '../base/geometry';
 
-export interface TrafficEvent {
+export interface SceneEvent {
   readonly kind: Exclude<Mark, 'ok'>;
   readonly what: FaultKind;
   readonly time: number;
@@ -22,16 +19,13 @@ export interface TrafficEvent {
   readonly b: Agent | null;
   /** It happens in the log or in the example itself; nobody was asked for it. */
   readonly inLog: boolean;
-  /** Who. */
-  readonly title: string;
-  /** What and when, for the timeline. */
-  readonly label: string;
-  /** What and how bad, for the list: `Near miss, 0.6 m`. */
-  readonly words: string;
-  /** The closest of it, for a label on the map. */
-  readonly short: string;
   readonly at: Vec;
-  readonly facts: readonly (readonly [string, string])[];
+  /** How bad it is, in the unit of its kind; null where nobody knows. */
+  readonly extent: number | null;
+  /** Time to collision, seconds; null where nobody knows. */
+  readonly ttc: number | null;
+  /** Where both are then. */
+  readonly poses: readonly [Pose | null, Pose | null];
 }
 
 /** Meetings of the same two closer together than this are one event: the same pair passing once. */
@@ -39,7 +33,7 @@ const SAME_PASS_S = 1.5;
 /** Faults of one road user and kind closer together than this are one event. */
 const SAME_STRETCH_S = 1;
 
-/** What is known of an event before it is put into words. */
+/** An event before the same ones are merged. */
 interface Raw {
   readonly what: FaultKind;
   readonly time: number;
@@ -53,7 +47,7 @@ interface Raw {
 }
 
 /** Everything that happens in the scene as it is followed. */
-export function readEvents(scene: Scene, set: MotionSet, unit: SpeedUnit = 'km/h'): TrafficEvent[] {
+export function eventsIn(scene: Scene, set: MotionSet): SceneEvent[] {
   const said: Raw[] = [];
   const judged = new Set<string>();
   for (const id of set.driving) {
@@ -68,7 +62,7 @@ export function readEvents(scene: Scene, set: MotionSet, unit: SpeedUnit = 'km/h
   const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
   const near = scored.filter((r) => r.what === 'near_miss');
   const own = said.filter((r) => judged.has(r.a) || !told(r)).map((r) => withTime(r, near));
-  return inWords(scene, set, unit, [...own, ...scored.filter((r) => !told(r))]);
+  return merged(scene, set, [...own, ...scored.filter((r) => !told(r))]);
 }
 
 /** The verdict of a future on a near miss, with the time to collision that the score has of the same moment. */
@@ -80,18 +74,10 @@ function withTime(r: Raw, near: readonly Raw[]): Raw {
 }
 
 /** What is wrong with one future on its way, while nobody follows it yet. */
-export function eventsOf(
-  scene: Scene,
-  set: MotionSet,
-  id: string,
-  f: Futures,
-  chosen: number,
-  unit: SpeedUnit = 'km/h',
-): TrafficEvent[] {
-  return inWords(
+export function eventsOfFuture(scene: Scene, set: MotionSet, id: string, f: Futures, chosen: number): SceneEvent[] {
+  return merged(
     scene,
     set,
-    unit,
     (f.modes[chosen]?.about?.faults ?? []).map((fault) => ofFault(id, fault)),
   );
 }
@@ -148,7 +134,7 @@ function replaysLog(scene: Scene, set: MotionSet, id: string, time: number): boo
 }
 
 /** One event a meeting and a stretch, by time. */
-function inWords(scene: Scene, set: MotionSet, unit: SpeedUnit, all: readonly Raw[]): TrafficEvent[] {
+function merged(scene: Scene, set: MotionSet, all: readonly Raw[]): SceneEvent[] {
   const kept: Raw[] = [];
   const pairOf = (r: Raw): string => (r.b === null ? '' : r.a < r.b ? `${r.a}|${r.b}` : `${r.b}|${r.a}`);
   const hit = new Set(all.filter((r) => r.what === 'collision').map(pairOf));
@@ -163,7 +149,7 @@ function inWords(scene: Scene, set: MotionSet, unit: SpeedUnit, all: readonly Ra
     kept.push(r);
   }
   return kept
-    .flatMap((r) => event(scene, set, r, unit) ?? [])
+    .flatMap((r) => event(scene, set, r) ?? [])
     .sort((x, y) => x.time - y.time || compareMarks(x.kind, y.kind));
 }
 
@@ -185,43 +171,7 @@ function joined(a: Raw, b: Raw): Raw {
   return { ...a, time: Math.min(a.time, b.time), until: Math.max(a.until, b.until), extent };
 }
 
-const WORDS: Readonly<Record<FaultKind, string>> = {
-  collision: TEXTS.collision,
-  red_light: TEXTS.redLight,
-  wrong_way: TEXTS.wrongWay,
-  over_median: TEXTS.overTheMedian,
-  off_road: TEXTS.offTheRoad,
-  harsh_braking: TEXTS.hardBraking,
-  harsh_steering: TEXTS.hardSteering,
-  near_miss: TEXTS.nearMiss,
-  via_missed: TEXTS.viaMissed,
-  goal_missed: TEXTS.goalMissed,
-};
-
-/** They come no nearer than this, metres, or nobody knows how near: what counts is how little time there was. */
-const isMissInTime = ({ extent }: Raw): boolean => extent === null || extent > 1;
-
-/** How bad it is, in the unit of its kind. */
-function extentWords(r: Raw, unit: SpeedUnit): string | null {
-  if (r.what === 'near_miss' && isMissInTime(r)) return r.ttc === null ? null : TEXTS.sToCollision(num(r.ttc, 1));
-  if (r.extent === null) return null;
-  switch (r.what) {
-    case 'collision':
-      return TEXTS.closingAt(speedLabel(r.extent, unit));
-    case 'red_light':
-      return TEXTS.at(speedLabel(r.extent, unit));
-    case 'harsh_braking':
-    case 'harsh_steering':
-      return acceleration(r.extent);
-    case 'wrong_way':
-    case 'goal_missed':
-      return metres(r.extent);
-    default:
-      return metres(r.extent, 1);
-  }
-}
-
-function event(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit): TrafficEvent | null {
+function event(scene: Scene, set: MotionSet, r: Raw): SceneEvent | null {
   const a = scene.agents.get(r.a),
     b = r.b === null ? null : scene.agents.get(r.b);
   if (!a || b === undefined) return null;
@@ -229,25 +179,9 @@ function event(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit): TrafficEv
     pb = b && poseAt(motionOf(scene, set, b), r.time);
   const at = placeOf(r, pa, pb);
   if (!at || (b && !r.at && !pb)) return null;
-  const kind = faultMark({ kind: r.what }) as TrafficEvent['kind'];
-  const extent = extentWords(r, unit);
-  const words = extent ? `${WORDS[r.what]}, ${extent}` : WORDS[r.what];
-  return {
-    kind,
-    what: r.what,
-    time: r.time,
-    until: r.until,
-    gap: r.what === 'near_miss' ? r.extent : null,
-    a,
-    b,
-    inLog: r.inLog,
-    title: !b ? a.name : kind === 'collision' ? `${a.name} × ${b.name}` : `${a.name}, ${b.name}`,
-    short: shortOf(scene, r),
-    label: `${WORDS[r.what]} ${num(r.time, 1)} s`,
-    words: r.inLog ? TEXTS.inTheLog(words) : words,
-    at,
-    facts: factsOf(scene, set, r, unit, [a, pa], [b, pb]),
-  };
+  const kind = faultMark({ kind: r.what }) as SceneEvent['kind'];
+  const gap = r.what === 'near_miss' ? r.extent : null;
+  return { ...r, kind, gap, a, b, at, poses: [pa, pb] };
 }
 
 function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
@@ -255,76 +189,11 @@ function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
   return own && pb ? [(own[0] + pb.x) / 2, (own[1] + pb.y) / 2] : own;
 }
 
-function shortOf(scene: Scene, r: Raw): string {
-  const other = (r.b !== null && nameIn(scene)(r.b)) || '';
-  if (r.what === 'near_miss' && r.ttc !== null && isMissInTime(r)) return TEXTS.sToCollisionWith(num(r.ttc, 1), other);
-  const fault = {
-    kind: r.what,
-    time: r.time,
-    until: r.until,
-    at: [0, 0] as const,
-    extent: r.extent,
-    with: r.b,
-    edge: null,
-  };
-  return placeWord(fault, nameIn(scene));
-}
-
-type Part = readonly [Agent | null, Pose | null];
-
-function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: readonly Part[]): [string, string][] {
-  const speed = (x: Agent, v: number) =>
-    x.type === 'pedestrian' ? speedLabel(v, walkingUnit(unit)) : speedLabel(v, unit);
-  const facts = who.flatMap(([x, p]): [string, string][] =>
-    x && p ? [[x.name, `${speed(x, p.speed)}, ${doing(scene, set, x, r.time)}`]] : [],
-  );
-  const [[, pa], [, pb]] = who;
-  const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
-  if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
-  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.gapThen, metres(r.extent, 1)]);
-  if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
-  const fact = FACTS[r.what];
-  if (fact && r.extent !== null)
-    facts.push([fact, r.what === 'red_light' ? speedLabel(r.extent, unit) : extentWords(r, unit)!]);
-  if (r.until > r.time + 0.15) facts.push([TEXTS.fromTo, TEXTS.to(num(r.time, 1), seconds(r.until))]);
-  if (r.inLog) facts.push([TEXTS.whereFrom, TEXTS.inTheLogNotCounted]);
-  return facts;
-}
-
-const FACTS: Partial<Record<FaultKind, string>> = {
-  red_light: TEXTS.speedOverThe,
-  wrong_way: TEXTS.waySoDriven,
-  over_median: TEXTS.pastTheEdge,
-  off_road: TEXTS.pastTheEdge,
-  harsh_braking: TEXTS.braking,
-  harsh_steering: TEXTS.sideways,
-  via_missed: TEXTS.awayFromTheVia,
-  goal_missed: TEXTS.leftToTheGoal,
-};
-
-const relativeSpeed = (p: Pose, q: Pose): number =>
-  Math.hypot(
-    p.speed * Math.cos(p.heading) - q.speed * Math.cos(q.heading),
-    p.speed * Math.sin(p.heading) - q.speed * Math.sin(q.heading),
-  );
-
-function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
-  const m = motionOf(scene, set, a);
-  const p = poseAt(m, Math.max(0, t - 1)) ?? poseAt(m, t),
-    q = poseAt(m, Math.min(scene.duration, t + 1)) ?? poseAt(m, t);
-  const now = poseAt(m, t);
-  if (!p || !q || !now || Math.abs(now.speed) < 0.3) return TEXTS.standing;
-  const turn = wrapAngle(q.heading - p.heading);
-  if (turn > 0.35) return TEXTS.turningLeft;
-  if (turn < -0.35) return TEXTS.turningRight;
-  return q.speed < p.speed - 2 ? TEXTS.brakingWithin : TEXTS.straightOn;
-}
-
 /** Those that count: what is in the log does not. */
-export const counted = (events: readonly TrafficEvent[]): TrafficEvent[] => events.filter((e) => !e.inLog);
+export const counted = <E extends SceneEvent>(events: readonly E[]): E[] => events.filter((e) => !e.inLog);
 
 /** The worst of those that count; null where nothing does. */
-export function worstOf(events: readonly TrafficEvent[]): TrafficEvent['kind'] | null {
+export function worstOf(events: readonly SceneEvent[]): SceneEvent['kind'] | null {
   const kinds = counted(events).map((e) => e.kind);
   return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
 }
@@ -337,19 +206,4 @@ export function closeInTime(set: MotionSet): number | null {
   const all = [...set.driving].flatMap((id) => set.score?.petOf?.get(id) ?? []);
   const least = Math.min(...all);
   return least < CLOSE_S ? least : null;
-}
-
-const COUNTED = [
-  ['collision', TEXTS.collisions],
-  ['rule', TEXTS.rulesBroken],
-  ['near', TEXTS.nearMisses],
-  ['short', TEXTS.goalsMissed],
-] as const;
-
-export function summary(events: readonly TrafficEvent[]): string {
-  const parts = COUNTED.flatMap(([kind, words]) => {
-    const n = counted(events).filter((e) => e.kind === kind).length;
-    return n ? words(n) : [];
-  });
-  return parts.length ? parts.join(' · ') : TEXTS.noCollisions;
 }

@@ -11,10 +11,8 @@ import {
   type Vec,
 } from '../base/geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
-import { metres, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { limitsOf, type Limits } from '../base/domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
-import { TEXTS } from '../../texts/reach';
 
 /** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
@@ -33,7 +31,7 @@ export function leastReach(l: Limits, v: number, t: number): number {
 
 export type ReachKind = 'ok' | 'far' | 'near' | 'sharp';
 
-export interface LocalReach {
+export interface GoalReach {
   readonly kind: ReachKind;
   readonly path: Line;
   readonly onLanes: boolean;
@@ -41,8 +39,6 @@ export interface LocalReach {
   readonly max: number;
   readonly min: number;
   readonly nearest: Pose | null;
-  readonly title: string;
-  readonly words: string;
   /** What would make it work: seconds, start speed in m/s. */
   readonly time: number | null;
   readonly speed: number | null;
@@ -82,14 +78,8 @@ export function pathTo(
   return { line: makeLine(curveBetween(start, goal)), onLanes: false };
 }
 
-export function localReach(
-  map: LaneMap,
-  a: Agent,
-  start: Pose,
-  goal: GoalSpec,
-  unit: SpeedUnit,
-  latest = GOAL_TIME,
-): LocalReach | null {
+/** Whether a goal can be reached in its time, by the limits of motion alone; null without a place to reach. */
+export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, latest = GOAL_TIME): GoalReach | null {
   if (!goal.pos) return null;
   const l = limitsOf(a),
     t = goal.time,
@@ -100,15 +90,6 @@ export function localReach(
   const along = line.length;
   const max = furthestReach(l, v, t),
     min = leastReach(l, v, t);
-  const who = {
-    car: TEXTS.thisCar,
-    truck: TEXTS.thisTruck,
-    bus: TEXTS.thisBus,
-    motorcycle: TEXTS.thisMotorcycle,
-    cyclist: TEXTS.thisCyclist,
-    pedestrian: TEXTS.thisPerson,
-    other: TEXTS.it,
-  }[a.kind];
   const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
   // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
@@ -120,10 +101,6 @@ export function localReach(
       nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
       time: timeFor(l, v, along, latest),
       speed: speedFor(l, t, along),
-      title: TEXTS.tooFarFor(seconds(t)),
-      words:
-        (onLanes ? TEXTS.theGoalIsAway(metres(along, 0)) : TEXTS.theGoalIsAwayStraight(metres(along, 0))) +
-        TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), who, metres(max, 0)),
     };
   }
   if (along < min - 1 && along > 0.5) {
@@ -137,8 +114,6 @@ export function localReach(
         speed: 0,
       },
       speed: Math.sqrt(Math.max(0, 2 * l.brake_mps2 * along)),
-      title: TEXTS.cannotStopThat,
-      words: TEXTS.fromItNeedsThe(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
     };
   }
   const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
@@ -149,20 +124,9 @@ export function localReach(
       ...base,
       kind: 'sharp',
       speed: ok,
-      title: TEXTS.tooTightAtThis,
-      words: TEXTS.wouldDo(speedLabel(ok, unit)),
     };
   }
-  const mean = speedLabel(along / t, unit);
-  return {
-    ...base,
-    kind: 'ok',
-    title: TEXTS.reachable,
-    words:
-      a.type === 'pedestrian'
-        ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t))
-        : TEXTS.onAverageIsEnough(mean),
-  };
+  return { ...base, kind: 'ok' };
 }
 
 /**
@@ -173,7 +137,7 @@ export function shortfall(
   start: Pose,
   goal: readonly [number, number],
   nearest: { x: number; y: number } | null,
-  local: LocalReach | null,
+  local: GoalReach | null,
 ): { gets: number; beyond: number } | null {
   if (nearest && nearest !== local?.nearest) {
     const gets = Math.hypot(nearest.x - start.x, nearest.y - start.y);
@@ -181,9 +145,6 @@ export function shortfall(
   }
   return local?.kind === 'far' ? { gets: local.max, beyond: local.along - local.max } : null;
 }
-
-const walk = (v: number): string =>
-  v < 0.6 ? TEXTS.aStroll : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
 
 function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
   for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;

@@ -1,10 +1,8 @@
-// How one road user answers another: what it does, for whom, where, and how to say it in one sentence.
+// How one road user answers another: what it does, for whom and where.
 import { wrapAngle, type Pose } from '../base/geometry';
 import type { ReactionKind } from '../document/scene-json';
 import { poseAt, STEP_S, type Motion } from '../base/motion';
 import type { Agent } from '../document/scene';
-import { num, speedText, walkingUnit, type SpeedUnit } from '../base/units';
-import { TEXTS } from '../../texts/reactions';
 
 export interface Reaction {
   readonly kind: ReactionKind;
@@ -27,36 +25,6 @@ export interface Answered {
   readonly motion: Motion;
   /** Was it asked something, or did it answer somebody itself? */
   readonly asked: boolean;
-}
-
-/** Shorter waits than this are not told in seconds. */
-const TOLD_S = 0.5;
-
-/** `waits 2 s for Car 7`, `slows to 8 km/h behind Car 12`: the verb first, the other's name last. */
-export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'): string {
-  const { name } = r.cause;
-  switch (r.kind) {
-    case 'waits': {
-      const long = r.delay !== null && r.delay >= TOLD_S ? ` ${roundSeconds(r.delay)} s` : '';
-      return TEXTS.waits(long, name, r.ahead);
-    }
-    case 'slows': {
-      const unit = a.type === 'pedestrian' ? walkingUnit(shown) : shown;
-      const speed = speedText(Math.abs(r.place.speed), unit);
-      return /[1-9]/.test(speed) ? TEXTS.slowsTo(`${speed} ${unit}`, name, r.ahead) : TEXTS.stopsBriefly(name, r.ahead);
-    }
-    case 'speeds_up':
-      return TEXTS.makesWayFor(name);
-    case 'keeps_clear':
-      return TEXTS.takesAnother(name);
-  }
-}
-
-/** Half seconds below two, whole ones above: nobody counts a wait in tenths. */
-function roundSeconds(v: number): string {
-  const step = v < 1.75 ? 2 : 1;
-  const r = Math.round(v * step) / step;
-  return num(r, r % 1 ? 1 : 0);
 }
 
 /** Ahead within this many metres, at most so far aside, and going nearly the same way. */

@@ -12,31 +12,11 @@ import {
   type Pose,
   type Vec,
 } from '../base/geometry';
+import { MOST_POINTS, type Path, type Profile, type SpeedPoint } from '../document/profile';
 import { lastStep, poseAt, STEP_S, type Motion } from '../base/motion';
 
-/** A speed at a time, m/s and s; from then on it is held for so many seconds. */
-export interface SpeedPoint {
-  readonly t: number;
-  readonly v: number;
-  readonly hold: number;
-}
-
-/** Places with a heading, some way apart. */
-export interface Path {
-  readonly x: readonly number[];
-  readonly y: readonly number[];
-  readonly heading: readonly number[];
-}
-
-/** The first point is the start; points lie in the order of their times. */
-export interface Profile {
-  readonly path: Path;
-  readonly points: readonly SpeedPoint[];
-}
-
-/** Points of one curve are at least so far apart, seconds, and at most so many. */
+/** Points of one curve are at least so far apart, seconds. */
 export const APART_S = 0.3;
-export const MOST_POINTS = 12;
 /** Places of a path are at least so far apart, metres. */
 const SPACING_M = 0.25;
 
@@ -251,22 +231,3 @@ export function addedPoint(points: readonly SpeedPoint[], p: SpeedPoint): { poin
   const at = points.filter((q) => q.t < p.t).length;
   return { points: [...points.slice(0, at), p, ...points.slice(at)], at };
 }
-
-// -------------------------------------------------------------- in a file
-
-/** Reads what a file says; null for what is no profile. */
-export function readProfile(v: unknown): Profile | null {
-  const p = v as Partial<Profile> | null | undefined;
-  const numbers = (a: unknown): a is number[] => Array.isArray(a) && a.length > 0 && a.every((n) => Number.isFinite(n));
-  const { x, y, heading } = p?.path ?? {};
-  if (!numbers(x) || !numbers(y) || !numbers(heading) || x.length !== y.length || x.length !== heading.length)
-    return null;
-  const points = Array.isArray(p?.points) ? p.points : [];
-  const fine = points.every((q, i) => {
-    const ok = q !== null && [q.t, q.v, q.hold].every((n) => Number.isFinite(n) && n >= 0);
-    return ok && (i ? q.t > points[i - 1].t : q.t === 0);
-  });
-  return fine && points.length > 0 && points.length <= MOST_POINTS ? freeze(p as Profile) : null;
-}
-
-const freeze = (p: Profile): Profile => Object.freeze({ path: p.path, points: p.points });

@@ -2,8 +2,7 @@
 import { rangesOf, topSpeed } from '../base/domain';
 import { setGoal, setStart } from '../document/commands';
 import { startPose, type Agent, type Scene } from '../document/scene';
-import { fromUnit, inTenths, num, seconds, speedLabel, type SpeedUnit, toUnit } from '../base/units';
-import { TEXTS } from '../../texts/variants';
+import { fromUnit, inTenths, type SpeedUnit, toUnit } from '../base/units';
 
 /** What is gone through: the speed at the start, the speed at the goal, the time of the goal. */
 export type Over = 'start' | 'goal' | 'time';
@@ -64,10 +63,4 @@ export function withValue(scene: Scene, id: string, over: Over, value: number): 
   const a = scene.agents.get(id)!;
   if (over === 'start') return setStart(a, { ...a.start, speed: value }).apply(scene);
   return setGoal(a, { ...a.goal, [over === 'goal' ? 'speed' : 'time']: value }).apply(scene);
-}
-
-/** What tells a variant by its number. */
-export function valueWords(over: Over, value: number, unit: SpeedUnit): string {
-  if (over === 'time') return TEXTS.thereAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
-  return `${over === 'start' ? TEXTS.startsAt : TEXTS.arrivesAt} ${speedLabel(value, unit)}`;
 }

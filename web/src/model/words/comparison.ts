@@ -1,7 +1,8 @@
 // What differs between two variants: who does another thing, since when, and what comes of it.
 import { compareMarks } from '../document/future-facts';
-import { meetsGoal, motionOf } from '../physics/changes';
-import { summary, counted, type TrafficEvent } from '../physics/events';
+import { meetsGoal, motionOf } from '../physics/playback';
+import { counted } from '../physics/events';
+import { summary, type TrafficEvent } from './event-words';
 import type { MotionSet } from '../document/futures';
 import { toLocal, type Vec } from '../base/geometry';
 import { poseAt, STEP_S, type Motion } from '../base/motion';

@@ -1,6 +1,7 @@
 // Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
 // the same. No two in one list are alike.
 import { faultMark, leavesRoad, type About, type RelationKind } from '../document/future-facts';
+import { LETTERS } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
 import {
   distances,
@@ -35,8 +36,6 @@ export interface Named {
   readonly name: string;
   readonly basis: string;
 }
-
-export const LETTERS = 'ABCDEF';
 
 /** Letters that a row of the list has room for. */
 const LONGEST = 24;

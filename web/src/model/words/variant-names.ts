@@ -1,14 +1,14 @@
 // Names of variants, made of what tells each from the others: a future of the road user that they are about, else
 // whoever does another thing than in most of them.
-import { motionOf } from '../physics/changes';
-import { counted, type TrafficEvent } from '../physics/events';
+import { counted } from '../physics/events';
+import type { TrafficEvent } from './event-words';
 import type { MotionSet } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
 import { poseAt, type Motion } from '../base/motion';
-import type { Agent, Scene } from '../document/scene';
-import { valueOf, valueWords, type Over } from '../physics/sweep';
-import { num, type SpeedUnit } from '../base/units';
-import type { VariantState } from '../document/variants';
+import type { Agent, Scene, VariantState } from '../document/scene';
+import { valueOf, type Over } from '../physics/sweep';
+import { num, seconds, speedLabel, type SpeedUnit } from '../base/units';
+import { motionOf } from '../physics/playback';
 import { TEXTS } from '../../texts/variants';
 
 export interface Nameless {
@@ -156,4 +156,10 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   if (Math.abs(longer) < LEAST_S && Math.abs(further) >= LEAST_M)
     say(further > 0 ? TEXTS.goesFaster : TEXTS.goesSlower, Math.abs(further));
   return out;
+}
+
+/** What tells a variant by its number. */
+export function valueWords(over: Over, value: number, unit: SpeedUnit): string {
+  if (over === 'time') return TEXTS.thereAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
+  return `${over === 'start' ? TEXTS.startsAt : TEXTS.arrivesAt} ${speedLabel(value, unit)}`;
 }

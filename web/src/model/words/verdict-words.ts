@@ -12,7 +12,7 @@ import {
 import { LETTERS, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
-import type { AgentType } from '../document/scene';
+import type { AgentType } from '../base/kinds';
 import { acceleration, metres, seconds } from '../base/units';
 import { TEXTS } from '../../texts/verdicts';
 
