@@ -1,5 +1,5 @@
 // What painters draw with: the part of a 2D canvas that they need, and three things that a canvas elsewhere can keep.
-import type { Vec } from '../model/geometry';
+import type { Vec } from '../model/base/geometry';
 
 /** A path that stays the same over many pictures, in the coordinates of the scene. */
 export class Shape {
@@ -64,4 +64,17 @@ export interface Pen extends Pick<
   stamp(sprite: Sprite, x: number, y: number, w: number, h: number): void;
   /** Strokes are tiles of a sprite from here on, each `scale` times as large as its pixels. */
   strokeTiles(sprite: Sprite, scale: number): void;
+}
+
+/** What of a canvas recordings need. */
+export interface Played extends Omit<
+  Pen,
+  'stroke' | 'fill' | 'strokeStyle' | 'fillStyle' | 'strokeShape' | 'fillShape' | 'stamp' | 'strokeTiles'
+> {
+  strokeStyle: string | CanvasGradient | CanvasPattern;
+  fillStyle: string | CanvasGradient | CanvasPattern;
+  stroke(path?: Path2D): void;
+  fill(path?: Path2D, rule?: CanvasFillRule): void;
+  drawImage(image: CanvasImageSource, x: number, y: number, w: number, h: number): void;
+  createPattern(image: CanvasImageSource, repetition: string): CanvasPattern | null;
 }

@@ -1,6 +1,6 @@
 // Plays recordings on a 2D canvas, in a worker or on the page.
 import { Bounds, Extent, type Part } from './extent';
-import type { Pen } from './pen';
+import type { Pen, Played } from './pen';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
@@ -15,19 +15,6 @@ export function surface(width: number, height: number): Surface {
 export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
 /** The pen of a canvas that is covered whole, so that copying it is no blending. */
 export const opaquePen = (s: Surface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
-
-/** What of a canvas recordings need. */
-export interface Played extends Omit<
-  Pen,
-  'stroke' | 'fill' | 'strokeStyle' | 'fillStyle' | 'strokeShape' | 'fillShape' | 'stamp' | 'strokeTiles'
-> {
-  strokeStyle: string | CanvasGradient | CanvasPattern;
-  fillStyle: string | CanvasGradient | CanvasPattern;
-  stroke(path?: Path2D): void;
-  fill(path?: Path2D, rule?: CanvasFillRule): void;
-  drawImage(image: CanvasImageSource, x: number, y: number, w: number, h: number): void;
-  createPattern(image: CanvasImageSource, repetition: string): CanvasPattern | null;
-}
 
 export class Player {
   #texts: string[] = [];

@@ -1,15 +1,10 @@
 // All that a person reads stands in tables, one a part of the page, so that a script brings its own words alone. A text
 // with values in it is a function of them. Another language is a table of the same shape (`german`).
 import { change } from './language';
+import type { Words } from './words';
 import { ENGLISH, FINGERS, tapping } from './tapping';
 
 export { plural } from './language';
-
-/** A text, or how to make it of values; they may lie in groups. */
-export type Word = string | ((...values: never[]) => string);
-export interface Words {
-  readonly [key: string]: Word | Words;
-}
 
 /** The same shape with any words in it. */
 export type Said<T> = {

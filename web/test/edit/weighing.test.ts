@@ -1,6 +1,6 @@
 // What comes of the ways out of an event is known before one is taken: each is tried apart, and nothing is changed.
 import { describe, expect, it } from 'vitest';
-import type { TrafficEvent } from '../../src/model/events';
+import type { TrafficEvent } from '../../src/model/words/event-words';
 import { eventRemedies } from '../../src/edit/event-remedies';
 import { Questions } from '../../src/edit/question';
 import { SceneFile } from '../../src/edit/scene-file';
@@ -36,6 +36,9 @@ class Weighed extends Session {
       b,
       inLog: false,
       at: [0, 0],
+      extent: 0.6,
+      ttc: null,
+      poses: [null, null],
     };
     this.editor.pickEvent(this.event);
   }

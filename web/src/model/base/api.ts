@@ -1,0 +1,8925 @@
+// Made from assets/openapi.json by `npm run api`; not to be edited. model/document/scene-json.ts and
+// net/types.ts name what the editor uses.
+export interface paths {
+    "/healthz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The process answers. */
+        get: operations["healthz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Counters in Prometheus' text form. */
+        get: operations["metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/readyz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Experts are warm, the store takes writes, the queue has room. */
+        get: operations["readyz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Exports a scene given in the body. */
+        post: operations["exportUnsaved"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/generate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A WebSocket for many generations, one after the other or at the same time, at a third of what requests of their
+         *     own cost a browser. Each text message asks, `{"ask": 1, "body": {..}}` with the body of a `POST` and a number of
+         *     the client's choice, or gives up: `{"end": 1}`. What is told of a question is a line `{"ask": 1, "status": 200}`,
+         *     in the first message with `retry_after_s` and `scene` (the header `Dragtraffic-Scene`) where the reply would have
+         *     them, in the last one with `"last": true`; after it come lines as a `POST` streams them as NDJSON, or the problem.
+         */
+        get: operations["openLine"];
+        put?: never;
+        /**
+         * Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),
+         *     by Accept. Stores nothing.
+         */
+        post: operations["generate"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stores the scenes of a file, or of the files of a form: each of several is told by itself, and the call is refused
+         *     when none of them can be read.
+         */
+        post: operations["importScenes"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/info": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Version, weights, limits and formats. */
+        get: operations["info"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{job}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Cancels a generation; an id that is not under way is nothing to do. */
+        delete: operations["cancelJob"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Draws a map from a template and its parameters: lanes with links, neighbours and boundaries, kerbs, crosswalks,
+         *     stop signs, lights over nine seconds. Stores nothing.
+         */
+        post: operations["makeMap"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/map/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Lists the templates of maps with their parameters. */
+        get: operations["listTemplates"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/maps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Lists the maps of saved scenes. */
+        get: operations["listMaps"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/maps/{sha256}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Reads a map. It never changes, so it may be kept for ever. */
+        get: operations["readMap"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/place": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
+         *     cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m apart
+         *     and all centres lie in the region. Fewer than asked is no error. Stores nothing.
+         */
+        post: operations["place"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/scenes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Lists scenes without their content: saved ones, demos, and those of the data folder. */
+        get: operations["listScenes"];
+        put?: never;
+        /** Saves a new scene; the id of the document is ignored. */
+        post: operations["createScene"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/scenes/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Reads a scene. */
+        get: operations["readScene"];
+        /** Replaces a scene (If-Match) or makes one under the client's own id (If-None-Match: *). */
+        put: operations["replaceScene"];
+        post?: never;
+        /** Deletes a scene. */
+        delete: operations["deleteScene"];
+        options?: never;
+        head?: never;
+        /** Renames a scene, or changes its tags or notes (RFC 7396 merge patch). */
+        patch: operations["renameScene"];
+        trace?: never;
+    };
+    "/v1/scenes/{id}/duplicate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Copies a scene, read-only ones too; `meta.parent_id` names the original. */
+        post: operations["duplicateScene"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/scenes/{id}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Exports a scene of this server. */
+        get: operations["exportScene"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/scenes/{id}/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Reads what a small picture of a scene shows: a scene with its lines in few points, and of each road user who
+         *     is there at first the first and the last state.
+         */
+        get: operations["previewScene"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/score": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Scores a scene: chosen futures or the given motion, and the log of the rest. */
+        post: operations["score"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /**
+         * AcceptedEvent
+         * @description First event: what will be done.
+         */
+        AcceptedEvent: {
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "accepted";
+            /** @description Road users that keep their motion. */
+            fixed: string[];
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint
+             * @description Jobs before this one when it was asked for.
+             */
+            queue_position: number;
+            /** @description Road users that answer to them. */
+            reacting: string[];
+            /** @description Road users that get new futures. */
+            regenerated: string[];
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description The seed in use.
+             */
+            seed: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /**
+             * Format: uint
+             * @description Refinement steps of a window.
+             */
+            steps: number;
+            /** @description Unlikely things known by now. */
+            warnings: components["schemas"]["Warning"][];
+            /**
+             * Format: uint
+             * @description Planning windows, one after the other.
+             */
+            windows: number;
+        };
+        /**
+         * AgentDoc
+         * @description One road user.
+         */
+        AgentDoc: {
+            /**
+             * @description What the user fixed.
+             * @default {}
+             */
+            conditions?: components["schemas"]["ConditionsDoc"];
+            /**
+             * Format: double
+             * @description Metres.
+             * @default null
+             */
+            height_m?: number | null;
+            /** @description Unique in the scene, `[A-Za-z0-9_.:-]{1,64}`. */
+            id: string;
+            /**
+             * Format: double
+             * @description Metres; the subtype's when absent.
+             * @default null
+             */
+            length_m?: number | null;
+            /**
+             * @description Role in the source, such as `ego`.
+             * @default null
+             */
+            role?: string | null;
+            /**
+             * @description Sets default size and limits.
+             * @default unknown
+             * @enum {string}
+             */
+            subtype?: "car" | "truck" | "bus" | "van" | "motorcycle" | "trailer" | "emergency" | "adult" | "child" | "wheelchair" | "scooter" | "bicycle" | "unknown";
+            /**
+             * @description What was recorded; empty when absent.
+             * @default {
+             *       "first_step": 0,
+             *       "heading_rad": [],
+             *       "valid": null,
+             *       "vx_mps": [],
+             *       "vy_mps": [],
+             *       "x_m": [],
+             *       "y_m": [],
+             *       "z_m": null
+             *     }
+             */
+            track?: components["schemas"]["TrackDoc"];
+            /**
+             * @description Selects expert and motion model; `other` is shown, never regenerated.
+             * @enum {string}
+             */
+            type: "vehicle" | "pedestrian" | "cyclist" | "other";
+            /**
+             * Format: double
+             * @description Metres; the subtype's when absent.
+             * @default null
+             */
+            width_m?: number | null;
+        };
+        /**
+         * AgentFuturesDoc
+         * @description The futures of one road user.
+         */
+        AgentFuturesDoc: {
+            /**
+             * Format: uint64
+             * @description Index into `modes` of the one that is shown and exported.
+             */
+            chosen: number;
+            /** @description By falling probability. */
+            modes: components["schemas"]["FutureDoc"][];
+            /** @description Why it gave up the motion that it had. */
+            reaction?: components["schemas"]["Reaction"] | null;
+        };
+        /**
+         * AgentScore
+         * @description Score of one road user.
+         */
+        AgentScore: {
+            /**
+             * Format: double
+             * @description Mean distance of the chosen future, metres.
+             */
+            ade_m?: number | null;
+            /**
+             * Format: uint
+             * @description Collisions it is part of and the log does not show.
+             */
+            collisions: number;
+            /** @description Which step counted as the end. */
+            endpoint?: components["schemas"]["Endpoint"];
+            /** @description Only when a goal field is fixed. */
+            goal_error: components["schemas"]["GoalError"] | null;
+            /**
+             * Format: double
+             * @description Mean absolute heading error of the future that ends closest, radians.
+             */
+            heading_error_rad?: number | null;
+            /** @description Generated motion only. */
+            kinematic: components["schemas"]["Kinematic"] | null;
+            /**
+             * Format: double
+             * @description Greatest distance of the chosen future, metres (the log ghost's figure).
+             */
+            max_distance_m?: number | null;
+            /**
+             * Format: double
+             * @description Least mean distance of any future, metres.
+             */
+            min_ade_m?: number | null;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            min_distance_m: number | null;
+            /**
+             * Format: double
+             * @description Least distance at the end of any future, metres.
+             */
+            min_fde_m?: number | null;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            min_ttc_s: number | null;
+            /**
+             * Format: uint
+             * @description Near misses it is part of and the log does not show.
+             */
+            near_misses: number;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            offroad_max_m: number | null;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            offroad_share: number | null;
+            /**
+             * Format: uint
+             * @description Overlaps below the threshold of a collision that it is part of and the log does not show.
+             */
+            overlaps: number;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            pet_s: number | null;
+            /**
+             * Format: double
+             * @description Mean absolute speed error of the future that ends closest, m/s.
+             */
+            speed_error_mps?: number | null;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            wrong_way_share: number | null;
+        };
+        /**
+         * AgentType
+         * @description What kind of road user; selects the expert and the motion model.
+         */
+        AgentType: "vehicle" | "pedestrian" | "cyclist" | "other";
+        /**
+         * All
+         * @description The word `all`.
+         */
+        All: "all";
+        /**
+         * AnswerDoc
+         * @description A judged card.
+         */
+        AnswerDoc: {
+            /** @description Of the card, as it was answered. */
+            features: components["schemas"]["Features"];
+            /**
+             * @description Of the card, as they were answered: nothing like it comes again.
+             * @default {}
+             */
+            places?: {
+                [key: string]: number[][];
+            };
+            /** @description What was said. */
+            verdict: components["schemas"]["Verdict"];
+            /** @description What should be otherwise, or was liked. */
+            why?: components["schemas"]["Wish"] | null;
+        };
+        /**
+         * AnswerSample
+         * @description One joint scene of the answer. Its score stands in `scores`.
+         */
+        AnswerSample: {
+            /** @description Road user's id to its futures. */
+            agents: {
+                [key: string]: components["schemas"]["FuturesDoc"];
+            };
+            /** @description Empty here; a place for the score when it is saved. */
+            score: unknown;
+        };
+        /**
+         * AreaDoc
+         * @description A crosswalk, speed bump or driveway.
+         */
+        AreaDoc: {
+            /** @description Unique among areas of the kind. */
+            id: string;
+            /** @description Open ring. */
+            polygon_m: components["schemas"]["Points"];
+        };
+        /**
+         * Arm
+         * @description A road that leads to a junction, seen from the junction.
+         */
+        Arm: {
+            /**
+             * Format: double
+             * @description Where it leads, counter-clockwise from east, degrees.
+             * @default 0
+             */
+            angle_deg: number;
+            /**
+             * Format: double
+             * @description Width of the crosswalk over it, metres; less than half a metre is none.
+             * @default 3
+             */
+            crosswalk_m: number;
+            /**
+             * Format: double
+             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
+             * @default 0
+             */
+            cycle_lane_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes towards the junction.
+             * @default 1
+             */
+            lanes_in: number;
+            /**
+             * Format: uint8
+             * @description Lanes away from it.
+             * @default 1
+             */
+            lanes_out: number;
+            /**
+             * Format: double
+             * @description From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+             * @default 90
+             */
+            length_m: number;
+            /**
+             * @description With `priority`: its traffic goes first.
+             * @default false
+             */
+            main: boolean;
+            /**
+             * Format: double
+             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
+             * @default 0
+             */
+            median_m: number;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
+             *     in left-hand traffic) to the kerb; null is the usual.
+             * @default null
+             */
+            turns: components["schemas"]["Turn"][][] | null;
+        };
+        /**
+         * ArmDoc
+         * @description Where a road comes in.
+         */
+        ArmDoc: {
+            /**
+             * Format: double
+             * @description Direction in which it leads, radians.
+             */
+            heading_rad: number;
+            /** @description The compass point that it comes from, with a number where several do: `north-east`, `west-2`. */
+            id: string;
+            /** @description From right to left. */
+            lanes: components["schemas"]["ArmLaneDoc"][];
+            /**
+             * Format: uint
+             * @description Those that come in later.
+             */
+            later: number;
+            /**
+             * Format: double
+             * @description To its line, metres: the first junction, or where the road ends or joins another.
+             */
+            length_m: number;
+            /**
+             * Format: double
+             * @description Most vehicles an hour that its lanes take.
+             */
+            most_per_hour: number;
+            /**
+             * Format: uint
+             * @description Vehicles of its traffic that are there at the start.
+             */
+            placed: number;
+            /**
+             * Format: double
+             * @description Middle of its lanes there, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description The same, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * ArmLaneDoc
+         * @description A lane by which an arm leads in.
+         */
+        ArmLaneDoc: {
+            /** @description Id of the lane. */
+            lane: string;
+            /**
+             * Format: double
+             * @description Arc length at which it comes in, metres.
+             */
+            s_m: number;
+        };
+        /**
+         * ArmPlace
+         * @description Where an arm lies, for whoever draws handles on it.
+         */
+        ArmPlace: {
+            /** @description Where the arm leaves the map, metres. */
+            end_m: number[];
+            /** @description Where each of its lanes in ends, metres. */
+            ins_m: number[][];
+            /** @description From the middle to the kerb beside the lanes in and beside the lanes out, metres. */
+            kerbs_m: number[];
+            /** @description Where traffic towards the junction stops, in the middle of the arm, metres. */
+            mouth_m: number[];
+            /** @description Such as `North`. */
+            name: string;
+            /** @description Where each of its lanes out begins, metres. */
+            outs_m: number[][];
+            /** @description Where its turn lanes lead, from the middle of the road to the kerb; single connections apart. */
+            turns: components["schemas"]["Turn"][][];
+        };
+        /**
+         * ArrivalsDoc
+         * @description Traffic that comes in by an arm.
+         */
+        ArrivalsDoc: {
+            /** @description Id of one of the reply's `arms`. */
+            arm: string;
+            /**
+             * Format: double
+             * @description Motor vehicles an hour, all lanes together.
+             */
+            per_hour: number;
+        };
+        /**
+         * Bound
+         * @description One bound as it is in force.
+         */
+        Bound: {
+            /**
+             * Format: uint64
+             * @description In the unit of the bound's name.
+             */
+            value: number;
+            /** @description What it bounds. */
+            what: string;
+        };
+        /**
+         * BoundaryDoc
+         * @description A stretch of a lane's side and the line or edge that bounds it.
+         */
+        BoundaryDoc: {
+            /**
+             * Format: uint32
+             * @description First point index.
+             */
+            from: number;
+            /**
+             * Format: uint32
+             * @description WOMD's boundary type number.
+             */
+            kind?: number | null;
+            /** @description Id of the road line or edge. */
+            ref: string;
+            /**
+             * Format: uint32
+             * @description Last point index.
+             */
+            to: number;
+        };
+        /**
+         * Build
+         * @description What the program was built for.
+         */
+        Build: {
+            /** @description Cargo profile. */
+            profile: string;
+            /** @description Target triple. */
+            target: string;
+        };
+        /**
+         * ByRoad
+         * @description A place on a lane that can be had instead of a goal.
+         */
+        ByRoad: {
+            /**
+             * Format: double
+             * @description From the goal, metres.
+             */
+            distance_m: number;
+            /**
+             * Format: double
+             * @description Of the lane, radians.
+             */
+            heading_rad: number;
+            /**
+             * Format: double
+             * @description On the lane's middle, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description On the lane's middle, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * CarPark
+         * @description A street with a car park beside it: in at one end, along aisles, out at the other.
+         */
+        CarPark: {
+            /**
+             * Format: double
+             * @description Width of the aisles, metres.
+             * @default 5.5
+             */
+            aisle_m: number;
+            /**
+             * Format: uint8
+             * @description Aisles with bays on both sides.
+             * @default 3
+             */
+            aisles: number;
+            /**
+             * Format: double
+             * @description Length of a bay, metres.
+             * @default 5
+             */
+            bay_length_m: number;
+            /**
+             * Format: double
+             * @description Width of a bay, metres.
+             * @default 2.5
+             */
+            bay_width_m: number;
+            /**
+             * Format: uint8
+             * @description Bays along each side of an aisle.
+             * @default 12
+             */
+            bays: number;
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres.
+             * @default 6
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of the lanes of the street, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; less than half a metre is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * Format: double
+             * @description Speed limit of the street, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * Check
+         * @description One check, or one failure of it.
+         */
+        Check: {
+            /** @description Where it fails, metres. */
+            at_m: number[] | null;
+            /** @description What it is about. */
+            kind: components["schemas"]["CheckKind"];
+            /** @description Lanes it is about. */
+            lanes: string[];
+            /** @description All is well. */
+            passed: boolean;
+            /** @description In words. */
+            text: string;
+        };
+        /**
+         * CheckKind
+         * @description What a check is about.
+         */
+        CheckKind: "lanes-lead" | "turns" | "widths" | "signals-apart";
+        /**
+         * CircleDoc
+         * @description A circle.
+         */
+        CircleDoc: {
+            /**
+             * Format: double
+             * @description Metres.
+             */
+            radius_m: number;
+            /**
+             * Format: double
+             * @description Centre, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Centre, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * Collision
+         * @description Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
+         */
+        Collision: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Speed at which the two closed in at the first moment, m/s (their relative speed when they
+             *     already overlap).
+             */
+            closing_speed_mps: number;
+            /** @description Both move as recorded. It does not count. */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Greatest intersection over union of the whole encounter, 0 to 1.
+             */
+            iou: number;
+            /**
+             * Format: double
+             * @description Scene time of the first moment over the threshold, seconds.
+             */
+            time_s: number;
+        };
+        /**
+         * CompactFuture
+         * @description One possible motion. The first number of a column is its value at the first step, the second how much the
+         *     next value is greater, and each further one by how much that changes: with two running sums the columns of a
+         *     scene document come out, to the last digit.
+         */
+        CompactFuture: {
+            /**
+             * Format: uint32
+             * @description Which of the generator's anchors it follows.
+             */
+            anchor?: number | null;
+            /** @description What is wrong with it, the worst first. */
+            faults?: components["schemas"]["Fault"][];
+            /**
+             * Format: uint64
+             * @description Scene step of the first value.
+             */
+            first_step: number;
+            /** @description Ten-thousandths of a radian. */
+            heading_e4rad: number[];
+            /** @description What it does. */
+            manoeuvre?: components["schemas"]["Manoeuvre"] | null;
+            /**
+             * Format: double
+             * @description Share of belief among the road user's futures.
+             */
+            probability: number;
+            /** @description How it stands to others. */
+            relations?: components["schemas"]["Relation"][];
+            /** @description Millimetres a second. */
+            vx_mmps: number[];
+            /** @description Millimetres a second. */
+            vy_mmps: number[];
+            /** @description Box centre, millimetres. */
+            x_mm: number[];
+            /** @description Box centre, millimetres. */
+            y_mm: number[];
+        };
+        /**
+         * CompactFuturesDoc
+         * @description The futures of one road user, compact.
+         */
+        CompactFuturesDoc: {
+            /**
+             * Format: uint64
+             * @description Index into `compact` of the one that is shown and exported.
+             */
+            chosen: number;
+            /** @description By falling probability. */
+            compact: components["schemas"]["CompactFuture"][];
+            /** @description Why it gave up the motion that it had. */
+            reaction?: components["schemas"]["Reaction"] | null;
+        };
+        /**
+         * Condition
+         * @description A word for those who look after the server.
+         */
+        Condition: "ok" | "ready";
+        /**
+         * ConditionRange
+         * @description Allowed sizes and speeds of one agent type; both ends are allowed.
+         */
+        ConditionRange: {
+            /** @description Metres. */
+            length_m: [
+                number,
+                number
+            ];
+            /** @description m/s; also the norm of a velocity. */
+            speed_mps: [
+                number,
+                number
+            ];
+            /** @description Metres. */
+            width_m: [
+                number,
+                number
+            ];
+        };
+        /**
+         * ConditionRanges
+         * @description What conditions may ask for, by type; both ends are allowed.
+         */
+        ConditionRanges: {
+            cyclist: components["schemas"]["ConditionRange"];
+            pedestrian: components["schemas"]["ConditionRange"];
+            vehicle: components["schemas"]["ConditionRange"];
+        };
+        /**
+         * ConditionsDoc
+         * @description All that a user fixes about one road user. A number fixes a field, null or absence frees it.
+         */
+        ConditionsDoc: {
+            /**
+             * @description Frame of the goal; replies are always in `scene`.
+             * @enum {string}
+             */
+            frame?: "scene" | "agent";
+            /** @description Goal fields. */
+            goal?: components["schemas"]["GoalDoc"] | null;
+            /**
+             * Format: double
+             * @description Metres.
+             */
+            length_m?: number | null;
+            /** @description Start fields. */
+            start?: components["schemas"]["StartDoc"] | null;
+            /**
+             * @description Expert to use in place of the road user's own type's.
+             * @enum {unknown}
+             */
+            type?: "vehicle" | "pedestrian" | "cyclist" | null;
+            /** @description Places that it passes on its way, in this order; always in the frame `scene`. */
+            via?: components["schemas"]["ViaDoc"][];
+            /**
+             * Format: double
+             * @description Metres.
+             */
+            width_m?: number | null;
+        };
+        /**
+         * Connection
+         * @description A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
+         *     of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+         */
+        Connection: {
+            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            from: string;
+            /** @description A lane away from it, such as `arm3.out1`. */
+            to: string;
+        };
+        /**
+         * Connections
+         * @description What a junction has and has not beside the ways that its turn lanes make.
+         */
+        Connections: {
+            /**
+             * @description Ways that there are in any case.
+             * @default []
+             */
+            added: components["schemas"]["Connection"][];
+            /**
+             * @description Ways that there are not.
+             * @default []
+             */
+            removed: components["schemas"]["Connection"][];
+        };
+        /**
+         * Control
+         * @description Who goes first where roads meet.
+         */
+        Control: "signals" | "priority" | "equal";
+        /**
+         * CornerPlace
+         * @description Where a kerb bends.
+         */
+        CornerPlace: {
+            /** @description The arms that it joins. */
+            arms: number[];
+            /** @description The middle of the bend, metres. */
+            at_m: number[];
+            /**
+             * Format: double
+             * @description Its radius, metres: less than asked where arms are too close.
+             */
+            radius_m: number;
+        };
+        /**
+         * Counts
+         * @description Road users by type.
+         */
+        Counts: {
+            /** Format: uint */
+            cyclist: number;
+            /** Format: uint */
+            other: number;
+            /** Format: uint */
+            pedestrian: number;
+            /** Format: uint */
+            vehicle: number;
+        };
+        /**
+         * Defaults
+         * @description What a request has when it does not say: the one place, for the API, the command line and clients.
+         */
+        Defaults: {
+            /**
+             * Format: double
+             * @description Scale of the draw's noise.
+             */
+            diversity: number;
+            /**
+             * Format: double
+             * @description Seconds to generate.
+             */
+            horizon_s: number;
+            /**
+             * Format: uint
+             * @description Alternatives kept per road user.
+             */
+            modes: number;
+            /**
+             * Format: uint
+             * @description Independent joint scenes.
+             */
+            samples: number;
+            /**
+             * Format: uint64
+             * @description Repeats the answer.
+             */
+            seed: number;
+            /**
+             * Format: uint
+             * @description Refinement steps.
+             */
+            steps: number;
+        };
+        /**
+         * DensityDoc
+         * @description How many: exactly one of the two.
+         */
+        DensityDoc: {
+            /**
+             * Format: uint64
+             * @description Road users in all.
+             * @default null
+             */
+            count?: number | null;
+            /**
+             * Format: double
+             * @description Road users for each kilometre of lane for motor vehicles in the region, junctions left out.
+             * @default null
+             */
+            per_lane_km?: number | null;
+        };
+        /**
+         * DraftEvent
+         * @description `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where it begins.
+         */
+        DraftEvent: {
+            /** @description Futures by road user; the chosen ones alone, or all as `stream_modes` says. */
+            agents: {
+                [key: string]: components["schemas"]["FuturesDoc"];
+            };
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @enum {string}
+             */
+            event: "initial" | "step";
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint
+             * @description Joint scene, from 0.
+             */
+            sample: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /**
+             * Format: uint
+             * @description Refinement step, from 1; not in `initial`.
+             */
+            step?: number;
+            /**
+             * Format: uint
+             * @description Refinement steps of a window.
+             */
+            steps: number;
+            /**
+             * Format: uint
+             * @description Planning window, from 0.
+             */
+            window: number;
+        };
+        /**
+         * DrivableDoc
+         * @description A surface that may be driven on.
+         */
+        DrivableDoc: {
+            /**
+             * @description Open rings that are not drivable.
+             * @default []
+             */
+            holes_m?: components["schemas"]["Points"][];
+            /** @description Unique among drivable areas. */
+            id: string;
+            /** @description Open ring. */
+            polygon_m: components["schemas"]["Points"];
+        };
+        /**
+         * DuplicateRequest
+         * @description How the copy is called.
+         */
+        DuplicateRequest: {
+            /**
+             * @description The original's with "copy" after it when absent.
+             * @default null
+             */
+            name?: string | null;
+        };
+        /**
+         * Endpoint
+         * @description Which step counts as the end of a future.
+         */
+        Endpoint: "last" | "before_last";
+        /**
+         * ErrorEvent
+         * @description Last event of a call that failed or was cancelled.
+         */
+        ErrorEvent: {
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "error";
+            /** @description Id of the job. */
+            job: string;
+            /** @description What a refusal before the stream would have been answered with. */
+            problem: components["schemas"]["Problem"];
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+        };
+        /**
+         * Event
+         * @description One event of the stream. Exactly one of final, error and superseded ends it.
+         */
+        Event: components["schemas"]["AcceptedEvent"] | components["schemas"]["DraftEvent"] | components["schemas"]["FinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["SupersededEvent"] | components["schemas"]["HeartbeatEvent"];
+        /**
+         * Fault
+         * @description One thing that is wrong with a motion.
+         */
+        Fault: {
+            /** @description The road edge that is driven over, by its id in the map. */
+            edge?: string | null;
+            /**
+             * Format: double
+             * @description How bad, in the unit of its kind.
+             */
+            extent?: number | null;
+            /** @description What. */
+            kind: components["schemas"]["FaultKind"];
+            /**
+             * Format: double
+             * @description Scene time at which it begins, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Scene time at which it ends, seconds.
+             */
+            until_s: number;
+            /** @description The other road user. */
+            with?: string | null;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * FaultKind
+         * @description What can be wrong with a motion, the worst first.
+         */
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "via_missed" | "goal_missed";
+        /**
+         * Features
+         * @description A motion of one road user, or of several together, in such terms.
+         */
+        Features: {
+            /** @description By road user and other: it goes first where their ways cross. */
+            first?: {
+                [key: string]: {
+                    [key: string]: boolean;
+                };
+            };
+            /**
+             * Format: double
+             * @description Mean distance from the recording, metres; of several their mean. Absent where nothing was recorded.
+             */
+            from_log_m?: number | null;
+            /**
+             * Format: double
+             * @description Least time between it and another where their ways cross, at most 5 s; of several the least.
+             */
+            gap_s: number;
+            /**
+             * Format: double
+             * @description Greatest change of velocity over half a second, m/s2; of several the greatest.
+             */
+            harshness_mps2: number;
+            /** @description By road user: what it drives. */
+            manoeuvres?: {
+                [key: string]: components["schemas"]["Manoeuvre"];
+            };
+            /**
+             * Format: double
+             * @description Mean speed, m/s; of several their mean.
+             */
+            pace_mps: number;
+            /**
+             * Format: double
+             * @description Time that it stands, seconds; of several their mean.
+             */
+            standing_s: number;
+        };
+        /**
+         * FeedbackDoc
+         * @description Rounds of cards: the answer is the next round, taken from a wide draw by what was said of earlier cards. `feedback`
+         *     of the reply says what each card is like; each is sent back with what is said of it.
+         */
+        FeedbackDoc: {
+            /**
+             * @description Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
+             * @default []
+             */
+            answers?: components["schemas"]["AnswerDoc"][];
+            /**
+             * @description Traits that do not count, whatever the answers show.
+             * @default []
+             */
+            forgotten?: components["schemas"]["Trait"][];
+            /**
+             * @description Wishes that were said outright.
+             * @default []
+             */
+            wishes?: components["schemas"]["Wish"][];
+        };
+        /**
+         * Field
+         * @description A value and where it came from.
+         */
+        Field: {
+            /** @description Origin. */
+            from: components["schemas"]["Source"];
+            /**
+             * Format: double
+             * @description In the unit of the field's name.
+             */
+            value: number;
+        };
+        /**
+         * FieldProblem
+         * @description One fault and its place.
+         */
+        FieldProblem: {
+            /** @description A word that programs can switch on. */
+            code: string;
+            /** @description What was found and what was expected, for people. */
+            detail: string;
+            /**
+             * Format: double
+             * @description The value found, where it is a number.
+             */
+            got?: number;
+            /**
+             * Format: double
+             * @description Greatest value allowed, where that is the fault.
+             */
+            max?: number;
+            /**
+             * Format: double
+             * @description Least value allowed, where that is the fault.
+             */
+            min?: number;
+            /** @description JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter. */
+            pointer: string;
+        };
+        /**
+         * FinalEvent
+         * @description Last event of a call that succeeded: the answer.
+         */
+        FinalEvent: {
+            /**
+             * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
+             *     options, seed, weights and version. Equal calls have equal codes.
+             */
+            code: string;
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "final";
+            /** @description Of a round: what its cards are like, and what was learned. */
+            feedback?: components["schemas"]["Round"];
+            /**
+             * @description The scene's `generated` member, all but `samples`: put `samples` in and save (those in
+             *     compact form as columns).
+             */
+            generated: components["schemas"]["GeneratedHead"];
+            /** @description Id of the job. */
+            job: string;
+            /** @description Every condition field as it was used. */
+            resolved: {
+                [key: string]: components["schemas"]["Resolved"];
+            };
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * @description Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
+             *     unless `kept_futures` says otherwise.
+             */
+            samples: components["schemas"]["AnswerSample"][];
+            /** @description One report a sample, or null when none was asked for. */
+            scores: components["schemas"]["ScoreReply"][] | null;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /** @description Where the time went. */
+            timing: components["schemas"]["Timing"];
+            /** @description Unlikely things that were done anyway. */
+            warnings: components["schemas"]["Warning"][];
+            /**
+             * Format: uint
+             * @description Planning windows that were run. A chosen future runs through all of them; its alternatives are those
+             *     of the first and end with its plan.
+             */
+            windows: number;
+        };
+        /**
+         * FormatInfo
+         * @description What people and programs need to know about a format.
+         */
+        FormatInfo: {
+            /** @description Can be written. */
+            export: boolean;
+            /** @description Ends of file names, the first one for exports. */
+            extensions: string[];
+            /** @description Word for `--from`, `--to` and `?format=`. */
+            id: string;
+            /** @description Can be read. */
+            import: boolean;
+            /**
+             * @description Codes of what a written file may lack ([`crate::loss::code`]). What it lacks of a scene is told when it is
+             *     written.
+             */
+            loses: string[];
+            /** @description Holds many scenes in one file. */
+            many: boolean;
+            /** @description Media type of an exported file. */
+            media_type: string;
+            /** @description For people. */
+            name: string;
+            /** @description What a file holds, and how it is read and written. */
+            notes: string;
+            /** @description May come with the network it belongs to ([`ImportOptions::net`]). */
+            takes_net: boolean;
+        };
+        /**
+         * FutureDoc
+         * @description One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
+         *     0.001 m, 0.0001 rad and 0.001 m/s.
+         */
+        FutureDoc: {
+            /**
+             * Format: uint32
+             * @description Which of the generator's anchors it follows: the same number while a goal is dragged is the same
+             *     idea.
+             */
+            anchor?: number | null;
+            /** @description What is wrong with it, the worst first. */
+            faults?: components["schemas"]["Fault"][];
+            /**
+             * Format: uint64
+             * @description Scene step of the first value: one after the start.
+             */
+            first_step: number;
+            /** @description Radians. */
+            heading_rad: number[];
+            /** @description What it does. */
+            manoeuvre?: components["schemas"]["Manoeuvre"] | null;
+            /**
+             * Format: double
+             * @description Share of belief among the road user's futures.
+             */
+            probability: number;
+            /** @description How it stands to others. */
+            relations?: components["schemas"]["Relation"][];
+            /** @description m/s. */
+            vx_mps: number[];
+            /** @description m/s. */
+            vy_mps: number[];
+            /** @description Box centre, metres. */
+            x_m: number[];
+            /** @description Box centre, metres. */
+            y_m: number[];
+        };
+        /**
+         * FuturesDoc
+         * @description The futures of one road user in a reply, as `futures` of the request says.
+         */
+        FuturesDoc: components["schemas"]["AgentFuturesDoc"] | components["schemas"]["CompactFuturesDoc"];
+        /**
+         * FuturesForm
+         * @description How the futures of a reply are written.
+         */
+        FuturesForm: "columns" | "compact";
+        /**
+         * GenerateRequest
+         * @description Body of a generation. Exactly one of `scene` and `scene_id` is given.
+         */
+        GenerateRequest: {
+            /**
+             * @description Road users put in for this call.
+             * @default []
+             */
+            add_agents?: components["schemas"]["AgentDoc"][];
+            /**
+             * @description Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
+             *     and give way to each other there.
+             * @default all
+             */
+            agents?: components["schemas"]["Who"];
+            /**
+             * @description Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+             * @default false
+             */
+            background?: boolean;
+            /**
+             * @description With `revision`: a newer revision of this client takes over.
+             * @default null
+             */
+            client?: string | null;
+            /**
+             * @description Replace the scene's own conditions of these road users, whole.
+             * @default {}
+             */
+            conditions?: {
+                [key: string]: components["schemas"]["ConditionsDoc"];
+            };
+            /**
+             * Format: double
+             * @description Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+             * @default 0.5
+             */
+            diversity?: number;
+            /**
+             * Format: uint64
+             * @description Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
+             *     leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
+             *     `accepted`, which waits for it so long.
+             * @default 0
+             */
+            draft_delay_ms?: number;
+            /**
+             * Format: uint64
+             * @description `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
+             *     all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+             * @default 0
+             */
+            draft_interval_ms?: number;
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
+            /**
+             * @description Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
+             *     round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
+             *     many. `samples` does not count.
+             * @default null
+             */
+            feedback?: components["schemas"]["FeedbackDoc"] | null;
+            /** @description How futures are written, in drafts and in `final`. */
+            futures?: components["schemas"]["FuturesForm"];
+            /**
+             * @description With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
+             *     reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+             * @default false
+             */
+            hold?: boolean;
+            /**
+             * Format: double
+             * @description Seconds to generate. More than 9 is planned window after window.
+             * @default 9
+             */
+            horizon_s?: number;
+            /**
+             * @description Own id for the job, so that it can be cancelled.
+             * @default null
+             */
+            job?: string | null;
+            /**
+             * @description What becomes of the futures that the scene has, of those who are not part of this call.
+             * @default answered
+             */
+            kept_futures?: components["schemas"]["KeptFutures"];
+            /**
+             * Format: uint64
+             * @description Alternatives kept per road user.
+             * @default 6
+             */
+            modes?: number;
+            /**
+             * @description Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
+             *     the others answer it.
+             * @default []
+             */
+            pinned?: string[];
+            /**
+             * @description Who else answers to them.
+             * @default false
+             */
+            react?: components["schemas"]["Reacting"];
+            /**
+             * @description Road users taken out for this call.
+             * @default []
+             */
+            remove_agents?: string[];
+            /**
+             * Format: double
+             * @description Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
+             * @default null
+             */
+            replan_interval_s?: number | null;
+            /**
+             * Format: uint64
+             * @description Rises with each request of `client`.
+             * @default null
+             */
+            revision?: number | null;
+            /**
+             * Format: uint64
+             * @description Independent joint scenes.
+             * @default 1
+             */
+            samples?: number;
+            /**
+             * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+             * @default null
+             */
+            scene?: components["schemas"]["SceneDoc"] | null;
+            /**
+             * @description A scene of this server.
+             * @default null
+             */
+            scene_id?: string | null;
+            /**
+             * @description Put scores into `final`.
+             * @default true
+             */
+            score?: boolean;
+            /**
+             * Format: uint64
+             * @description The same seed gives the same answer.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
+             *     the jump.
+             */
+            shown?: {
+                [key: string]: components["schemas"]["ShownDoc"];
+            };
+            /**
+             * Format: double
+             * @description Scene time of the start, seconds.
+             * @default 0
+             */
+            start_s?: number;
+            /**
+             * Format: uint64
+             * @description Denoising steps; 0 returns the first guess.
+             * @default 5
+             */
+            steps?: number;
+            /**
+             * @description What drafts carry.
+             * @default chosen
+             */
+            stream_modes?: components["schemas"]["StreamModes"];
+            /**
+             * @description Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
+             *     absent have their defaults. They change no motion.
+             * @default {
+             *       "closing_speed_mps": 1,
+             *       "covered_share": 0.5,
+             *       "follow_brake_mps2": 3.35,
+             *       "gap_m": 1,
+             *       "goal_heading_rad": 0.02,
+             *       "goal_position_m": 0.05,
+             *       "goal_speed_mps": 0.05,
+             *       "harsh_brake_mps2": 4,
+             *       "harsh_lateral_mps2": 4,
+             *       "iou": 0,
+             *       "moving_mps": 0.5,
+             *       "offroad_m": 0.1,
+             *       "right_on_red": true,
+             *       "ttc_s": 1.5
+             *     }
+             */
+            thresholds?: components["schemas"]["Thresholds"];
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
+        /**
+         * GeneratedDoc
+         * @description What the generator added to a scene.
+         */
+        GeneratedDoc: {
+            /**
+             * Format: uint64
+             * @description Index into `samples`.
+             * @default 0
+             */
+            chosen_sample?: number;
+            /** @description RFC 3339 time; absent where equal calls are to give equal files. */
+            created_at?: string;
+            /** @description Hash of the user's part that these futures answer. */
+            input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
+            /**
+             * @description The request's options as sent.
+             * @default null
+             */
+            request?: unknown;
+            /** @description Independent answers. */
+            samples: components["schemas"]["SampleDoc"][];
+            /**
+             * Format: uint64
+             * @description Seed that repeats the answer, 0 to 2^53 - 1.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description The user's part has changed since.
+             * @default false
+             */
+            stale?: boolean;
+            /**
+             * @description Expert's name to the hash of its weights.
+             * @default {}
+             */
+            weights?: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * GeneratedHead
+         * @description The members of `generated` that do not come from the generator.
+         */
+        GeneratedHead: {
+            /**
+             * Format: uint
+             * @description Index into `samples`.
+             */
+            chosen_sample: number;
+            /** @description RFC 3339 time. */
+            created_at: string;
+            /** @description Hash of the user's part that the futures answer. */
+            input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
+            /** @description The request's options as sent, without scene and conditions. */
+            request: unknown;
+            /**
+             * Format: uint64
+             * @description Seed that repeats the answer.
+             */
+            seed: number;
+            /** @description The user's part has changed since. */
+            stale: boolean;
+            /** @description Expert's name to the hash of its weights. */
+            weights: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * GoalDoc
+         * @description Where a road user should be at `time_s`; absent or null is free.
+         */
+        GoalDoc: {
+            /**
+             * Format: double
+             * @description Frame `agent`: metres along the start's heading; with `left_m` or not at all.
+             */
+            ahead_m?: number | null;
+            /**
+             * Format: double
+             * @description Radians, then wrapped.
+             */
+            heading_rad?: number | null;
+            /**
+             * Format: double
+             * @description Frame `agent`: metres to the left of the start's heading; with `ahead_m` or not at all.
+             */
+            left_m?: number | null;
+            /**
+             * @description Ids of road edges of the map, such as those of a median, that the road user may drive over: no fault, and no
+             *     reason to go another way.
+             */
+            may_cross?: string[];
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            speed_mps?: number | null;
+            /**
+             * Format: double
+             * @description Scene time, seconds; the end of the window when free. Snapped to 0.1.
+             */
+            time_s?: number | null;
+            /**
+             * Format: double
+             * @description Frame `agent`: radians from the start's heading, then wrapped.
+             */
+            turn_rad?: number | null;
+            /** @description In place of `speed_mps`; fixes a free heading too. */
+            velocity?: components["schemas"]["VelocityDoc"] | null;
+            /**
+             * Format: double
+             * @description Box centre, metres; with `y_m` or not at all.
+             */
+            x_m?: number | null;
+            /**
+             * Format: double
+             * @description Box centre, metres; with `x_m` or not at all.
+             */
+            y_m?: number | null;
+        } & (unknown & unknown & unknown & unknown);
+        /**
+         * GoalError
+         * @description Error at the goal time; a member is missing where its field was free.
+         */
+        GoalError: {
+            /**
+             * Format: double
+             * @description Absolute turn from the goal heading, radians.
+             */
+            heading_rad?: number | null;
+            /**
+             * Format: double
+             * @description Distance from the goal, metres.
+             */
+            position_m?: number | null;
+            /**
+             * Format: double
+             * @description Absolute difference from the goal speed, m/s.
+             */
+            speed_mps?: number | null;
+        };
+        /**
+         * Health
+         * @description How the server is.
+         */
+        Health: {
+            status: components["schemas"]["Condition"];
+        };
+        /**
+         * HeartbeatEvent
+         * @description A sign of life between events, in NDJSON alone: SSE has comments for it.
+         */
+        HeartbeatEvent: {
+            /** @constant */
+            event: "heartbeat";
+        };
+        /**
+         * ImportReply
+         * @description What a file gave.
+         */
+        ImportReply: {
+            /** @description A name of the formats table. */
+            format: string;
+            /** @description Scenes in the order of the file. */
+            scenes: components["schemas"]["ImportedScene"][];
+            /** @description Records that are no scenes. */
+            skipped: components["schemas"]["SkippedRecord"][];
+        };
+        /**
+         * ImportWarning
+         * @description Something a reader changed or left out without refusing.
+         */
+        ImportWarning: {
+            /** @description A word that programs can switch on. */
+            code: string;
+            /** @description For people. */
+            detail: string;
+        };
+        /**
+         * ImportedBody
+         * @description What a file gave, or each of several.
+         */
+        ImportedBody: components["schemas"]["ImportReply"] | components["schemas"]["ImportedFiles"];
+        /**
+         * ImportedFile
+         * @description One of several files: what it gave, or why it gave nothing.
+         */
+        ImportedFile: {
+            /** @description A name of the formats table. */
+            format?: string;
+            /** @description Name of the file, as the form gave it. */
+            name?: string;
+            /** @description Why nothing of it was taken. */
+            problem?: components["schemas"]["Problem"];
+            /** @description Scenes in the order of the file. */
+            scenes?: components["schemas"]["ImportedScene"][];
+            /** @description Records that are no scenes. */
+            skipped?: components["schemas"]["SkippedRecord"][];
+        };
+        /**
+         * ImportedFiles
+         * @description What several files gave.
+         */
+        ImportedFiles: {
+            /** @description In the order of the form. */
+            files: components["schemas"]["ImportedFile"][];
+        };
+        /**
+         * ImportedScene
+         * @description One scene of a file.
+         */
+        ImportedScene: {
+            /** @description Road users by type. */
+            counts: components["schemas"]["Counts"];
+            /** @description As in the ETag header; not in a dry run. */
+            etag?: string;
+            /** @description Id it was stored under; not in a dry run. */
+            id?: string;
+            /** @description For people. */
+            name: string;
+            /** @description The scene itself, in a dry run alone. */
+            scene?: components["schemas"]["SceneDoc"];
+            /**
+             * Format: uint
+             * @description Steps of 0.1 s.
+             */
+            steps: number;
+            /** @description What the reader changed or left out. */
+            warnings: components["schemas"]["ImportWarning"][];
+        };
+        /**
+         * Info
+         * @description What this server is and can do.
+         */
+        Info: {
+            build: components["schemas"]["Build"];
+            /** @description What conditions may ask for. */
+            condition_ranges: components["schemas"]["ConditionRanges"];
+            /** @description What a generation has when the request does not say. */
+            defaults: components["schemas"]["Defaults"];
+            /** @description What computes the networks. */
+            device: string;
+            /** @description Formats of files. */
+            formats: components["schemas"]["FormatInfo"][];
+            /** @description Bounds of the server by name, and those of the scene format. */
+            limits: {
+                [key: string]: components["schemas"]["Bound"];
+            };
+            /** @description What each kind of road user can do. */
+            motion_limits: components["schemas"]["KindLimits"];
+            /** @description Name of the program. */
+            name: string;
+            /** @description Sentences for people who run the server. */
+            notices: string[];
+            /** @description Weights of placement; null when road users are placed evenly along lanes. */
+            placement: components["schemas"]["PlacementInfo"] | null;
+            /** @description Version of the program. */
+            version: string;
+            /** @description Experts by name. */
+            weights: {
+                [key: string]: components["schemas"]["WeightsInfo"];
+            };
+        };
+        /**
+         * Intermediate
+         * @description Where a window sent a road user whose goal is due after the window's end: the state there on the
+         *     way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+         */
+        Intermediate: {
+            /** Format: double */
+            heading_rad: number;
+            /** @description The plan met it. */
+            reached: boolean;
+            /** Format: double */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which the state was to be reached, seconds: the end of the window's plan.
+             */
+            time_s: number;
+            /**
+             * Format: uint
+             * @description Planning window, from 0.
+             */
+            window: number;
+            /** Format: double */
+            x_m: number;
+            /** Format: double */
+            y_m: number;
+        };
+        /**
+         * Junction
+         * @description Roads that meet at grade.
+         */
+        Junction: {
+            /**
+             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @default [
+             *       {
+             *         "angle_deg": 3,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 1.8,
+             *         "lanes_in": 2,
+             *         "lanes_out": 2,
+             *         "length_m": 90,
+             *         "main": true,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 92,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 2,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 182,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 1.8,
+             *         "lanes_in": 2,
+             *         "lanes_out": 2,
+             *         "length_m": 90,
+             *         "main": true,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 272,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       }
+             *     ]
+             */
+            arms: components["schemas"]["Arm"][];
+            /** @description Single ways through the junction, beside those that the turn lanes make. */
+            connections?: components["schemas"]["Connections"];
+            /**
+             * @description Who goes first.
+             * @default signals
+             */
+            control: components["schemas"]["Control"];
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres; less where arms are too close for it.
+             * @default 8
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * @description Lights, with `signals`.
+             * @default {
+             *       "all_red_s": 1,
+             *       "green_s": 10,
+             *       "offset_s": 7,
+             *       "turns_across": "permissive",
+             *       "yellow_s": 3
+             *     }
+             */
+            program: components["schemas"]["Program"];
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; less than half a metre is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * KeptFutures
+         * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+         */
+        KeptFutures: "answered" | "omitted" | "forgotten";
+        /**
+         * KindLimits
+         * @description Motion limits by kind of road user, each of the kind's usual size.
+         */
+        KindLimits: {
+            bus: components["schemas"]["MotionLimits"];
+            car: components["schemas"]["MotionLimits"];
+            cyclist: components["schemas"]["MotionLimits"];
+            motorcycle: components["schemas"]["MotionLimits"];
+            other: components["schemas"]["MotionLimits"];
+            pedestrian: components["schemas"]["MotionLimits"];
+            trailer: components["schemas"]["MotionLimits"];
+            truck: components["schemas"]["MotionLimits"];
+        };
+        /**
+         * Kinematic
+         * @description Greatest values of a motion.
+         */
+        Kinematic: {
+            /**
+             * Format: double
+             * @description Greatest speeding up, m/s2.
+             */
+            accel_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest braking, m/s2, positive.
+             */
+            brake_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest curvature above 1 m/s, 1/m; none for walkers.
+             */
+            curvature_per_m: number | null;
+            /**
+             * Format: double
+             * @description Greatest jerk along the way, m/s3; none for walkers.
+             */
+            jerk_mps3: number | null;
+            /**
+             * Format: double
+             * @description Greatest sideways acceleration, m/s2.
+             */
+            lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest speed, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: uint
+             * @description Steps with at least one value over its limit ([`KinematicLimits`]).
+             */
+            violations: number;
+            /**
+             * Format: double
+             * @description Greatest turning, rad/s; none for walkers.
+             */
+            yaw_rate_radps: number | null;
+        };
+        /**
+         * LaneDoc
+         * @description One lane.
+         */
+        LaneDoc: {
+            /** @description Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`. */
+            id: string;
+            /**
+             * @description Leads through a junction between two lanes.
+             * @default false
+             */
+            interpolating?: boolean;
+            /**
+             * @description Lines on the left.
+             * @default []
+             */
+            left_boundary?: components["schemas"]["BoundaryDoc"][];
+            /**
+             * @description Lanes on the left.
+             * @default []
+             */
+            left_neighbors?: components["schemas"]["NeighborDoc"][];
+            /** @description Centre line in driving direction, at least two points. */
+            points_m: components["schemas"]["Points"];
+            /**
+             * @description Ids of lanes that lead here.
+             * @default []
+             */
+            predecessors?: string[];
+            /**
+             * @description Lines on the right.
+             * @default []
+             */
+            right_boundary?: components["schemas"]["BoundaryDoc"][];
+            /**
+             * @description Lanes on the right.
+             * @default []
+             */
+            right_neighbors?: components["schemas"]["NeighborDoc"][];
+            /**
+             * Format: double
+             * @description m/s.
+             * @default null
+             */
+            speed_limit_mps?: number | null;
+            /**
+             * @description Ids of lanes that this one leads to.
+             * @default []
+             */
+            successors?: string[];
+            /**
+             * @description Kind of lane.
+             * @default undefined
+             * @enum {string}
+             */
+            type?: "undefined" | "freeway" | "surface_street" | "bike_lane" | "bus_lane" | "sidewalk" | "parking";
+            /**
+             * Format: double
+             * @description Metres; assumed by type when absent.
+             * @default null
+             */
+            width_m?: number | null;
+        };
+        /**
+         * Layout
+         * @description A template with its parameters.
+         */
+        Layout: {
+            parameters: components["schemas"]["Junction"];
+            /** @constant */
+            template: "three-arms";
+        } | {
+            parameters: components["schemas"]["Junction"];
+            /** @constant */
+            template: "four-arms";
+        } | {
+            parameters: components["schemas"]["Roundabout"];
+            /** @constant */
+            template: "roundabout";
+        } | {
+            parameters: components["schemas"]["Merge"];
+            /** @constant */
+            template: "merge";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "straight";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "curve";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "school-street";
+        } | {
+            parameters: components["schemas"]["CarPark"];
+            /** @constant */
+            template: "car-park";
+        };
+        /**
+         * LearnedWish
+         * @description A wish with what it rests on.
+         */
+        LearnedWish: {
+            /** @description Positions of the answers that contradict it. */
+            against: number[];
+            /** @description Least and most among the kept ones, in the unit of the trait; none were kept: absent. */
+            kept?: [
+                number,
+                number
+            ] | null;
+            /** @description Least and most among the rejected ones. */
+            rejected?: [
+                number,
+                number
+            ] | null;
+            /** @description It was said outright. */
+            said: boolean;
+            /**
+             * Format: double
+             * @description How sure it is, 0 to 1.
+             */
+            strength: number;
+            /** @description Which way. */
+            wants: components["schemas"]["Way"];
+        } & ({
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        });
+        /**
+         * Limiting
+         * @description The limit of motion that binds.
+         */
+        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic";
+        /**
+         * Log
+         * @description The word `log`.
+         */
+        Log: "log";
+        /**
+         * Manoeuvre
+         * @description What a motion does, by its shape and the lanes that it takes.
+         * @enum {string}
+         */
+        Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
+        Map: components["schemas"]["MapDoc"];
+        /**
+         * MapBody
+         * @description Body of a new map.
+         */
+        MapBody: {
+            /**
+             * @description Name of the scene; that of the template when left out.
+             * @default null
+             */
+            name?: string | null;
+            /**
+             * @description In place of the template's own parameters; those that are left out stay, and a list replaces a list. Names and
+             *     ranges are those of the template in `Layout`.
+             * @default null
+             */
+            parameters?: {
+                [key: string]: unknown;
+            } | null;
+            /** @description What to start from. */
+            template: components["schemas"]["Template"];
+        };
+        /**
+         * MapDoc
+         * @description Everything that does not move.
+         */
+        MapDoc: {
+            /**
+             * @description Crosswalks.
+             * @default []
+             */
+            crosswalks?: components["schemas"]["AreaDoc"][];
+            /**
+             * @description Surfaces that may be driven on.
+             * @default []
+             */
+            drivable?: components["schemas"]["DrivableDoc"][];
+            /**
+             * @description Driveways.
+             * @default []
+             */
+            driveways?: components["schemas"]["AreaDoc"][];
+            /**
+             * @description Lanes with their links.
+             * @default []
+             */
+            lanes?: components["schemas"]["LaneDoc"][];
+            /**
+             * @description Ends of the road's surface.
+             * @default []
+             */
+            road_edges?: components["schemas"]["RoadEdgeDoc"][];
+            /**
+             * @description Painted lines.
+             * @default []
+             */
+            road_lines?: components["schemas"]["RoadLineDoc"][];
+            /**
+             * @description Speed bumps.
+             * @default []
+             */
+            speed_bumps?: components["schemas"]["AreaDoc"][];
+            /**
+             * @description Stop signs.
+             * @default []
+             */
+            stop_signs?: components["schemas"]["StopSignDoc"][];
+        };
+        /**
+         * MapField
+         * @description A map, or the hash of one.
+         */
+        MapField: components["schemas"]["MapRef"] | components["schemas"]["MapDoc"];
+        /**
+         * MapItem
+         * @description One map of the store.
+         */
+        MapItem: {
+            /**
+             * Format: uint64
+             * @description Size of its JSON.
+             */
+            bytes: number;
+            /**
+             * Format: uint64
+             * @description Points of them all.
+             */
+            points: number;
+            /**
+             * Format: uint64
+             * @description Lines and areas.
+             */
+            polylines: number;
+            /** @description Content hash, 64 hex digits. */
+            sha256: string;
+        };
+        /**
+         * MapList
+         * @description Maps of the store.
+         */
+        MapList: {
+            maps: components["schemas"]["MapItem"][];
+        };
+        /**
+         * MapRef
+         * @description Names a map by its content.
+         */
+        MapRef: {
+            /** @description `sha256:` and 64 hex digits, see `scene::LaneMap::hash`. */
+            ref: string;
+        };
+        /**
+         * MapReply
+         * @description A new map.
+         */
+        MapReply: {
+            /** @description Where the arms lie, in the order of the parameters. */
+            arms: components["schemas"]["ArmPlace"][];
+            /** @description What was looked at. A check that failed forbids nothing. */
+            checks: components["schemas"]["Check"][];
+            /** @description Where kerbs bend between them. */
+            corners: components["schemas"]["CornerPlace"][];
+            /** @description The template with all its parameters. */
+            layout: components["schemas"]["Layout"];
+            /** @description A scene with the map and nobody in it. Its `x_layout` says what it was made from. */
+            scene: components["schemas"]["SceneDoc"];
+            /** @description Ways from lane to lane where roads meet at grade. */
+            ways: components["schemas"]["Way2"][];
+        };
+        /**
+         * Merge
+         * @description A carriageway of one direction with a ramp that joins it, one that leaves it, or both.
+         */
+        Merge: {
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.5
+             */
+            lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes that go through.
+             * @default 2
+             */
+            lanes: number;
+            /**
+             * @description A ramp leaves, before the other one joins.
+             * @default false
+             */
+            off_ramp: boolean;
+            /**
+             * @description A ramp joins.
+             * @default true
+             */
+            on_ramp: boolean;
+            /**
+             * Format: double
+             * @description Length beside the through lanes on which to speed up or slow down, metres.
+             * @default 150
+             */
+            parallel_m: number;
+            /**
+             * Format: double
+             * @description Angle between ramp and carriageway, degrees.
+             * @default 10
+             */
+            ramp_angle_deg: number;
+            /**
+             * Format: double
+             * @description Speed limit of the ramps, km/h.
+             * @default 60
+             */
+            ramp_speed_limit_kmh: number;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 100
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * MetaDoc
+         * @description Where the scene came from and what people say about it.
+         */
+        MetaDoc: {
+            /**
+             * @description Version of the program that made it.
+             * @default null
+             */
+            created_with?: string | null;
+            /**
+             * @description Licence of the content, such as `waymo-nc` or `cc0`.
+             * @default null
+             */
+            licence?: string | null;
+            /**
+             * @description Free text.
+             * @default
+             */
+            notes?: string;
+            /** @description WOMD's objects of interest, by road user's id. */
+            objects_of_interest?: string[];
+            /**
+             * @description Frame of the source.
+             * @default {
+             *       "crs": null,
+             *       "rotation_rad": 0,
+             *       "x_m": 0,
+             *       "y_m": 0,
+             *       "z_m": 0
+             *     }
+             */
+            origin?: components["schemas"]["OriginDoc"];
+            /**
+             * @description Scene that this one is a variant of.
+             * @default null
+             */
+            parent_id?: string | null;
+            /**
+             * @description Format or tool, such as `womd`, `drawn`, `synthetic`.
+             * @default
+             */
+            source?: string;
+            /**
+             * @description Id in the source.
+             * @default null
+             */
+            source_id?: string | null;
+            /**
+             * @description Words to find it by.
+             * @default []
+             */
+            tags?: string[];
+            /** @description The source's times of the steps, seconds, when they are not exactly 0.1 s apart from zero. */
+            timestamps_s?: number[] | null;
+            /** @description WOMD's tracks to predict: road user's id and difficulty. */
+            tracks_to_predict?: [
+                string,
+                number
+            ][];
+        };
+        /**
+         * MotionLimits
+         * @description What one kind of road user can do; answers never go beyond it.
+         */
+        MotionLimits: {
+            /**
+             * Format: double
+             * @description Greatest speeding up.
+             */
+            accel_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest braking, positive.
+             */
+            brake_mps2: number;
+            /**
+             * Format: double
+             * @description Sideways acceleration that drivers choose in bends: comfort, not a bound.
+             */
+            comfort_lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest curvature; null on foot, where turning has no bound. Vehicles longer than the kind's
+             *     usual ones turn wider.
+             */
+            curvature_per_m: number | null;
+            /**
+             * Format: double
+             * @description Greatest sideways acceleration.
+             */
+            lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Top speed.
+             */
+            speed_mps: number;
+        };
+        /**
+         * NearMiss
+         * @description Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
+         */
+        NearMiss: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Rate at which the gap shrank then, m/s.
+             */
+            closing_speed_mps: number;
+            /**
+             * Format: double
+             * @description Gap between the boxes then, metres.
+             */
+            distance_m: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has the same meeting at about
+             *     the same time, no less hard. It does not count.
+             */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Scene time, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Time to collision at constant velocity then, seconds, if there is one.
+             */
+            ttc_s: number | null;
+        };
+        /**
+         * NearestState
+         * @description A pose and speed, scene frame.
+         */
+        NearestState: {
+            /** Format: double */
+            heading_rad: number;
+            /** Format: double */
+            speed_mps: number;
+            /** Format: double */
+            x_m: number;
+            /** Format: double */
+            y_m: number;
+        };
+        /**
+         * NeighborDoc
+         * @description A lane beside this one.
+         */
+        NeighborDoc: {
+            /** @description Lines between the two, over the other lane's indices. */
+            boundaries?: components["schemas"]["BoundaryDoc"][];
+            /** @description Id of the other lane. */
+            lane: string;
+            /** @description First and last point index on the other lane. */
+            other: number[];
+            /** @description First and last point index on this lane. */
+            self: number[];
+        };
+        /**
+         * OriginDoc
+         * @description Where the scene lies in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
+         */
+        OriginDoc: {
+            /** @default null */
+            crs?: string | null;
+            /**
+             * Format: double
+             * @default 0
+             */
+            rotation_rad?: number;
+            /**
+             * Format: double
+             * @default 0
+             */
+            x_m?: number;
+            /**
+             * Format: double
+             * @default 0
+             */
+            y_m?: number;
+            /**
+             * Format: double
+             * @default 0
+             */
+            z_m?: number;
+        };
+        /**
+         * Overlap
+         * @description The boxes of two road users overlap by less than a collision takes. One entry a pair.
+         */
+        Overlap: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Greatest depth, metres: the least gap of the pair is this below zero.
+             */
+            depth_m: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+             *     count.
+             */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Scene time of the first step at which they overlap, seconds.
+             */
+            time_s: number;
+        };
+        /**
+         * PairChoice
+         * @description Which pairs are looked at.
+         */
+        PairChoice: "all" | "regenerated";
+        /**
+         * ParkedDoc
+         * @description Cars parked along kerbs and in lots: exactly one of the two.
+         */
+        ParkedDoc: {
+            /**
+             * Format: double
+             * @description Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+             * @default null
+             */
+            per_100m?: number | null;
+            /**
+             * Format: double
+             * @description Share of the places that are taken.
+             * @default null
+             */
+            share?: number | null;
+        };
+        /**
+         * PlaceBody
+         * @description Body of a placement. Exactly one of `scene` and `scene_id` is given.
+         */
+        PlaceBody: {
+            /** @description Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone. */
+            arrivals?: components["schemas"]["ArrivalsDoc"][];
+            /**
+             * Format: double
+             * @description Scene time at which they start, seconds.
+             * @default 0
+             */
+            at_s?: number;
+            /** @description How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`. */
+            density?: components["schemas"]["DensityDoc"] | null;
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
+            /**
+             * @description Road users of the scene that stay; null keeps all. The others are taken to be gone.
+             * @default null
+             */
+            keep?: string[] | null;
+            /**
+             * Format: double
+             * @description Least room along the lane between those who drive, metres. Everybody else keeps 0.1 m.
+             * @default 2
+             */
+            min_gap_m?: number;
+            /** @description Parked cars, beside those that `density` asks for. */
+            parked?: components["schemas"]["ParkedDoc"] | null;
+            /** @description Where; null is the whole map. It may reach 50 m beyond the map's box. */
+            region?: components["schemas"]["RegionDoc"] | null;
+            /**
+             * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+             * @default null
+             */
+            scene?: components["schemas"]["SceneDoc"] | null;
+            /**
+             * @description A scene of this server.
+             * @default null
+             */
+            scene_id?: string | null;
+            /**
+             * Format: uint64
+             * @description The same seed gives the same answer.
+             * @default 0
+             */
+            seed?: number;
+            /** @description Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands. */
+            speeds?: components["schemas"]["SpeedsDoc"] | null;
+            /**
+             * @description Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
+             * @default null
+             */
+            types?: {
+                [key: string]: number;
+            } | null;
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
+        /**
+         * PlaceReply
+         * @description What was placed.
+         */
+        PlaceReply: {
+            /**
+             * @description New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
+             *     has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
+             */
+            agents: components["schemas"]["AgentDoc"][];
+            /** @description Where roads come into the map or the region, with what came of the traffic asked for. */
+            arms: components["schemas"]["ArmDoc"][];
+            /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
+            method: components["schemas"]["PlacementMethod"];
+            /**
+             * Format: uint
+             * @description Places at kerbs and in lots; null without `parked`.
+             */
+            parking_places: number | null;
+            /** @description Why, in one sentence; null when all were placed. */
+            reason: string | null;
+            /**
+             * Format: uint
+             * @description Road users asked for that found no place.
+             */
+            unplaced: number;
+        };
+        /**
+         * PlacementInfo
+         * @description Facts about placement weights.
+         */
+        PlacementInfo: {
+            licence: string;
+            /** Format: uint */
+            numbers: number;
+            sha256: string;
+            trained_on: string;
+        };
+        /**
+         * PlacementMethod
+         * @description How road users are placed.
+         */
+        PlacementMethod: "model" | "lane-sampler";
+        /**
+         * Point
+         * @description [x, y] or [x, y, z], metres in the scene frame.
+         */
+        Point: [
+            number,
+            number
+        ];
+        /**
+         * Points
+         * @description A line or open ring; all its points have two or all have three numbers.
+         */
+        Points: components["schemas"]["Point"][] | unknown | unknown;
+        /**
+         * Problem
+         * @description RFC 9457 problem. Switch on `code`, which never changes.
+         */
+        Problem: {
+            /** @description Road user that an expert failed for. */
+            agent?: string;
+            /**
+             * Format: uint64
+             * @description The revision that took over.
+             */
+            by_revision?: number;
+            /**
+             * @description The word to switch on.
+             * @enum {string}
+             */
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            /**
+             * Format: uint
+             * @description Column of the fault in bytes, from 1.
+             */
+            column?: number;
+            /** @description What happened this time. */
+            detail: string;
+            /** @description All faults that were found in the body or the query. */
+            errors?: components["schemas"]["FieldProblem"][];
+            /** @description ETag of the scene as it is stored now. */
+            etag?: string;
+            /** @description What is not ready. */
+            failing?: string[];
+            /**
+             * Format: uint64
+             * @description The highest revision that the client has sent.
+             */
+            highest_revision?: number;
+            /** @description Address that was asked for. */
+            instance?: string;
+            /**
+             * Format: uint64
+             * @description The bound that was met.
+             */
+            limit?: number;
+            /**
+             * Format: uint
+             * @description Line of the fault, from 1.
+             */
+            line?: number;
+            /**
+             * Format: uint64
+             * @description Byte of the decoded file.
+             */
+            offset?: number;
+            /** @description What the reader of a file found there. */
+            reason?: string;
+            /** @description Id of the request, as in X-Request-Id and in the server's log. */
+            request_id?: string;
+            /**
+             * Format: uint64
+             * @description Seconds after which to ask again, as in Retry-After.
+             */
+            retry_after_s?: number;
+            /**
+             * Format: uint16
+             * @description HTTP status.
+             */
+            status: number;
+            /**
+             * Format: uint
+             * @description Refinement step at which an expert failed; 0 is the first guess.
+             */
+            step?: number;
+            /** @description A few words for people, the same for each occurrence. */
+            title: string;
+            /** @description Page about the code, relative to this server. */
+            type: string;
+            /** @description When the scene was stored, RFC 3339. */
+            updated_at?: string;
+        };
+        /**
+         * Program
+         * @description The lights of a junction: its phases follow one another without end.
+         */
+        Program: {
+            /**
+             * Format: double
+             * @description Red for all before the next green, seconds.
+             * @default 1
+             */
+            all_red_s: number;
+            /**
+             * Format: double
+             * @description Green of each phase, seconds.
+             * @default 10
+             */
+            green_s: number;
+            /**
+             * Format: double
+             * @description How long the first green has been on when the scene begins, seconds.
+             * @default 7
+             */
+            offset_s: number;
+            /**
+             * @description Turns across oncoming traffic.
+             * @default permissive
+             */
+            turns_across: components["schemas"]["TurnAcross"];
+            /**
+             * Format: double
+             * @description Yellow after it, seconds.
+             * @default 3
+             */
+            yellow_s: number;
+        };
+        /**
+         * Reach
+         * @description Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
+         *     what it would take.
+         */
+        Reach: {
+            /**
+             * Format: double
+             * @description Radians.
+             */
+            heading_rad: number;
+            /**
+             * Format: double
+             * @description Distance to the goal position, metres.
+             */
+            position_m: number;
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            speed_mps: number;
+            /** @constant */
+            status: "reached";
+        } | {
+            /** @description Limit that binds. */
+            limiting: components["schemas"]["Limiting"];
+            /** @description State at the goal time that comes nearest. */
+            nearest: components["schemas"]["NearestState"];
+            /**
+             * Format: double
+             * @description What it would take, in that limit's unit, when it can be told.
+             */
+            needs: number | null;
+            /** @constant */
+            status: "unreachable";
+            /** @description Who is in the way, where somebody is. */
+            with?: string | null;
+            /** @description One sentence for people. */
+            words: string;
+        };
+        /**
+         * Reacting
+         * @description Who else answers: true for everyone near, or ids.
+         */
+        Reacting: boolean | string[];
+        /**
+         * Reaction
+         * @description Why a road user gave up the motion that it had.
+         */
+        Reaction: {
+            /** @description Whom it answers: the road user that its own motion would have met. */
+            cause: string;
+            /**
+             * Format: double
+             * @description How much later than without it, seconds; negative for earlier.
+             */
+            delay_s: number;
+            /** @description How it answers. */
+            kind: components["schemas"]["ReactionKind"];
+            /**
+             * Format: double
+             * @description Speed then, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which it waits or is slowest, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Where then, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where then, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * ReactionKind
+         * @description How a road user answers another.
+         */
+        ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear";
+        /**
+         * RedLight
+         * @description A stop line is crossed while its signal says stop.
+         */
+        RedLight: {
+            /** @description Who. */
+            agent: string;
+            /**
+             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
+             *     the same time, no less bad.
+             */
+            in_log: boolean;
+            /** @description Lane whose signal says stop. */
+            lane: string;
+            /**
+             * Format: double
+             * @description Speed then, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which the front crosses, seconds.
+             */
+            time_s: number;
+        };
+        /**
+         * Reference
+         * @description What trajectories are compared with.
+         */
+        Reference: components["schemas"]["Log"] | {
+            [key: string]: components["schemas"]["TrajectoryDoc"];
+        };
+        /**
+         * RegionDoc
+         * @description Where centres may lie: exactly one of the two.
+         */
+        RegionDoc: {
+            /** @description Circle. */
+            circle?: components["schemas"]["CircleDoc"] | null;
+            /**
+             * @description Open ring of corners, metres; even-odd rule.
+             * @default null
+             */
+            polygon_m?: number[][] | null;
+        };
+        /**
+         * Relation
+         * @description A motion and another's.
+         */
+        Relation: {
+            /**
+             * Format: double
+             * @description Time between the two at that place, seconds.
+             */
+            gap_s?: number | null;
+            /** @description Which. */
+            kind: components["schemas"]["RelationKind"];
+            /**
+             * Format: double
+             * @description Scene time at which this one is there, seconds.
+             */
+            time_s: number;
+            /** @description The other road user. */
+            with: string;
+            /**
+             * Format: double
+             * @description Where, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * RelationKind
+         * @description How a motion stands to another's.
+         */
+        RelationKind: "before" | "after" | "follows" | "gives_way_to";
+        /**
+         * Resolved
+         * @description Every condition field of one road user as it was used.
+         */
+        Resolved: {
+            /**
+             * @description Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
+             *     road leads to in the same time.
+             */
+            by_road?: components["schemas"]["ByRoad"] | null;
+            /** @description Where it goes. */
+            goal: components["schemas"]["ResolvedGoal"];
+            /** @description One entry for each window that ended its plan before the goal was due. */
+            intermediate?: components["schemas"]["Intermediate"][];
+            /** @description Along the heading. */
+            length_m: components["schemas"]["Field"];
+            /** @description Verdict on the goal. */
+            reach: components["schemas"]["Reach"];
+            /** @description Where it begins. */
+            start: components["schemas"]["ResolvedStart"];
+            /** @description Expert that ran. */
+            type: components["schemas"]["AgentType"];
+            /** @description How its shown future passes each via point, in their order. */
+            via?: components["schemas"]["ResolvedVia"][];
+            /** @description Across the heading. */
+            width_m: components["schemas"]["Field"];
+        };
+        /**
+         * ResolvedGoal
+         * @description The goal of a road user as it was used, in the scene frame.
+         */
+        ResolvedGoal: {
+            heading_rad: components["schemas"]["Field"];
+            speed_mps: components["schemas"]["Field"];
+            /** @description Scene time at which it is due. */
+            time_s: components["schemas"]["Field"];
+            x_m: components["schemas"]["Field"];
+            y_m: components["schemas"]["Field"];
+        };
+        /**
+         * ResolvedStart
+         * @description The start of a road user as it was used.
+         */
+        ResolvedStart: {
+            heading_rad: components["schemas"]["Field"];
+            speed_mps: components["schemas"]["Field"];
+            x_m: components["schemas"]["Field"];
+            y_m: components["schemas"]["Field"];
+        };
+        /**
+         * ResolvedVia
+         * @description How a future passes a via point.
+         */
+        ResolvedVia: {
+            /**
+             * Format: double
+             * @description How near the future comes, metres.
+             */
+            distance_m: number;
+            /** @description It is passed within its tolerance, and at its time where that is fixed. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Scene time then, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description How near was asked, metres.
+             */
+            tolerance_m: number;
+            /**
+             * Format: double
+             * @description Where it lies, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where it lies, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * Road
+         * @description One road, straight or bent.
+         */
+        Road: {
+            /**
+             * Format: double
+             * @description Change of direction, degrees, positive to the left; 0 is straight.
+             * @default 0
+             */
+            bend_deg: number;
+            /**
+             * Format: double
+             * @description Width of a crosswalk half way, metres; less than half a metre is none.
+             * @default 0
+             */
+            crosswalk_m: number;
+            /**
+             * Format: double
+             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
+             * @default 0
+             */
+            cycle_lane_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes the other way.
+             * @default 2
+             */
+            lanes_backward: number;
+            /**
+             * Format: uint8
+             * @description Lanes eastwards, where the road begins.
+             * @default 2
+             */
+            lanes_forward: number;
+            /**
+             * Format: double
+             * @description Length, metres; more where the bend needs it.
+             * @default 200
+             */
+            length_m: number;
+            /**
+             * Format: double
+             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
+             * @default 0
+             */
+            median_m: number;
+            /**
+             * Format: double
+             * @description Width of a strip for parked cars on both sides, metres; less than half a metre is none.
+             * @default 0
+             */
+            parking_m: number;
+            /**
+             * Format: double
+             * @description Radius of the bend in the middle of the road, metres; more where the road is too wide for it.
+             * @default 60
+             */
+            radius_m: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; less than half a metre is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Speed bumps before and behind the crosswalk.
+             * @default false
+             */
+            speed_bumps: boolean;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * RoadEdgeDoc
+         * @description The end of the road's surface.
+         */
+        RoadEdgeDoc: {
+            /** @description Unique among road edges. */
+            id: string;
+            /** @description In order. */
+            points_m: components["schemas"]["Points"];
+            /**
+             * @description WOMD's name in snake case, or `sidewalk`.
+             * @default unknown
+             * @enum {string}
+             */
+            type?: "unknown" | "boundary" | "median" | "sidewalk";
+        };
+        /**
+         * RoadLineDoc
+         * @description A painted line.
+         */
+        RoadLineDoc: {
+            /** @description Unique among road lines. */
+            id: string;
+            /** @description In order. */
+            points_m: components["schemas"]["Points"];
+            /**
+             * @description WOMD's name in snake case.
+             * @default unknown
+             * @enum {string}
+             */
+            type?: "unknown" | "broken_single_white" | "solid_single_white" | "solid_double_white" | "broken_single_yellow" | "broken_double_yellow" | "solid_single_yellow" | "solid_double_yellow" | "passing_double_yellow";
+        };
+        /**
+         * Round
+         * @description A round of cards.
+         */
+        Round: {
+            /** @description One a future of the road user that was asked for, or one a sample, in their order: the best liked first. */
+            cards: components["schemas"]["RoundCard"][];
+            /** @description What the answers agree upon, the surest first. */
+            wishes: components["schemas"]["LearnedWish"][];
+        };
+        /**
+         * RoundCard
+         * @description A candidate that is shown.
+         */
+        RoundCard: {
+            /** @description What it is like: sent back with what is said of it. */
+            features: components["schemas"]["Features"];
+            /**
+             * Format: double
+             * @description The share of the learned wishes that it fulfils; absent while none is known.
+             */
+            match?: number | null;
+            /** @description Box centres at every half second, by road user: sent back with what is said of it. */
+            places: {
+                [key: string]: number[][];
+            };
+        };
+        /**
+         * Roundabout
+         * @description Roads that meet at a ring.
+         */
+        Roundabout: {
+            /**
+             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @default [
+             *       {
+             *         "angle_deg": 0,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 90,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 180,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 270,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       }
+             *     ]
+             */
+            arms: components["schemas"]["Arm"][];
+            /**
+             * Format: double
+             * @description Radius of the island in the middle, metres; more where the arms need it.
+             * @default 12
+             */
+            island_radius_m: number;
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres; less where arms are too close for it.
+             * @default 12
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: double
+             * @description Width of the lanes of the ring, metres.
+             * @default 5
+             */
+            ring_lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes of the ring.
+             * @default 1
+             */
+            ring_lanes: number;
+            /**
+             * Format: double
+             * @description Speed limit in the ring, km/h.
+             * @default 30
+             */
+            ring_speed_limit_kmh: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; less than half a metre is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * SampleDoc
+         * @description One coherent answer for all regenerated road users.
+         */
+        SampleDoc: {
+            /** @description Road user's id to its futures. */
+            agents: {
+                [key: string]: components["schemas"]["AgentFuturesDoc"];
+            };
+            /**
+             * @description Score as the API gave it.
+             * @default null
+             */
+            score?: unknown;
+        };
+        /**
+         * Saved
+         * @description What a change gave.
+         */
+        Saved: {
+            /** @description As in the ETag header. */
+            etag: string;
+            /** @description Of the scene. */
+            id: string;
+        };
+        Scene: components["schemas"]["SceneDoc"];
+        /**
+         * DragTraffic scene
+         * @description A scene document, version 1.
+         */
+        SceneDoc: {
+            /**
+             * @description Road users.
+             * @default []
+             */
+            agents?: components["schemas"]["AgentDoc"][];
+            /**
+             * @description `dragtraffic.scene`.
+             * @constant
+             */
+            format: "dragtraffic.scene";
+            /**
+             * @description What the generator added.
+             * @default null
+             */
+            generated?: components["schemas"]["GeneratedDoc"] | null;
+            /**
+             * @description Set by the server.
+             * @default null
+             */
+            id?: string | null;
+            /** @description Map, or its hash. */
+            map: components["schemas"]["MapField"];
+            /**
+             * @description Where it came from.
+             * @default {
+             *       "created_with": null,
+             *       "licence": null,
+             *       "notes": "",
+             *       "origin": {
+             *         "crs": null,
+             *         "rotation_rad": 0,
+             *         "x_m": 0,
+             *         "y_m": 0,
+             *         "z_m": 0
+             *       },
+             *       "parent_id": null,
+             *       "source": "",
+             *       "source_id": null,
+             *       "tags": []
+             *     }
+             */
+            meta?: components["schemas"]["MetaDoc"];
+            /**
+             * @description For people.
+             * @default
+             */
+            name?: string;
+            /**
+             * @description Traffic signals.
+             * @default []
+             */
+            signals?: components["schemas"]["SignalDoc"][];
+            /** @description Steps. */
+            time: components["schemas"]["TimeDoc"];
+            /**
+             * Format: uint64
+             * @description 1.
+             * @constant
+             */
+            version: 1;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * SceneItem
+         * @description A scene as lists show it.
+         */
+        SceneItem: {
+            /**
+             * Format: uint64
+             * @description Size as stored.
+             */
+            bytes: number;
+            /** @description Road users by type. */
+            counts: components["schemas"]["Counts"];
+            /** @description RFC 3339. */
+            created_at: string;
+            /** @description With quotes, as in the ETag header. */
+            etag: string;
+            /** @description Has generated futures. */
+            generated: boolean;
+            /** @description Id of the scene. */
+            id: string;
+            /** @description Licence of the content. */
+            licence: string | null;
+            /** @description Content hash of the map, 64 hex digits. */
+            map_sha256: string;
+            /** @description For people. */
+            name: string;
+            /** @description Scene it is a variant of. */
+            parent_id: string | null;
+            /** @description Demo scenes and those of the data folder; duplicate one to change it. */
+            readonly: boolean;
+            /** @description Format or tool it came from. */
+            source: string;
+            /** @description Id in the source. */
+            source_id: string | null;
+            /**
+             * Format: uint
+             * @description Steps of 0.1 s.
+             */
+            steps: number;
+            /** @description Words to find it by. */
+            tags: string[];
+            /** @description RFC 3339. */
+            updated_at: string;
+        };
+        /**
+         * SceneList
+         * @description A page of scenes.
+         */
+        SceneList: {
+            /** @description Send as `after` for the next page; null on the last. */
+            next: string | null;
+            scenes: components["schemas"]["SceneItem"][];
+        };
+        /**
+         * ScenePatch
+         * @description Merge patch of what people say about a scene.
+         */
+        ScenePatch: {
+            /**
+             * @description New name; null empties it.
+             * @default null
+             */
+            name?: string | null;
+            /**
+             * @description New notes; null empties them.
+             * @default null
+             */
+            notes?: string | null;
+            /**
+             * @description New tags; null removes all.
+             * @default null
+             */
+            tags?: string[] | null;
+        };
+        /**
+         * SceneScore
+         * @description Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+         *
+         *     Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
+         *     `collision_rate` nor with the road users; distances, times and the other shares are measured over all
+         *     motion, the recorded too.
+         */
+        SceneScore: {
+            /**
+             * Format: double
+             * @description Mean distance of the chosen future, metres.
+             */
+            ade_m?: number | null;
+            /** @description The map has no drivable areas, and some lane widths were assumed by type. */
+            assumed_width: boolean;
+            /**
+             * Format: double
+             * @description Share of road users in any collision that the log does not show.
+             */
+            collision_rate: number;
+            /**
+             * Format: double
+             * @description Share of road users in any collision, those of the log counted (the paper's scenario collision
+             *     rate).
+             */
+            collision_rate_with_log: number;
+            /** @description By time, then by pair. */
+            collisions: components["schemas"]["Collision"][];
+            /** @description Which step counted as the end. */
+            endpoint?: components["schemas"]["Endpoint"];
+            /** @description Means over the road users with fixed goal fields. */
+            goal_error: components["schemas"]["GoalError"] | null;
+            /**
+             * Format: double
+             * @description Share of road users with fixed goal fields that meet them all.
+             */
+            goals_reached: number | null;
+            /** @description Braking harder than the threshold; `worst` in m/s2. */
+            harsh_braking: components["schemas"]["Stretch"][];
+            /** @description Turning harder than the threshold; `worst` in m/s2 sideways. */
+            harsh_steering: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Mean absolute heading error of the future that ends closest, radians.
+             */
+            heading_error_rad?: number | null;
+            /** @description Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only). */
+            implausible_turns: components["schemas"]["Stretch"][];
+            /** @description Greatest values of all generated road users, and their violations together. */
+            kinematic: components["schemas"]["Kinematic"] | null;
+            /**
+             * Format: double
+             * @description Greatest distance of the chosen future, metres (the log ghost's figure).
+             */
+            max_distance_m?: number | null;
+            /**
+             * Format: double
+             * @description Least mean distance of any future, metres.
+             */
+            min_ade_m?: number | null;
+            /**
+             * Format: double
+             * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
+             *     overlap. People in company are left out where they touch.
+             */
+            min_distance_m: number | null;
+            /**
+             * Format: double
+             * @description Least distance at the end of any future, metres.
+             */
+            min_fde_m?: number | null;
+            /**
+             * Format: double
+             * @description Least time to collision of any pair, seconds; none within the look-ahead.
+             */
+            min_ttc_s: number | null;
+            /** @description By time, then by pair. */
+            near_misses: components["schemas"]["NearMiss"][];
+            /** @description Vehicles off the road, but for those over a median. */
+            off_road: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Farthest a vehicle's corner goes off the road, metres.
+             */
+            offroad_max_m: number | null;
+            /**
+             * Format: double
+             * @description Share of vehicle steps with a corner off the road.
+             */
+            offroad_share: number | null;
+            /** @description Vehicles over what divides two roads. */
+            over_median: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Share of road users whose box overlaps another's at all, however little.
+             */
+            overlap_rate: number;
+            /** @description By time, then by pair. */
+            overlaps: components["schemas"]["Overlap"][];
+            /**
+             * Format: double
+             * @description Least post-encroachment time of crossing paths, seconds.
+             */
+            pet_s: number | null;
+            /** @description Stop lines crossed at red. */
+            red_lights: components["schemas"]["RedLight"][];
+            /**
+             * Format: double
+             * @description Mean absolute speed error of the future that ends closest, m/s.
+             */
+            speed_error_mps?: number | null;
+            /**
+             * Format: uint
+             * @description Same as `kinematic.violations`: steps over a limit.
+             */
+            violations: number;
+            /** @description Vehicles against the traffic. */
+            wrong_way: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Share of moving vehicle steps against the direction of every lane there.
+             */
+            wrong_way_share: number | null;
+        };
+        /**
+         * ScoreReply
+         * @description Answer to a score request.
+         */
+        ScoreReply: {
+            /** @description Each road user, by id. */
+            agents: {
+                [key: string]: components["schemas"]["AgentScore"];
+            };
+            /** @description The scene as a whole. */
+            scene: components["schemas"]["SceneScore"];
+            /** @description The thresholds that were used. */
+            thresholds: components["schemas"]["Thresholds"];
+        };
+        /**
+         * ScoreRequest
+         * @description Body of a score. Exactly one of `scene` and `scene_id` is given.
+         */
+        ScoreRequest: {
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
+            /**
+             * @description `all` or `regenerated`.
+             * @default all
+             */
+            pairs?: components["schemas"]["PairChoice"];
+            /** @description The log by default. */
+            reference?: components["schemas"]["Reference"] | null;
+            /**
+             * @description The scene itself.
+             * @default null
+             */
+            scene?: components["schemas"]["SceneDoc"] | null;
+            /**
+             * @description A scene of this server.
+             * @default null
+             */
+            scene_id?: string | null;
+            /**
+             * @description Numbers that decide what counts; those absent have their defaults.
+             * @default {
+             *       "closing_speed_mps": 1,
+             *       "covered_share": 0.5,
+             *       "follow_brake_mps2": 3.35,
+             *       "gap_m": 1,
+             *       "goal_heading_rad": 0.02,
+             *       "goal_position_m": 0.05,
+             *       "goal_speed_mps": 0.05,
+             *       "harsh_brake_mps2": 4,
+             *       "harsh_lateral_mps2": 4,
+             *       "iou": 0,
+             *       "moving_mps": 0.5,
+             *       "offroad_m": 0.1,
+             *       "right_on_red": true,
+             *       "ttc_s": 1.5
+             *     }
+             */
+            thresholds?: components["schemas"]["Thresholds"];
+            /** @description Motion to score; for the rest the chosen futures, else the log. */
+            trajectories?: {
+                [key: string]: components["schemas"]["TrajectoryDoc"];
+            };
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
+        /**
+         * ShownDoc
+         * @description The future that was shown last.
+         */
+        ShownDoc: {
+            /**
+             * Format: uint32
+             * @description Its `anchor`.
+             * @default null
+             */
+            anchor?: number | null;
+            /** @description Box centres at every half second after the start, metres; at most 18 count. */
+            x_m: number[];
+            /** @description As many as `x_m`. */
+            y_m: number[];
+        };
+        /**
+         * SignalDoc
+         * @description The signal of one lane over the scene.
+         */
+        SignalDoc: {
+            /** @description Lane that obeys it. */
+            lane: string;
+            /** @description Run-length states; first steps rise. */
+            states: components["schemas"]["SignalRun"][];
+            /**
+             * @description Where to stop.
+             * @default null
+             */
+            stop_m?: components["schemas"]["Point"] | null;
+        };
+        /**
+         * SignalRun
+         * @description [first step, state]
+         */
+        SignalRun: [
+            number,
+            "unknown" | "arrow_stop" | "arrow_caution" | "arrow_go" | "stop" | "caution" | "go" | "flashing_stop" | "flashing_caution"
+        ];
+        /**
+         * SkippedRecord
+         * @description A record of a file that is no scene.
+         */
+        SkippedRecord: {
+            /**
+             * Format: uint
+             * @description Position in the file, from 0.
+             */
+            index: number;
+            /** @description Why. */
+            problem: components["schemas"]["Problem"];
+        };
+        /**
+         * Source
+         * @description Where the value of a field came from.
+         */
+        Source: "user" | "log" | "default" | "model";
+        /**
+         * SpeedsDoc
+         * @description Between which speeds motor vehicles start that move.
+         */
+        SpeedsDoc: {
+            /**
+             * Format: double
+             * @description m/s; not less than `min_mps`.
+             */
+            max_mps: number;
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            min_mps: number;
+        };
+        /**
+         * StartDoc
+         * @description Where a road user starts; absent or null is free.
+         */
+        StartDoc: {
+            /**
+             * Format: double
+             * @description Radians, then wrapped.
+             */
+            heading_rad?: number | null;
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            speed_mps?: number | null;
+            /** @description In place of `speed_mps`; fixes a free heading too. */
+            velocity?: components["schemas"]["VelocityDoc"] | null;
+            /**
+             * Format: double
+             * @description Box centre, metres; with `y_m` or not at all.
+             */
+            x_m?: number | null;
+            /**
+             * Format: double
+             * @description Box centre, metres; with `x_m` or not at all.
+             */
+            y_m?: number | null;
+        } & (unknown & unknown);
+        /**
+         * StopSignDoc
+         * @description A stop sign.
+         */
+        StopSignDoc: {
+            /** @description Unique among stop signs. */
+            id: string;
+            /**
+             * @description Ids of lanes that obey it.
+             * @default []
+             */
+            lanes?: string[];
+            /** @description Where it stands. */
+            position_m: components["schemas"]["Point"];
+        };
+        /**
+         * StreamModes
+         * @description What drafts carry.
+         */
+        StreamModes: "chosen" | "all";
+        /**
+         * Stretch
+         * @description Something one road user does over a stretch of time.
+         */
+        Stretch: {
+            /** @description Who. */
+            agent: string;
+            /** @description Off the road and over a median: the road edge that is driven over, by its id in the map. */
+            edge?: string | null;
+            /**
+             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
+             *     the same time, no less bad.
+             */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Scene time of the first step, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Scene time of the last step, seconds.
+             */
+            until_s: number;
+            /**
+             * Format: double
+             * @description The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
+             *     metres driven against the traffic.
+             */
+            worst: number | null;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * SupersededEvent
+         * @description Last event of a call that a newer revision of its client took over.
+         */
+        SupersededEvent: {
+            /**
+             * Format: uint64
+             * @description The newer one.
+             */
+            by_revision: number;
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "superseded";
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+        };
+        /**
+         * Template
+         * @description A layout by name, to start from.
+         * @enum {string}
+         */
+        Template: "three-arms" | "four-arms" | "roundabout" | "merge" | "straight" | "curve" | "school-street" | "car-park";
+        /**
+         * TemplateItem
+         * @description A template and its own parameters.
+         */
+        TemplateItem: {
+            /** @description The template with all its parameters. */
+            layout: components["schemas"]["Layout"];
+            /** @description Its name for people. */
+            title: string;
+        };
+        /**
+         * TemplateList
+         * @description All templates.
+         */
+        TemplateList: {
+            templates: components["schemas"]["TemplateItem"][];
+        };
+        /**
+         * Thresholds
+         * @description Numbers that decide what counts. Those absent in a document have their defaults.
+         */
+        Thresholds: {
+            /**
+             * Format: double
+             * @description Near miss: only when the gap shrinks faster than this, m/s.
+             * @default 1
+             */
+            closing_speed_mps?: number;
+            /**
+             * Format: double
+             * @description ... or when more than this share of the smaller box is covered: a child under a bus has a
+             *     tiny intersection over union. Above 1 turns the rule off (the paper's form).
+             * @default 0.5
+             */
+            covered_share?: number;
+            /**
+             * Format: double
+             * @description Near miss of one that follows another: only when avoiding the collision needs more braking
+             *     than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
+             * @default 3.35
+             */
+            follow_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Near miss: gap below this, metres.
+             * @default 1
+             */
+            gap_m?: number;
+            /**
+             * Format: double
+             * @description Goal heading met within this, radians.
+             * @default 0.02
+             */
+            goal_heading_rad?: number;
+            /**
+             * Format: double
+             * @description Goal position met within this, metres.
+             * @default 0.05
+             */
+            goal_position_m?: number;
+            /**
+             * Format: double
+             * @description Goal speed met within this, m/s.
+             * @default 0.05
+             */
+            goal_speed_mps?: number;
+            /**
+             * Format: double
+             * @description Braking above this is harsh, m/s2.
+             * @default 4
+             */
+            harsh_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Sideways acceleration above this is harsh, m/s2.
+             * @default 4
+             */
+            harsh_lateral_mps2?: number;
+            /**
+             * Format: double
+             * @description Boxes collide when their intersection over union is above this (the paper's collision rate: 0.02).
+             * @default 0
+             */
+            iou?: number;
+            /**
+             * Format: double
+             * @description Slower than this counts as standing, m/s.
+             * @default 0.5
+             */
+            moving_mps?: number;
+            /**
+             * Format: double
+             * @description A corner farther outside than this is off the road, metres.
+             * @default 0.1
+             */
+            offroad_m?: number;
+            /**
+             * @description Turning right at red after a stop is allowed.
+             * @default true
+             */
+            right_on_red?: boolean;
+            /**
+             * Format: double
+             * @description Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
+             * @default 1.5
+             */
+            ttc_s?: number;
+        };
+        /**
+         * TimeDoc
+         * @description Steps of the scene.
+         */
+        TimeDoc: {
+            /**
+             * Format: uint64
+             * @description The source's "current" step.
+             * @default 0
+             */
+            now_step?: number;
+            /**
+             * Format: double
+             * @description Always 0.1.
+             * @default 0.1
+             * @constant
+             */
+            step_s?: 0.1;
+            /**
+             * Format: uint64
+             * @description How many steps the scene spans.
+             */
+            steps: number;
+        };
+        /**
+         * Timing
+         * @description Time spent, milliseconds.
+         */
+        Timing: {
+            /**
+             * Format: double
+             * @description Joint choice of modes.
+             */
+            choice_ms: number;
+            /**
+             * Format: double
+             * @description Map and road users.
+             */
+            encode_ms: number;
+            /**
+             * Format: double
+             * @description First guess.
+             */
+            initial_ms: number;
+            /**
+             * Format: double
+             * @description Waiting for a worker.
+             */
+            queue_ms: number;
+            /**
+             * Format: double
+             * @description Scores.
+             */
+            score_ms: number;
+            /** @description Each denoising step. */
+            step_ms: number[];
+        };
+        /**
+         * TrackDoc
+         * @description Recorded states as columns, one value a step from `first_step`.
+         */
+        TrackDoc: {
+            /**
+             * Format: uint64
+             * @description Scene step of the first value.
+             */
+            first_step: number;
+            /** @description Radians. */
+            heading_rad: number[];
+            /**
+             * @description Half-open ranges of scene steps at which the road user was seen; all when absent. Values
+             *     outside them are written as 0 and ignored.
+             * @default null
+             */
+            valid?: number[][] | null;
+            /** @description m/s. */
+            vx_mps: number[];
+            /** @description m/s. */
+            vy_mps: number[];
+            /** @description Box centre, metres. */
+            x_m: number[];
+            /** @description Box centre, metres. */
+            y_m: number[];
+            /**
+             * @description Box centre's height, metres.
+             * @default null
+             */
+            z_m?: number[] | null;
+        };
+        /**
+         * Traffic
+         * @description Side of the road that traffic keeps to.
+         * @enum {string}
+         */
+        Traffic: "right-hand" | "left-hand";
+        /**
+         * Trait
+         * @description Something about a motion that a person can name and wish otherwise.
+         */
+        Trait: {
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        };
+        /**
+         * TrajectoryDoc
+         * @description Motion of one road user as columns, one value a step from `first_step`.
+         */
+        TrajectoryDoc: {
+            /**
+             * Format: uint64
+             * @description Scene step of the first value.
+             */
+            first_step: number;
+            heading_rad: number[];
+            vx_mps: number[];
+            vy_mps: number[];
+            x_m: number[];
+            y_m: number[];
+        };
+        /**
+         * Turn
+         * @description A way out of a junction, as seen by who comes in.
+         * @enum {string}
+         */
+        Turn: "left" | "straight" | "right";
+        /**
+         * TurnAcross
+         * @description What left turns (right turns in left-hand traffic) do while oncoming traffic has green.
+         */
+        TurnAcross: "permissive" | "protected";
+        /**
+         * VelocityDoc
+         * @description A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
+         *     `ahead_mps` and `left_mps`.
+         */
+        VelocityDoc: {
+            /**
+             * Format: double
+             * @description m/s along the start's heading.
+             */
+            ahead_mps?: number | null;
+            /**
+             * Format: double
+             * @description m/s to the left of the start's heading.
+             */
+            left_mps?: number | null;
+            /**
+             * Format: double
+             * @description m/s east.
+             */
+            x_mps?: number | null;
+            /**
+             * Format: double
+             * @description m/s north.
+             */
+            y_mps?: number | null;
+        } & (unknown & unknown & unknown & unknown);
+        /**
+         * Verdict
+         * @description What a person said of a card.
+         */
+        Verdict: "keep" | "reject";
+        /**
+         * ViaDoc
+         * @description A place that a road user passes on its way.
+         */
+        ViaDoc: {
+            /**
+             * Format: double
+             * @description Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
+             *     those before it and no later than the goal. Snapped to 0.1.
+             */
+            time_s?: number | null;
+            /**
+             * Format: double
+             * @description Passed no farther away than this, metres; 1 when absent.
+             */
+            tolerance_m?: number | null;
+            /**
+             * Format: double
+             * @description Box centre, metres, scene frame.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre, metres, scene frame.
+             */
+            y_m: number;
+        };
+        /**
+         * Warning
+         * @description Something unlikely that was done anyway.
+         */
+        Warning: {
+            /** @description Whom it concerns. */
+            agent: string | null;
+            /** @description A word that programs can switch on. */
+            code: components["schemas"]["WarningCode"];
+            /** @description One sentence. */
+            detail: string;
+        };
+        /**
+         * WarningCode
+         * @description What is unlikely.
+         */
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed";
+        /**
+         * Way
+         * @description Which way of a trait is wished.
+         */
+        Way: "more" | "less";
+        /**
+         * Way2
+         * @description A way through a junction that is drawn.
+         */
+        Way2: {
+            /** @description It is there because it was added. */
+            added: boolean;
+            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            from: string;
+            /** @description Id of its lane in the map. */
+            lane: string;
+            /** @description A lane away from it, such as `arm3.out1`. */
+            to: string;
+            /** @description The direction, as seen by who comes in. */
+            turn: components["schemas"]["Turn"];
+        };
+        /**
+         * WeightsInfo
+         * @description Facts about one expert's weights.
+         */
+        WeightsInfo: {
+            /** Format: double */
+            horizon_s: number;
+            licence: string;
+            /** Format: uint */
+            modes: number;
+            name: string;
+            /** Format: uint */
+            parameters: number;
+            sha256: string;
+            trained_on: string;
+            /** @description Random weights, for tests. */
+            untrained: boolean;
+        };
+        /**
+         * Who
+         * @description `"all"` or a list of ids.
+         */
+        Who: components["schemas"]["All"] | string[];
+        /**
+         * Wish
+         * @description A plain wish: a trait and which way.
+         */
+        Wish: {
+            /** @description Which way. */
+            wants: components["schemas"]["Way"];
+        } & ({
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        });
+    };
+    responses: never;
+    parameters: never;
+    requestBodies: never;
+    headers: never;
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export interface operations {
+    healthz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the process answers */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Prometheus text */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    readyz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description ready for work */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description not-ready */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-ready";
+                    };
+                };
+            };
+        };
+    };
+    exportUnsaved: {
+        parameters: {
+            query?: {
+                /** @description A name of the formats table. */
+                format?: string;
+                /** @description Which sample of the generated futures; the chosen one when absent. */
+                sample?: number;
+                /** @description `chosen` futures, or the `log` alone. */
+                mode?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+            };
+        };
+        responses: {
+            /** @description the file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geo+json": string;
+                    "application/json": string;
+                    "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "application/xml": string;
+                    "application/zip": string;
+                    "text/csv": string;
+                    "text/html": string;
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    openLine: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the connection is a WebSocket now */
+            101: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description upgrade-required */
+            426: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "upgrade-required";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    generate: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "agents": [
+                 *         "5"
+                 *       ],
+                 *       "conditions": {
+                 *         "5": {
+                 *           "goal": {
+                 *             "speed_mps": 6,
+                 *             "x_m": 14,
+                 *             "y_m": 0.4
+                 *           }
+                 *         }
+                 *       },
+                 *       "scene_id": "demo-crossing",
+                 *       "seed": 7
+                 *     }
+                 */
+                "application/json": components["schemas"]["GenerateRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FinalEvent"];
+                    "application/x-ndjson": components["schemas"]["Event"];
+                    "text/event-stream": components["schemas"]["Event"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description not-acceptable */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-acceptable";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled, exists, superseded, stale-revision */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled" | "exists" | "superseded" | "stale-revision";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, reply-too-large */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "reply-too-large";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal, non-finite-output */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal" | "non-finite-output";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    importScenes: {
+        parameters: {
+            query?: {
+                /** @description A name of the formats table; recognised from the content when absent or `auto`. */
+                format?: string;
+                /** @description Records to take, such as `0..9` (both ends), or one number. */
+                index?: string;
+                /** @description Give the scenes back and store nothing. */
+                dry_run?: boolean;
+                /** @description Name of the file, a label only. */
+                name?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": number[];
+                "multipart/form-data": {
+                    /** Format: binary */
+                    columns?: string;
+                    file: string[];
+                    /** Format: binary */
+                    net?: string;
+                };
+            };
+        };
+        responses: {
+            /** @description dry run */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedBody"];
+                };
+            };
+            /** @description stored */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedBody"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    info: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the server */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Info"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    cancelJob: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                job: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description not under way any more */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    makeMap: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "parameters": {
+                 *         "control": "equal",
+                 *         "kerb_radius_m": 6
+                 *       },
+                 *       "template": "four-arms"
+                 *     }
+                 */
+                "application/json": components["schemas"]["MapBody"];
+            };
+        };
+        responses: {
+            /** @description the map */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapReply"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    listTemplates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all templates */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TemplateList"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    listMaps: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all maps */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapList"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
+                    };
+                };
+            };
+        };
+    };
+    readMap: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sha256: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the map */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map"];
+                };
+            };
+            /** @description not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    place: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "density": {
+                 *         "count": 20
+                 *       },
+                 *       "keep": [],
+                 *       "region": {
+                 *         "circle": {
+                 *           "radius_m": 60,
+                 *           "x_m": 0,
+                 *           "y_m": 0
+                 *         }
+                 *       },
+                 *       "scene_id": "demo-crossing",
+                 *       "seed": 7,
+                 *       "types": {
+                 *         "cyclist": 0.1,
+                 *         "pedestrian": 0.2,
+                 *         "vehicle": 0.7
+                 *       }
+                 *     }
+                 */
+                "application/json": components["schemas"]["PlaceBody"];
+            };
+        };
+        responses: {
+            /** @description what was placed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlaceReply"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    listScenes: {
+        parameters: {
+            query?: {
+                /** @description Most scenes of a page, 1 to 200. */
+                limit?: number;
+                /** @description `next` of the page before. */
+                after?: string;
+                /** @description Text in the name, case ignored. */
+                q?: string;
+                /** @description One tag. */
+                tag?: string;
+                /** @description Scene that the listed ones are variants of. */
+                parent?: string;
+                /** @description `updated` or `name`, with `-` before it for falling order. */
+                sort?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description a page */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneList"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
+                    };
+                };
+            };
+        };
+    };
+    createScene: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+            };
+        };
+        responses: {
+            /** @description stored */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Saved"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled, exists */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled" | "exists";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    readScene: {
+        parameters: {
+            query?: {
+                /** @description The map itself or its hash alone: `inline` or `ref`. */
+                map?: ("inline" | "ref") & Record<string, never>;
+            };
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the scene */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                };
+            };
+            /** @description not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    replaceScene: {
+        parameters: {
+            query?: never;
+            header?: {
+                "If-Match"?: string | null;
+                "If-None-Match"?: string | null;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+            };
+        };
+        responses: {
+            /** @description replaced */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Saved"];
+                };
+            };
+            /** @description made */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Saved"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin, read-only */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin" | "read-only";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description precondition-required */
+            428: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "precondition-required";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    deleteScene: {
+        parameters: {
+            query?: never;
+            header: {
+                "If-Match": string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description deleted */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin, read-only */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin" | "read-only";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description precondition-required */
+            428: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "precondition-required";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    renameScene: {
+        parameters: {
+            query?: never;
+            header: {
+                "If-Match": string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "left turn, late"
+                 *     }
+                 */
+                "application/merge-patch+json": components["schemas"]["ScenePatch"];
+            };
+        };
+        responses: {
+            /** @description changed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Saved"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin, read-only */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin" | "read-only";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description precondition-required */
+            428: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "precondition-required";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    duplicateScene: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "left turn, later"
+                 *     }
+                 */
+                "application/json": components["schemas"]["DuplicateRequest"];
+            };
+        };
+        responses: {
+            /** @description stored */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Saved"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
+        };
+    };
+    exportScene: {
+        parameters: {
+            query?: {
+                /** @description A name of the formats table. */
+                format?: string;
+                /** @description Which sample of the generated futures; the chosen one when absent. */
+                sample?: number;
+                /** @description `chosen` futures, or the `log` alone. */
+                mode?: string;
+            };
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geo+json": string;
+                    "application/json": string;
+                    "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "application/xml": string;
+                    "application/zip": string;
+                    "text/csv": string;
+                    "text/html": string;
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, format-unknown, cannot-represent */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "format-unknown" | "cannot-represent";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    previewScene: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the scene, reduced */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                };
+            };
+            /** @description not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    score: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "scene_id": "demo-crossing"
+                 *     }
+                 */
+                "application/json": components["schemas"]["ScoreRequest"];
+            };
+        };
+        responses: {
+            /** @description the score */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScoreReply"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable, busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable" | "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+}

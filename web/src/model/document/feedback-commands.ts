@@ -1,0 +1,105 @@
+// Commands on feedback: a card is kept or rejected, a wish is added or forgotten, the next round begins.
+import type { components } from '../base/api';
+import { patchAgents, patchScene, type Command } from './commands';
+import { answerTo, following, MOST_ANSWERS, MOST_WISHES, NO_FEEDBACK, SAME_M, sameTrait, traitOf } from './feedback';
+import type { Answer, Asked, Feedback, Places, Trait, Verdict, Wish } from './feedback';
+import type { Agent, Scene } from './scene';
+import { TEXTS } from '../../texts/feedback';
+
+type Schemas = components['schemas'];
+
+/** Of scenes fewer are kept: each holds where everybody is. */
+const MOST_ANSWERS_OF_SCENE = 60;
+
+/** A card as it is on the page. */
+export interface Judged {
+  readonly card: Schemas['RoundCard'];
+  readonly letter: string;
+  readonly name: string;
+}
+
+/** Whom rounds are about. */
+export interface Subject {
+  /** Null for everybody: a card is a scene then. */
+  readonly id: string | null;
+  readonly name: string;
+  readonly feedback: Feedback | null;
+  /** The command that keeps what was said. */
+  say(name: string, feedback: Feedback): Command;
+}
+
+export const oneSubject = (a: Agent): Subject => ({
+  id: a.id,
+  name: a.name,
+  feedback: a.feedback,
+  say: (name, feedback) => patchAgents(name, new Map([[a.id, { feedback }]])),
+});
+
+export const everybody = (scene: Scene): Subject => ({
+  id: null,
+  name: TEXTS.theWholeScene,
+  feedback: scene.feedback,
+  say: (name, feedback) => patchScene(name, { feedback }),
+});
+
+/** A scene's places in few words: to a tenth of a metre, and one of whoever stands. */
+function shortPlaces(all: Places): Places {
+  const tenth = (v: number): number => Math.round(v * 10) / 10;
+  const short = ([first, ...rest]: readonly (readonly number[])[]): readonly (readonly number[])[] => {
+    const stands = rest.every((p) => Math.hypot(p[0] - first[0], p[1] - first[1]) <= SAME_M / 2);
+    return (stands ? [first] : [first, ...rest]).map(([x, y]) => [tenth(x), tenth(y)]);
+  };
+  return Object.fromEntries(Object.entries(all).flatMap(([id, p]) => (p.length ? [[id, short(p)]] : [])));
+}
+
+const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): Command =>
+  a.say(name, Object.freeze({ ...(a.feedback ?? NO_FEEDBACK), asked, ...patch }));
+
+const upper = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
+
+/** Keeps or rejects a card; null opens it again. */
+export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
+  const was = answerTo(a.feedback, asked, of.card);
+  const answers = a.feedback?.answers ?? [];
+  const { letter, name } = of;
+  const { features } = of.card;
+  const places = a.id === null ? shortPlaces(of.card.places) : of.card.places;
+  const most = a.id === null ? MOST_ANSWERS_OF_SCENE : MOST_ANSWERS;
+  const said: Answer | null = verdict && {
+    ...{ features, places: was?.places ?? places, verdict, why, letter, name },
+    round: asked.round,
+  };
+  const at = was ? answers.indexOf(was) : answers.length;
+  const next = answers.toSpliced(at, was ? 1 : 0, ...(said ? [Object.freeze(said)] : []));
+  const word = verdict === null ? TEXTS.openAgain : verdict === 'keep' ? TEXTS.kept : TEXTS.rejected;
+  const what = a.id === null ? TEXTS.card : TEXTS.future;
+  const step = was && was.verdict === verdict ? TEXTS.whyWas(what, letter, word) : `${upper(what)} ${letter} ${word}`;
+  return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
+}
+
+/** A wish of one's own; it takes the place of another about the same. */
+export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
+  const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
+  const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
+  return put(TEXTS.wishedFor(words, a.name), a, asked, {
+    wishes: Object.freeze([...others, wish]),
+    forgotten: forgotten.filter((t) => !sameTrait(t, wish)),
+  });
+}
+
+/** Whatever the answers show of it, it does not count. `words`: what is forgotten. */
+export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words: string): Command {
+  const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
+  const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
+  const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
+  return put(TEXTS.forgottenFor(words, a.name), a, asked, {
+    wishes: wishes.filter((w) => !gone(w)),
+    forgotten: Object.freeze(all.slice(-MOST_WISHES)),
+  });
+}
+
+/** Cards by what was said until now. */
+export function nextRound(a: Subject, asked: Asked): Command {
+  const next = following(a.feedback, asked);
+  return put(TEXTS.roundOf(next.round, a.name), a, next, {});
+}

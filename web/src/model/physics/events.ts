@@ -1,0 +1,209 @@
+// Events as the timeline and the list show them: what is wrong with the futures that are followed, and the facts of
+// the score about everybody else. What the log does by itself is marked so and does not count.
+import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '../document/future-facts';
+import { motionOf } from './playback';
+import type { Futures, MotionSet, Score, Stretch } from '../document/futures';
+import { poseAt, STEP_S } from '../base/motion';
+import { touched, type Agent, type Scene } from '../document/scene';
+import type { Pose, Vec } from '../base/geometry';
+
+export interface SceneEvent {
+  readonly kind: Exclude<Mark, 'ok'>;
+  readonly what: FaultKind;
+  readonly time: number;
+  readonly until: number;
+  /** How near the two of a near miss come, metres; null of anything else, and where nobody knows. */
+  readonly gap: number | null;
+  readonly a: Agent;
+  /** The other one, where there is one. */
+  readonly b: Agent | null;
+  /** It happens in the log or in the example itself; nobody was asked for it. */
+  readonly inLog: boolean;
+  readonly at: Vec;
+  /** How bad it is, in the unit of its kind; null where nobody knows. */
+  readonly extent: number | null;
+  /** Time to collision, seconds; null where nobody knows. */
+  readonly ttc: number | null;
+  /** Where both are then. */
+  readonly poses: readonly [Pose | null, Pose | null];
+}
+
+/** Meetings of the same two closer together than this are one event: the same pair passing once. */
+const SAME_PASS_S = 1.5;
+/** Faults of one road user and kind closer together than this are one event. */
+const SAME_STRETCH_S = 1;
+
+/** An event before the same ones are merged. */
+interface Raw {
+  readonly what: FaultKind;
+  readonly time: number;
+  readonly until: number;
+  readonly a: string;
+  readonly b: string | null;
+  readonly extent: number | null;
+  readonly ttc: number | null;
+  readonly at: Vec | null;
+  readonly inLog: boolean;
+}
+
+/** Everything that happens in the scene as it is followed. */
+export function eventsIn(scene: Scene, set: MotionSet): SceneEvent[] {
+  const said: Raw[] = [];
+  const judged = new Set<string>();
+  for (const id of set.driving) {
+    const a = scene.agents.get(id);
+    const f = set.futures.get(id);
+    const m = a && f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
+    for (const fault of m?.about?.faults ?? []) said.push(ofFault(id, fault));
+    if (m?.about && touched(a!)) judged.add(id);
+  }
+  const scored = set.score ? ofScore(scene, set, set.score) : [];
+  // Of those that were asked something the timeline says what the verdict on their shown future says, nothing else.
+  const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
+  const near = scored.filter((r) => r.what === 'near_miss');
+  const own = said.filter((r) => judged.has(r.a) || !told(r)).map((r) => withTime(r, near));
+  return merged(scene, set, [...own, ...scored.filter((r) => !told(r))]);
+}
+
+/** The verdict of a future on a near miss, with the time to collision that the score has of the same moment. */
+function withTime(r: Raw, near: readonly Raw[]): Raw {
+  if (r.what !== 'near_miss') return r;
+  const pair = (s: Raw): boolean => (s.a === r.a && s.b === r.b) || (s.a === r.b && s.b === r.a);
+  const same = near.find((s) => pair(s) && Math.abs(s.time - r.time) < STEP_S);
+  return same ? { ...r, ttc: same.ttc } : r;
+}
+
+/** What is wrong with one future on its way, while nobody follows it yet. */
+export function eventsOfFuture(scene: Scene, set: MotionSet, id: string, f: Futures, chosen: number): SceneEvent[] {
+  return merged(
+    scene,
+    set,
+    (f.modes[chosen]?.about?.faults ?? []).map((fault) => ofFault(id, fault)),
+  );
+}
+
+const ofFault = (id: string, f: Fault): Raw => ({
+  what: f.kind,
+  time: f.time,
+  until: f.until,
+  a: id,
+  b: f.with,
+  extent: f.extent,
+  ttc: null,
+  at: f.at,
+  inLog: false,
+});
+
+function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
+  const replays = (id: string, time: number): boolean => replaysLog(scene, set, id, time);
+  const none = { extent: null, ttc: null, at: null };
+  const two = score.collisions.map((c): Raw => ({
+    ...none,
+    ...c,
+    what: 'collision',
+    until: c.time,
+    extent: c.closing ?? null,
+    inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
+  }));
+  const near = score.nearMisses.map((c): Raw => ({
+    ...none,
+    ...c,
+    what: 'near_miss',
+    until: c.time,
+    extent: c.distance,
+    inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
+  }));
+  const one = (score.stretches ?? []).map((s: Stretch): Raw => ({
+    ...none,
+    what: s.what,
+    time: s.time,
+    until: s.until,
+    a: s.agent,
+    b: null,
+    extent: s.extent,
+    inLog: s.inLog ?? replays(s.agent, s.time),
+  }));
+  return [...two, ...near, ...one];
+}
+
+/** Does it do what was recorded, or what the example says? */
+function replaysLog(scene: Scene, set: MotionSet, id: string, time: number): boolean {
+  const a = scene.agents.get(id);
+  if (!a || set.driving.has(id) || (scene.others === 'still' && a.type !== 'other')) return false;
+  return poseAt(a.log, time) !== null;
+}
+
+/** One event a meeting and a stretch, by time. */
+function merged(scene: Scene, set: MotionSet, all: readonly Raw[]): SceneEvent[] {
+  const kept: Raw[] = [];
+  const pairOf = (r: Raw): string => (r.b === null ? '' : r.a < r.b ? `${r.a}|${r.b}` : `${r.b}|${r.a}`);
+  const hit = new Set(all.filter((r) => r.what === 'collision').map(pairOf));
+  const byTime = [...all].sort((p, q) => p.time - q.time);
+  // Faults name the place and the extent, so they stand before what the score says of the same.
+  for (const r of [...byTime.filter((x) => x.at), ...byTime.filter((x) => !x.at)]) {
+    const same = r.b === null ? kept.findIndex((k) => sameStretch(k, r)) : -1;
+    if (same >= 0) kept[same] = joined(kept[same], r);
+    const meets = (k: Raw): boolean =>
+      k.what === r.what && pairOf(k) === pairOf(r) && (r.what === 'collision' || near(k, r) < SAME_PASS_S);
+    if (same >= 0 || (r.b !== null && ((r.what !== 'collision' && hit.has(pairOf(r))) || kept.some(meets)))) continue;
+    kept.push(r);
+  }
+  return kept
+    .flatMap((r) => event(scene, set, r) ?? [])
+    .sort((x, y) => x.time - y.time || compareMarks(x.kind, y.kind));
+}
+
+const near = (a: Raw, b: Raw): number => Math.abs(a.time - b.time);
+
+/** To the score a median is off the road like any other. */
+const sameKind = (a: FaultKind, b: FaultKind): boolean =>
+  a === b || (a === 'over_median' && b === 'off_road') || (a === 'off_road' && b === 'over_median');
+
+const sameStretch = (a: Raw, b: Raw): boolean =>
+  a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_STRETCH_S && b.time <= a.until + SAME_STRETCH_S;
+
+/** Two stretches as one: as long as both, as bad as the worse; metres that follow each other add up. */
+function joined(a: Raw, b: Raw): Raw {
+  if (a.what !== b.what) return a;
+  const adds = a.what === 'wrong_way' && (b.time > a.until || a.time > b.until);
+  const [p, q] = [a.extent ?? b.extent, b.extent ?? a.extent];
+  const extent = p === null || q === null ? null : adds ? p + q : Math.max(p, q);
+  return { ...a, time: Math.min(a.time, b.time), until: Math.max(a.until, b.until), extent };
+}
+
+function event(scene: Scene, set: MotionSet, r: Raw): SceneEvent | null {
+  const a = scene.agents.get(r.a),
+    b = r.b === null ? null : scene.agents.get(r.b);
+  if (!a || b === undefined) return null;
+  const pa = poseAt(motionOf(scene, set, a), r.time),
+    pb = b && poseAt(motionOf(scene, set, b), r.time);
+  const at = placeOf(r, pa, pb);
+  if (!at || (b && !r.at && !pb)) return null;
+  const kind = faultMark({ kind: r.what }) as SceneEvent['kind'];
+  const gap = r.what === 'near_miss' ? r.extent : null;
+  return { ...r, kind, gap, a, b, at, poses: [pa, pb] };
+}
+
+function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
+  const own: Vec | null = r.at ?? (pa && [pa.x, pa.y]);
+  return own && pb ? [(own[0] + pb.x) / 2, (own[1] + pb.y) / 2] : own;
+}
+
+/** Those that count: what is in the log does not. */
+export const counted = <E extends SceneEvent>(events: readonly E[]): E[] => events.filter((e) => !e.inLog);
+
+/** The worst of those that count; null where nothing does. */
+export function worstOf(events: readonly SceneEvent[]): SceneEvent['kind'] | null {
+  const kinds = counted(events).map((e) => e.kind);
+  return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
+}
+
+/** One who comes to a place so soon after another has left it was close, whatever counts as a near miss, seconds. */
+const CLOSE_S = 1;
+
+/** The least time between two in one place, where it is that short and one of them does not just replay its log. */
+export function closeInTime(set: MotionSet): number | null {
+  const all = [...set.driving].flatMap((id) => set.score?.petOf?.get(id) ?? []);
+  const least = Math.min(...all);
+  return least < CLOSE_S ? least : null;
+}

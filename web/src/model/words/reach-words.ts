@@ -1,0 +1,86 @@
+// Whether a goal is reached, in words: by the server's verdict, or by the limits of motion while there is none.
+import { isBlocked, type Reach } from '../document/futures';
+import type { LaneMap } from '../document/lanemap';
+import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
+import type { Pose, Vec } from '../base/geometry';
+import { metres, num, retold, seconds, speedLabel, type SpeedUnit } from '../base/units';
+import { goalReach, type GoalReach } from '../physics/reach';
+import { TEXTS } from '../../texts/reach';
+
+/** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
+export function reachWords(
+  r: Reach,
+  goal: { readonly pos: Vec | null; readonly time: number },
+  nameOf: (id: string) => string | null = () => null,
+): { title: string; words: string } {
+  if (isBlocked(r) && r.nearest && goal.pos) {
+    const who = (r.with != null && nameOf(r.with)) || TEXTS.somebody;
+    const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
+    return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
+  }
+  const text = retold(r.words?.trim() ?? '');
+  const cut = /[.!?](?=\s|$)/.exec(text);
+  const title = cut ? text.slice(0, cut.index) : text;
+  const rest = cut ? text.slice(cut.index + 1).trim() : '';
+  return {
+    title: title || TEXTS.outOfReachIn(num(goal.time, 1)),
+    words: rest || TEXTS.theNearestReachable,
+  };
+}
+
+export interface LocalReach extends GoalReach {
+  readonly title: string;
+  readonly words: string;
+}
+
+/** Whether a goal can be reached, in words; `latest` is the longest time to suggest, seconds. */
+export function localReach(
+  map: LaneMap,
+  a: Agent,
+  start: Pose,
+  goal: GoalSpec,
+  unit: SpeedUnit,
+  latest = GOAL_TIME,
+): LocalReach | null {
+  const r = goalReach(map, a, start, goal, latest);
+  return r && { ...r, ...wordsOf(r, a, start.speed, goal.time, unit) };
+}
+
+const WHO: Readonly<Record<Agent['kind'], string>> = {
+  car: TEXTS.thisCar,
+  truck: TEXTS.thisTruck,
+  bus: TEXTS.thisBus,
+  motorcycle: TEXTS.thisMotorcycle,
+  cyclist: TEXTS.thisCyclist,
+  pedestrian: TEXTS.thisPerson,
+  other: TEXTS.it,
+};
+
+function wordsOf(r: GoalReach, a: Agent, v: number, t: number, unit: SpeedUnit): { title: string; words: string } {
+  const { along, max, min } = r;
+  switch (r.kind) {
+    case 'far': {
+      const away = r.onLanes ? TEXTS.theGoalIsAway : TEXTS.theGoalIsAwayStraight;
+      const gets = TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), WHO[a.kind], metres(max, 0));
+      return { title: TEXTS.tooFarFor(seconds(t)), words: away(metres(along, 0)) + gets };
+    }
+    case 'near':
+      return {
+        title: TEXTS.cannotStopThat,
+        words: TEXTS.fromItNeedsThe(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
+      };
+    case 'sharp':
+      return { title: TEXTS.tooTightAtThis, words: TEXTS.wouldDo(speedLabel(r.speed!, unit)) };
+    case 'ok': {
+      const mean = speedLabel(along / t, unit);
+      const onFoot = a.type === 'pedestrian';
+      const words = onFoot
+        ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t))
+        : TEXTS.onAverageIsEnough(mean);
+      return { title: TEXTS.reachable, words };
+    }
+  }
+}
+
+const walk = (v: number): string =>
+  v < 0.6 ? TEXTS.aStroll : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
