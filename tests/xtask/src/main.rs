@@ -51,7 +51,9 @@ const CHECKS: &[Check] = &[
     ("web-lint", || npm("web", &["run", "lint"])),
     ("web-types", || npm("web", &["run", "check"])),
     ("web-test", || npm("web", &["test"])),
-    ("clippy", || cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
+    ("clippy", clippy),
+    // The program of a user, which has no lab; all else is as in the check before.
+    ("plain", || cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])),
     ("wasm", wasm::check),
     ("test", suites::check),
     ("schedules", soak::schedules),
@@ -141,9 +143,9 @@ fn alone(outcome: anyhow::Result<Outcome>) -> ExitCode {
 
 /// Prints what changed in the golden answers; `accept` keeps it.
 fn golden(mode: &str) -> ExitCode {
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["test", "--quiet", "--workspace", "--test", "golden", "--", "--nocapture"];
-    let status = Command::new(program).args(arguments).env("GOLDEN", mode).current_dir(root()).status();
+    let mut command = cargo_command();
+    command.arg("test").args(WHOLE).args(["--quiet", "--test", "golden", "--", "--nocapture"]);
+    let status = command.env("GOLDEN", mode).status();
     if status.is_ok_and(|status| status.success()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
@@ -156,6 +158,13 @@ fn run(command: &mut Command) -> anyhow::Result<Outcome> {
     let shown = format!("{command:?}").replace('"', "");
     let status = command.stdin(Stdio::null()).status().with_context(|| format!("cannot run {shown}"))?;
     Ok(if status.success() { Outcome::Passed } else { Outcome::Failed(format!("{shown}: {status}")) })
+}
+
+/// Everything, with the one set of features that all checks share: nothing is built twice.
+const WHOLE: &[&str] = &["--workspace", "--locked", "--features", "dragtraffic/lab"];
+
+fn clippy() -> anyhow::Result<Outcome> {
+    run(cargo_command().arg("clippy").args(WHOLE).args(["--all-targets", "--", "-D", "warnings"]))
 }
 
 fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
@@ -202,7 +211,9 @@ fn maps() -> anyhow::Result<Outcome> {
         return Ok(Outcome::Failed(why));
     }
     run(cargo_command()
-        .args(["test", "--workspace", "--locked", "--test", "equal_maps", "--test", "osm"])
+        .arg("test")
+        .args(WHOLE)
+        .args(["--test", "equal_maps", "--test", "osm"])
         .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
         .env("DRAGTRAFFIC_NETCONVERT", netconvert))
 }
@@ -236,7 +247,8 @@ fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
 /// A program, built as `cargo test --workspace` does: with what tests alone ask of our crates, so that nothing is
 /// built twice.
 fn built(name: &str) -> anyhow::Result<PathBuf> {
-    if let Outcome::Failed(why) = cargo(&["test", "--workspace", "--locked", "--no-run", "--quiet"])? {
+    if let Outcome::Failed(why) = run(cargo_command().arg("test").args(WHOLE).args(["--no-run", "--quiet"]))?
+    {
         bail!(why);
     }
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
@@ -248,7 +260,8 @@ fn program() -> anyhow::Result<PathBuf> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
     let program = target.join("debug/dragtraffic");
     if !program.is_file()
-        && let Outcome::Failed(why) = cargo(&["build", "--locked", "-p", "dragtraffic"])?
+        && let Outcome::Failed(why) =
+            run(cargo_command().arg("build").args(WHOLE).args(["--bin", "dragtraffic"]))?
     {
         bail!(why);
     }

@@ -1,7 +1,7 @@
 //! `test`: what `cargo test --workspace` runs, in less time. Most programs of tests keep one core busy with their
 //! longest test, so those of the crates run side by side; those over the real server run alone, since they time out.
 
-use crate::{Outcome, cargo, cargo_command, root};
+use crate::{Outcome, WHOLE, cargo_command, root};
 use anyhow::{Context, ensure};
 use serde_json::Value;
 use std::collections::VecDeque;
@@ -32,7 +32,7 @@ pub fn check() -> anyhow::Result<Outcome> {
         suites.into_iter().partition(|suite| ALONE.iter().any(|name| suite.folder.ends_with(name)));
     let mut failed = run(together, WORKERS);
     failed.extend(run(alone, 1));
-    if let Outcome::Failed(why) = cargo(&["test", "--workspace", "--locked", "--doc"])? {
+    if let Outcome::Failed(why) = crate::run(cargo_command().arg("test").args(WHOLE).arg("--doc"))? {
         failed.push(why);
     }
     Ok(if failed.is_empty() { Outcome::Passed } else { Outcome::Failed(failed.join(", ")) })
@@ -40,10 +40,10 @@ pub fn check() -> anyhow::Result<Outcome> {
 
 /// All programs of the workspace's tests.
 fn built() -> anyhow::Result<Vec<Suite>> {
-    let arguments =
-        ["test", "--workspace", "--locked", "--no-run", "--message-format=json-render-diagnostics"];
     let output = cargo_command()
-        .args(arguments)
+        .arg("test")
+        .args(WHOLE)
+        .args(["--no-run", "--message-format=json-render-diagnostics"])
         .stdin(Stdio::null())
         .stderr(Stdio::inherit())
         .output()
