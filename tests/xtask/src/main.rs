@@ -6,6 +6,7 @@
 //! `cargo xtask imports`: how long readers take, and how much memory.
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
+//! `cargo xtask quick`: checks of what changed, in two minutes.
 //! `cargo xtask advisories`: known faults of the crates that we use.
 //!
 //! `cargo xtask test NAME…` runs some. What a check needs is installed; where that fails it is skipped with a
@@ -21,6 +22,7 @@ mod environments;
 mod figures;
 mod fuzzing;
 mod packages;
+mod quick;
 mod report;
 mod schemathesis;
 mod soak;
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
         Some((command, names)) if command == "test" => test(names),
+        Some((command, [])) if command == "quick" => quick::run(),
         Some((command, [])) if command == "advisories" => alone(advisories::command()),
         Some((command, [])) if command == "golden" => golden("review"),
         Some((command, [flag])) if command == "golden" && flag == "--accept" => golden("accept"),
@@ -92,7 +95,7 @@ fn main() -> ExitCode {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
-                "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask advisories\n       cargo xtask golden [--accept]\n       \
+                "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask quick\n       cargo xtask advisories\n       cargo xtask golden [--accept]\n       \
                  cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\n       \
                  cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
                  cargo xtask fuzz --guided [READER…] [--seconds N]\n       \
