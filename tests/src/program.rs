@@ -58,7 +58,8 @@ fn newest(path: &Path) -> Option<SystemTime> {
 fn build() -> anyhow::Result<PathBuf> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
-        .args(["build", "-p", "dragtraffic", "--message-format=json-render-diagnostics"])
+        .args(["build", "-p", "dragtraffic", "--features", "lab"])
+        .arg("--message-format=json-render-diagnostics")
         .current_dir(root())
         .stdin(Stdio::null())
         .stderr(Stdio::inherit())

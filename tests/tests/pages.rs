@@ -95,7 +95,8 @@ fn a_head_that_dribbles_is_cut_off() {
 
 #[test]
 fn half_open_connections_do_not_stop_a_client() {
-    let server = Server::start(&["--limit", "connections=16"]).unwrap();
+    // None of them ends by itself while the client is served.
+    let server = Server::start(&["--limit", "connections=16", "--limit", "header_read_s=600"]).unwrap();
     let idle: Vec<TcpStream> = (0..200)
         .map(|_| {
             let mut stream = TcpStream::connect(server.address).unwrap();
@@ -105,7 +106,7 @@ fn half_open_connections_do_not_stop_a_client() {
         .collect();
     let began = Instant::now();
     assert_eq!(server.get("/healthz").unwrap().status, 200);
-    assert!(began.elapsed() < Duration::from_secs(1), "{:?}", began.elapsed());
+    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
     drop(idle);
 }
 

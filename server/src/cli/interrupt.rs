@@ -14,6 +14,7 @@ pub fn watch() {
 }
 
 /// As [`watch`], but the first request sets a flag, for work that ends by itself soon; the second ends the program.
+#[cfg(feature = "lab")]
 pub fn gently() -> Arc<AtomicBool> {
     let asked = Arc::new(AtomicBool::new(false));
     listen(Some(Arc::clone(&asked)));

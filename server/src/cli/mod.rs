@@ -1,5 +1,18 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
+/// Two calls of a command, for the end of its help.
+macro_rules! examples {
+    ($first:literal, $second:literal) => {
+        concat!(
+            "Examples:\n  ",
+            $first,
+            "\n  ",
+            $second,
+            "\n\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
+        )
+    };
+}
+
 mod backup;
 mod common;
 mod convert;
@@ -8,6 +21,7 @@ mod exit;
 mod generate;
 mod inputs;
 mod interrupt;
+#[cfg(feature = "lab")]
 mod lab;
 mod map;
 mod output;
@@ -38,19 +52,6 @@ struct Cli {
     serve: serve::ServeArgs,
     #[command(flatten)]
     common: Common,
-}
-
-/// Two calls of a command, for the end of its help.
-macro_rules! examples {
-    ($first:literal, $second:literal) => {
-        concat!(
-            "Examples:\n  ",
-            $first,
-            "\n  ",
-            $second,
-            "\n\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
-        )
-    };
 }
 
 /// How commands end, for the end of the program's help.
@@ -102,34 +103,9 @@ enum Command {
     /// Print the manual page, or write one for each command.
     #[command(after_help = examples!("dragtraffic man | man -l -", "dragtraffic man -o ~/.local/share/man/man1/"))]
     Man(shell::ManArgs),
-    /// Make training windows from procedural networks, driven through SUMO.
-    #[command(after_help = examples!("dragtraffic synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
-    Synthesize(lab::SynthesizeArgs),
-    /// Lay the statistics of sets of scenes side by side.
-    #[command(after_help = examples!("dragtraffic statistics synthetic=windows/ recorded=recordings/", "dragtraffic statistics recorded=recordings/ --json --most 50"))]
-    Statistics(lab::StatisticsArgs),
-    /// Make training shards from logs.
-    #[command(after_help = examples!("dragtraffic prepare windows/ --expert vehicle -o vehicle.records", "dragtraffic prepare recordings/ --expert cyclist --crop 120 --least-agents 32 --mirror -o cyclist.records"))]
-    Prepare(lab::PrepareArgs),
-    /// Train an expert.
-    #[command(after_help = examples!("dragtraffic train vehicle.records --expert vehicle --stage initializer --steps 20000 -o v1.safetensors", "dragtraffic train vehicle.records --expert vehicle --stage joint --steps 1200 --init v1.safetensors -o vehicle.safetensors"))]
-    Train(lab::TrainArgs),
-    /// Learn the placement weights from scenes.
-    #[command(after_help = examples!("dragtraffic train-placement windows/ -o placement.json", "dragtraffic train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
-    TrainPlacement(lab::TrainPlacementArgs),
-    /// Judge the placement on recorded scenes.
-    #[command(after_help = examples!("dragtraffic eval-place recordings/", "dragtraffic eval-place recordings/ --radius 80 --seeds 8 --json"))]
-    EvalPlace(lab::EvalPlaceArgs),
-    /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
-    #[command(after_help = examples!("dragtraffic eval recordings/ --tables 1,2 -o tables/", "dragtraffic eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
-    Eval(lab::EvalArgs),
-    /// Reproduce the paper on recordings: its sets, its methods trained as it says, its two tables with its own figures
-    /// beside.
-    #[command(after_help = examples!("dragtraffic reproduce recordings/ --quick -o paper/", "dragtraffic reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
-    Reproduce(lab::ReproduceArgs),
-    /// Time answers: one drag, and whole scenes.
-    #[command(after_help = examples!("dragtraffic bench recordings/", "dragtraffic bench recordings/ --scenes 20 --weights DIR"))]
-    Bench(lab::BenchArgs),
+    #[cfg(feature = "lab")]
+    #[command(flatten)]
+    Lab(lab::LabCommand),
 }
 
 /// Parses the command line and does what it says.
@@ -138,6 +114,11 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
+            #[cfg(not(feature = "lab"))]
+            if let Some(message) = of_the_lab(&error) {
+                output::complain(&message);
+                return ExitCode::from(code);
+            }
             // Help into a closed pipe is no failure.
             let _ = error.print();
             return ExitCode::from(code);
@@ -145,11 +126,10 @@ pub fn run() -> ExitCode {
     };
     let common = cli.common;
     common.log();
-    // The server ends by itself, and training with a checkpoint, alone or on the way to the paper's tables.
-    if !matches!(cli.command, None | Some(Command::Serve(_) | Command::Train(_) | Command::Reproduce(_))) {
+    let command = cli.command.unwrap_or(Command::Serve(cli.serve));
+    if !command.ends_by_itself() {
         interrupt::watch();
     }
-    let command = cli.command.unwrap_or(Command::Serve(cli.serve));
     match command.run(&common) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -186,7 +166,42 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     Ok(())
 }
 
+/// What to do about a command that only a program with the feature `lab` has.
+#[cfg(not(feature = "lab"))]
+fn of_the_lab(error: &clap::Error) -> Option<String> {
+    use clap::error::{ContextKind, ContextValue};
+    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    let is_ours = LAB_COMMANDS.contains(&name.as_str());
+    is_ours.then(|| {
+        format!("{name} is not in this program: build one with cargo build --release --features lab")
+    })
+}
+
+/// Names of the commands that the feature `lab` adds.
+#[cfg(any(test, not(feature = "lab")))]
+const LAB_COMMANDS: &[&str] = &[
+    "synthesize",
+    "statistics",
+    "prepare",
+    "train",
+    "train-placement",
+    "eval-place",
+    "eval",
+    "reproduce",
+    "bench",
+];
+
 impl Command {
+    /// Ctrl-C is the command's own: the server ends in order, and training with a checkpoint.
+    fn ends_by_itself(&self) -> bool {
+        match self {
+            Self::Serve(_) => true,
+            #[cfg(feature = "lab")]
+            Self::Lab(command) => command.ends_by_itself(),
+            _ => false,
+        }
+    }
+
     fn run(self, common: &Common) -> Result<(), Failure> {
         match self {
             Self::Serve(args) => serve::run(args, common),
@@ -202,15 +217,21 @@ impl Command {
             Self::Info(args) => document::info(args, common),
             Self::Completions(args) => shell::completions(args),
             Self::Man(args) => shell::man(args),
-            Self::Synthesize(args) => lab::synthesize(args, common),
-            Self::Statistics(args) => lab::statistics(args),
-            Self::Prepare(args) => lab::prepare(args, common),
-            Self::Train(args) => lab::train(args, common),
-            Self::TrainPlacement(args) => lab::train_placement(args, common),
-            Self::EvalPlace(args) => lab::eval_place(args, common),
-            Self::Eval(args) => lab::eval(args, common),
-            Self::Reproduce(args) => lab::reproduce(args, common),
-            Self::Bench(args) => lab::bench(args, common),
+            #[cfg(feature = "lab")]
+            Self::Lab(command) => command.run(common),
         }
+    }
+}
+
+#[cfg(all(test, feature = "lab"))]
+mod tests {
+    use super::{LAB_COMMANDS, lab};
+    use clap::Subcommand;
+
+    #[test]
+    fn a_program_without_the_lab_knows_the_names_of_its_commands() {
+        let commands = lab::LabCommand::augment_subcommands(clap::Command::new("dragtraffic"));
+        let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
+        assert_eq!(names, LAB_COMMANDS);
     }
 }

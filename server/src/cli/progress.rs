@@ -71,6 +71,7 @@ impl Progress {
     }
 
     /// So many were done by an earlier run.
+    #[cfg(feature = "lab")]
     pub fn begin(&self, before: u64) {
         let mut state = self.lock();
         (state.done, state.before) = (before, before);

@@ -1,33 +1,33 @@
-//! Known faults of the crates we use, by the RustSec database: fetched, else the copy of this machine.
+//! `cargo xtask advisories`: known faults of the crates we use, by the RustSec database. No package registry carries
+//! that database, so the command needs the network, or the copy that an earlier run has fetched.
 
-use crate::{Outcome, cargo, missing_tool, root};
+use crate::{Outcome, run, tools};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-/// Looks the lock file up. Without the network the copy that an earlier run fetched is used, and its date told;
-/// without either the check is skipped.
-pub fn check() -> anyhow::Result<Outcome> {
-    if let Some(why) = missing_tool("deny") {
-        return Ok(Outcome::Skipped(why));
-    }
-    let fetched = fetched();
-    let Some(copy) = copies().and_then(|folder| copy_in(&folder)) else {
-        let why = "the RustSec database cannot be fetched, and there is no copy of it here";
-        return Ok(Outcome::Skipped(why.into()));
+/// Looks the lock file up. Without the network the last copy is used, and its date printed.
+pub fn command() -> anyhow::Result<Outcome> {
+    let mut fetch = match tools::command("deny")? {
+        Ok(tool) => tool,
+        Err(why) => return Ok(Outcome::Failed(why)),
     };
-    let outcome = cargo(&["deny", "--offline", "check", "advisories"])?;
+    let fetched = fetch.args(["fetch", "db"]).output().is_ok_and(|output| output.status.success());
+    let Some(copy) = copies().and_then(|folder| copy_in(&folder)) else {
+        let why =
+            "the RustSec database cannot be fetched, and no earlier copy is here: the network is needed";
+        return Ok(Outcome::Failed(why.into()));
+    };
+    let mut check = match tools::command("deny")? {
+        Ok(tool) => tool,
+        Err(why) => return Ok(Outcome::Failed(why)),
+    };
+    let outcome = run(check.args(["--offline", "check", "advisories"]))?;
     Ok(match outcome {
         Outcome::Passed if !fetched => {
-            Outcome::Told(format!("by the copy of {} alone, since none can be fetched", date_of(&copy)?))
+            Outcome::Told(format!("by the copy of {} alone: none can be fetched", date_of(&copy)?))
         }
         other => other,
     })
-}
-
-fn fetched() -> bool {
-    let mut fetch = Command::new("cargo-deny");
-    fetch.args(["fetch", "db"]).current_dir(root()).stdout(Stdio::null()).stderr(Stdio::null());
-    fetch.status().is_ok_and(|status| status.success())
 }
 
 /// Where cargo-deny keeps its copies.

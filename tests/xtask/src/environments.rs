@@ -12,6 +12,7 @@ const OF_FILES: &[(&str, &str)] = &[
     ("python", "python/requirements-test.txt"),
     ("maps", "tests/equal-maps-requirements.txt"),
     ("schemathesis", "tests/schemathesis-requirements.txt"),
+    ("tools", "tests/tools-requirements.txt"),
 ];
 
 /// How each that was asked for ended: its Python, or why there is none. Held while one is made.

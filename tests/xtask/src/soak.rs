@@ -1,14 +1,15 @@
 //! Trials of the real program that go on for as long as one likes (`dragtraffic_tests::soak`), and the pool under
 //! a model checker.
 
-use super::{Outcome, cargo, root};
+use super::{Outcome, WHOLE, cargo_command, root, run as command};
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 /// Builds program and trials as tests have them, and starts one.
 pub fn run(arguments: &[String]) -> ExitCode {
-    let built = cargo(&["build", "--quiet", "--locked", "--workspace", "--bins"]).and_then(|programs| {
-        let library = cargo(&["build", "--quiet", "--locked", "--workspace", "--example", "faults"])?;
+    let build = |what: &[&str]| command(cargo_command().args(["build", "--quiet"]).args(WHOLE).args(what));
+    let built = build(&["--bins"]).and_then(|programs| {
+        let library = build(&["--example", "faults"])?;
         Ok(matches!((programs, library), (Outcome::Passed, Outcome::Passed)))
     });
     if !built.is_ok_and(|built| built) {
@@ -28,14 +29,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
 
 /// The pool in thousands of orders of its threads; `SCHEDULES` says how many of each.
 pub fn schedules() -> anyhow::Result<Outcome> {
-    cargo(&[
-        "test",
-        "--workspace",
-        "--locked",
-        "--features",
-        "dragtraffic/shuttle",
-        "--bin",
-        "dragtraffic",
-        "work::schedules",
-    ])
+    let mut tests = cargo_command();
+    tests.arg("test").args(WHOLE).args(["--features", "dragtraffic/shuttle"]);
+    command(tests.args(["--bin", "dragtraffic", "work::schedules"]))
 }

@@ -1,6 +1,6 @@
 //! Columns as a Parquet file.
 
-use parquet::basic::{Compression, ZstdLevel};
+use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -11,6 +11,7 @@ use std::io;
 use std::sync::Arc;
 
 /// How hard zstd tries.
+#[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
 
 /// Values of a column; `None` is null where the column may have none.
@@ -29,6 +30,16 @@ pub(crate) struct Column {
     pub values: Values,
 }
 
+#[cfg(not(target_family = "wasm"))]
+fn compression() -> Result<Compression, ParquetError> {
+    parquet::basic::ZstdLevel::try_new(ZSTD_LEVEL).map(Compression::ZSTD)
+}
+
+#[cfg(target_family = "wasm")]
+fn compression() -> Result<Compression, ParquetError> {
+    Ok(Compression::SNAPPY)
+}
+
 /// Writes tables of the same columns, a row group each, with notes beside them.
 ///
 /// # Errors
@@ -41,9 +52,8 @@ pub(crate) fn write(
     let columns = groups.peek().map_or(&[][..], Vec::as_slice);
     let schema = parse_message_type(&schema(columns)).map_err(io::Error::other)?;
     let notes = notes.into_iter().map(|(key, value)| KeyValue::new(key, value)).collect();
-    let level = ZstdLevel::try_new(ZSTD_LEVEL).map_err(io::Error::other)?;
     let properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(level))
+        .set_compression(compression().map_err(io::Error::other)?)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_created_by("dragtraffic".into())
         .set_key_value_metadata(Some(notes))

@@ -7,7 +7,20 @@ use std::io;
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Bytes of messages in a chunk, about.
 const CHUNK: usize = 1 << 20;
+#[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
+/// How chunks are packed, as the format names it.
+const PACKING: &str = if cfg!(target_family = "wasm") { "" } else { "zstd" };
+
+#[cfg(not(target_family = "wasm"))]
+fn pack(records: &[u8]) -> io::Result<Vec<u8>> {
+    zstd::encode_all(records, ZSTD_LEVEL)
+}
+
+#[cfg(target_family = "wasm")]
+fn pack(records: &[u8]) -> io::Result<Vec<u8>> {
+    Ok(records.to_vec())
+}
 
 /// The bytes of a record's content.
 #[derive(Default)]
@@ -147,9 +160,9 @@ impl Writer {
     fn end_chunk(&mut self) -> io::Result<()> {
         let Chunk { records, times_ns, places } = std::mem::take(&mut self.chunk);
         let Some((first_ns, last_ns)) = times_ns else { return Ok(()) };
-        let packed = zstd::encode_all(records.as_slice(), ZSTD_LEVEL)?;
+        let packed = pack(&records)?;
         let (start, size) = (self.bytes.len() as u64, records.len() as u64);
-        let chunk = Content::default().u64(first_ns).u64(last_ns).u64(size).u32(0).text("zstd");
+        let chunk = Content::default().u64(first_ns).u64(last_ns).u64(size).u32(0).text(PACKING);
         self.bytes.extend(chunk.u64(packed.len() as u64).bytes(&packed).record(0x06));
         let length = self.bytes.len() as u64 - start;
         let mut indexes = Vec::new();
@@ -161,7 +174,7 @@ impl Writer {
         }
         let indexes_length = self.bytes.len() as u64 - start - length;
         let index = Content::default().u64(first_ns).u64(last_ns).u64(start).u64(length).numbers(indexes);
-        let index = index.u64(indexes_length).text("zstd").u64(packed.len() as u64).u64(size);
+        let index = index.u64(indexes_length).text(PACKING).u64(packed.len() as u64).u64(size);
         self.chunk_indexes.push(index.record(0x08));
         Ok(())
     }

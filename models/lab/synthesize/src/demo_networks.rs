@@ -2,7 +2,7 @@
 
 use super::network::{Character, MPH, Network, Rank, Section, hermite};
 use super::random::Purpose;
-use super::ways::{MotorwayShape, approach, carriageway, ring};
+use super::ways::{Arm, MotorwayShape, approach, carriageway, ring};
 use formats::polyline::{arc_lengths, part, point_at};
 use scene::Vec2;
 use scene::geometry::direction;
@@ -101,7 +101,8 @@ pub fn roundabout() -> Network {
     for (i, &angle) in angles.iter().enumerate() {
         let s = Section { parking: 0.0, bike: 0.0, median: 1.6, speed: 25.0 * MPH, sidewalk: 3.0, ..SIDE };
         let bend = [0.10, -0.08, 0.06, 0.05][i];
-        approach(&mut net, i, angle, 15.0, 1, s, 3.0, [170.0, 60.0 * bend, bend]);
+        let arm = Arm { angle, section: s, sidewalk: 3.0, street: [170.0, 60.0 * bend, bend] };
+        approach(&mut net, i, arm, 15.0, 1);
     }
     finished(net)
 }

@@ -226,8 +226,7 @@ impl Network {
     pub fn edge(
         &mut self,
         id: &str,
-        from: &str,
-        to: &str,
+        [from, to]: [&str; 2],
         shape: Vec<Vec2>,
         lanes: usize,
         section: Section,

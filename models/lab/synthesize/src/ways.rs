@@ -29,7 +29,8 @@ pub fn roundabout(draw: &mut Stream) -> Network {
         let s = bare(if i % 2 == 0 { main } else { side });
         let (reach, lean, bend) =
             (draw.between(180.0, 270.0), draw.normal_about(0.0, 18.0), draw.normal_about(0.0, 0.2));
-        approach(&mut net, i, angle, radius, lanes, s, 0.0, [reach, lean, bend]);
+        let arm = Arm { angle, section: s, sidewalk: 0.0, street: [reach, lean, bend] };
+        approach(&mut net, i, arm, radius, lanes);
     }
     net
 }
@@ -68,24 +69,29 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewa
         let edge = format!("ring{k}");
         // Across the mouth of an arm there is nowhere to walk.
         let walk = if id.starts_with("ri") { sidewalk } else { 0.0 };
-        net.edge(&edge, id, next, arc, lanes, Section { sidewalk: walk, ..s }, false);
+        net.edge(&edge, [id, next], arc, lanes, Section { sidewalk: walk, ..s }, false);
         edges.push(edge);
     }
     net.roundabout(mouths.into_iter().map(|m| m.1).collect(), edges);
 }
 
-/// One arm: a street up to a splitter node with a crosswalk, then an entry and an exit of their own.
-/// `sidewalk` is the width of theirs; `shape` is the street's length, sideways end and bend.
-pub fn approach(
-    net: &mut Network,
-    i: usize,
-    angle: f64,
-    radius: f64,
-    lanes: usize,
-    s: Section,
-    sidewalk: f64,
-    shape: [f64; 3],
-) {
+/// An arm of a roundabout.
+#[derive(Clone, Copy, Debug)]
+pub struct Arm {
+    /// Direction from the middle of the ring, radians.
+    pub angle: f64,
+    /// Section of the street.
+    pub section: Section,
+    /// Width of the sidewalk along entry and exit, metres.
+    pub sidewalk: f64,
+    /// The street's length, sideways end and bend.
+    pub street: [f64; 3],
+}
+
+/// Arm `i` of a ring of that radius and so many lanes: a street up to a splitter node with a crosswalk, then an entry
+/// and an exit of their own.
+pub fn approach(net: &mut Network, i: usize, arm: Arm, radius: f64, lanes: usize) {
+    let Arm { angle, section: s, sidewalk, street: shape } = arm;
     let (way, across) = (direction(angle), left_of(direction(angle)));
     let ring_lane = if lanes == 1 { 4.2 } else { 3.7 };
     let near = way * (radius + ring_lane * lanes as f64 + 22.0);
@@ -103,8 +109,8 @@ pub fn approach(
     let lead_in = hermite(near + gap, -way, net.position(&entry), inward);
     let lead_out = hermite(net.position(&exit), outward, near - gap, way);
     let slow = Section { speed: 20.0 * MPH, priority: 3, sidewalk, rank: Rank::Collector, ..s };
-    net.edge(&format!("in{i}"), &splitter, &entry, lead_in, s.forward, slow, false);
-    net.edge(&format!("out{i}"), &exit, &splitter, lead_out, s.backward, slow, false);
+    net.edge(&format!("in{i}"), [&splitter, &entry], lead_in, s.forward, slow, false);
+    net.edge(&format!("out{i}"), [&exit, &splitter], lead_out, s.backward, slow, false);
 }
 
 /// What a motorway template needs to know.
@@ -184,7 +190,7 @@ pub fn carriageway(
     for k in 0..5 {
         let piece = part(&border, cuts[k] + inset(k, 18.0), cuts[k + 1] - inset(k + 1, 18.0));
         let entry = (k == 1) == shape.entry_first && k % 2 == 1;
-        net.edge(&edge(k), &node(k), &node(k + 1), piece, shape.lanes + k % 2, s, entry);
+        net.edge(&edge(k), [&node(k), &node(k + 1)], piece, shape.lanes + k % 2, s, entry);
     }
     for (k, aside) in [(1, asides[0]), (3, asides[1])] {
         for i in 0..shape.lanes {
@@ -204,8 +210,7 @@ pub fn carriageway(
         if entry {
             net.edge(
                 &ramp,
-                &ramp,
-                &node(k),
+                [&ramp, &node(k)],
                 hermite(far, unit(way - right * 0.45), mouth, way),
                 1,
                 slow,
@@ -216,8 +221,7 @@ pub fn carriageway(
             net.connect(&edge(k - 1), 0, &edge(k), 0);
             net.edge(
                 &ramp,
-                &node(k + 1),
-                &ramp,
+                [&node(k + 1), &ramp],
                 hermite(mouth, way, far, unit(way + right * 0.45)),
                 1,
                 slow,

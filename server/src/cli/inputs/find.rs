@@ -46,6 +46,7 @@ pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
 ///
 /// # Errors
 /// Exit 3 when a pattern has none.
+#[cfg(feature = "lab")]
 pub fn patterns(inputs: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut paths = Vec::new();
     for input in inputs {

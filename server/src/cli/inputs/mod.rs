@@ -2,7 +2,9 @@
 
 mod find;
 
-pub use find::{no_ids, patterns};
+pub use find::no_ids;
+#[cfg(feature = "lab")]
+pub use find::patterns;
 
 use super::{Failure, output};
 use crate::base::problem::Problem;

@@ -11,18 +11,66 @@ mod statistics;
 mod synthesize;
 mod train;
 
-pub use eval::{BenchArgs, EvalArgs, bench, eval};
-pub use placement::{EvalPlaceArgs, TrainPlacementArgs, eval_place, train_placement};
-pub use prepare::{PrepareArgs, prepare};
-pub use reproduce::{ReproduceArgs, reproduce};
-pub use statistics::{StatisticsArgs, statistics};
-pub use synthesize::{SynthesizeArgs, synthesize};
-pub use train::{TrainArgs, train};
-
 use super::inputs::patterns;
-use super::{Exit, Failure, output};
-use clap::Args;
+use super::{Common, Exit, Failure, output};
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
+
+/// The commands that make and judge experts.
+#[derive(Subcommand)]
+pub enum LabCommand {
+    /// Make training windows from procedural networks, driven through SUMO.
+    #[command(after_help = examples!("dragtraffic synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
+    Synthesize(synthesize::SynthesizeArgs),
+    /// Lay the statistics of sets of scenes side by side.
+    #[command(after_help = examples!("dragtraffic statistics synthetic=windows/ recorded=recordings/", "dragtraffic statistics recorded=recordings/ --json --most 50"))]
+    Statistics(statistics::StatisticsArgs),
+    /// Make training shards from logs.
+    #[command(after_help = examples!("dragtraffic prepare windows/ --expert vehicle -o vehicle.records", "dragtraffic prepare recordings/ --expert cyclist --crop 120 --least-agents 32 --mirror -o cyclist.records"))]
+    Prepare(prepare::PrepareArgs),
+    /// Train an expert.
+    #[command(after_help = examples!("dragtraffic train vehicle.records --expert vehicle --stage initializer --steps 20000 -o v1.safetensors", "dragtraffic train vehicle.records --expert vehicle --stage joint --steps 1200 --init v1.safetensors -o vehicle.safetensors"))]
+    Train(train::TrainArgs),
+    /// Learn the placement weights from scenes.
+    #[command(after_help = examples!("dragtraffic train-placement windows/ -o placement.json", "dragtraffic train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
+    TrainPlacement(placement::TrainPlacementArgs),
+    /// Judge the placement on recorded scenes.
+    #[command(after_help = examples!("dragtraffic eval-place recordings/", "dragtraffic eval-place recordings/ --radius 80 --seeds 8 --json"))]
+    EvalPlace(placement::EvalPlaceArgs),
+    /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
+    #[command(after_help = examples!("dragtraffic eval recordings/ --tables 1,2 -o tables/", "dragtraffic eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
+    Eval(eval::EvalArgs),
+    /// Reproduce the paper on recordings: its sets, its methods trained as it says, its two tables with its own figures
+    /// beside.
+    #[command(after_help = examples!("dragtraffic reproduce recordings/ --quick -o paper/", "dragtraffic reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
+    Reproduce(reproduce::ReproduceArgs),
+    /// Time answers: one drag, and whole scenes.
+    #[command(after_help = examples!("dragtraffic bench recordings/", "dragtraffic bench recordings/ --scenes 20 --weights DIR"))]
+    Bench(eval::BenchArgs),
+}
+
+impl LabCommand {
+    /// Training ends with a checkpoint, alone or on the way to the paper's tables.
+    pub fn ends_by_itself(&self) -> bool {
+        matches!(self, Self::Train(_) | Self::Reproduce(_))
+    }
+
+    /// # Errors
+    /// Those of the command.
+    pub fn run(self, common: &Common) -> Result<(), Failure> {
+        match self {
+            Self::Synthesize(args) => synthesize::synthesize(args, common),
+            Self::Statistics(args) => statistics::statistics(args),
+            Self::Prepare(args) => prepare::prepare(args, common),
+            Self::Train(args) => train::train(args, common),
+            Self::TrainPlacement(args) => placement::train_placement(args, common),
+            Self::EvalPlace(args) => placement::eval_place(args, common),
+            Self::Eval(args) => eval::eval(args, common),
+            Self::Reproduce(args) => reproduce::reproduce(args, common),
+            Self::Bench(args) => eval::bench(args, common),
+        }
+    }
+}
 
 /// Scenes to look at.
 #[derive(Args, Clone, Debug)]

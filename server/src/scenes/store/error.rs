@@ -41,7 +41,10 @@ pub enum StoreError {
     },
     /// Nothing has this id.
     #[error("no such scene")]
-    Missing,
+    MissingScene,
+    /// The map that a scene names by its hash is not kept any more.
+    #[error("no such map")]
+    MissingMap,
     /// A limit is reached.
     #[error("the store is full: {0}")]
     Full(String),
@@ -59,7 +62,10 @@ impl From<StoreError> for Problem {
                 Self::new(Code::StaleEtag, detail)
                     .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
             }
-            StoreError::Missing => Self::new(Code::NotFound, "No scene has this id."),
+            StoreError::MissingScene => Self::new(Code::NotFound, "No scene has this id."),
+            StoreError::MissingMap => {
+                Self::new(Code::UnknownMap, "The map is not stored any more; send it inline.")
+            }
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {
                 Self::new(Code::StoreFull, "The disk is full.")

@@ -207,7 +207,7 @@ impl Store {
     pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
         let delete = |id: String, expect: Expect| {
             self.write(move |tx| {
-                let stored = current(tx, &id)?.ok_or(StoreError::Missing)?;
+                let stored = current(tx, &id)?.ok_or(StoreError::MissingScene)?;
                 check(&expect, Some(&stored))?;
                 tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
                 Ok(())
@@ -330,7 +330,7 @@ fn check(expect: &Expect, stored: Option<&Stored>) -> Result<(), StoreError> {
     let fits = match (expect, stored) {
         (Expect::Absent, None) => true,
         (Expect::Absent, Some(_)) => false,
-        (Expect::Etags(_), None) => return Err(StoreError::Missing),
+        (Expect::Etags(_), None) => return Err(StoreError::MissingScene),
         (Expect::Etags(tags), Some(stored)) => tags.iter().any(|t| t == "*" || *t == stored.etag),
     };
     match stored {
@@ -345,7 +345,7 @@ fn keep_map(tx: &Transaction<'_>, map: &PackedMap) -> Result<(), StoreError> {
     let Some(body) = &map.body else {
         let sql = "UPDATE maps SET used_at = ?2 WHERE sha = ?1";
         let found = tx.execute(sql, rusqlite::params![map.sha, seconds_now()])?;
-        return if found == 1 { Ok(()) } else { Err(StoreError::Missing) };
+        return if found == 1 { Ok(()) } else { Err(StoreError::MissingMap) };
     };
     let sql = "INSERT INTO maps (sha, bytes, polylines, points, body, used_at)
         VALUES (:sha, :bytes, :polylines, :points, :body, :now) ON CONFLICT (sha) DO UPDATE SET used_at = :now";

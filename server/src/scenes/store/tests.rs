@@ -1,6 +1,7 @@
 use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
 use super::{Page, Sort, Store, StoreError};
 use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
 use std::sync::Arc;
 
 fn record(name: &str) -> PackedScene {
@@ -35,7 +36,7 @@ async fn preconditions_guard_every_change() {
     let stale = store.put("a", Expect::Etags(vec![first.etag]), record("three")).await;
     assert!(matches!(stale, Err(StoreError::Stale { etag, .. }) if etag == second.etag));
     let missing = store.put("b", Expect::Etags(vec!["*".into()]), record("x")).await;
-    assert!(matches!(missing, Err(StoreError::Missing)));
+    assert!(matches!(missing, Err(StoreError::MissingScene)));
     let (summary, json) = store.get("a").await.unwrap().unwrap();
     assert_eq!((summary.name.as_str(), json), ("two", unpacked("two").json));
     store.delete("a", Expect::Etags(vec![second.etag])).await.unwrap();
@@ -56,6 +57,20 @@ async fn scenes_share_their_map_and_survive_reopening() {
     assert_eq!(store.maps().await.unwrap().len(), 1);
     store.drop_unused_maps().await.unwrap();
     assert_eq!(store.map("aa").await.unwrap().unwrap(), b"{}");
+}
+
+#[tokio::test]
+async fn a_scene_whose_map_is_not_stored_is_refused_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder, Limits::default());
+    let by_hash = |sha: &str| {
+        let map = MapRecord { sha: sha.into(), json: None, ..unpacked("a").map };
+        SceneRecord { map, ..unpacked("a") }.packed().unwrap()
+    };
+    let lost = store.put("a", Expect::Absent, by_hash("bb")).await.unwrap_err();
+    assert_eq!(Problem::from(lost).code, Code::UnknownMap);
+    store.put("b", Expect::Absent, record("b")).await.unwrap();
+    store.put("c", Expect::Absent, by_hash("aa")).await.unwrap();
 }
 
 fn page(after: Option<(&str, &str)>, most: usize) -> Page {

@@ -18,6 +18,16 @@ const EDGE_REACH_M: f64 = 15.0;
 /// A look to the side that ends on another lane's band meets no kerb, metres beyond the own border.
 const NEXT_LANE_M: f64 = 1.2;
 
+/// A stretch of a lane, or of a road edge, that people walk along.
+struct WalkStretch {
+    kind: CellKind,
+    /// Index of the lane or of the road edge.
+    line: usize,
+    on_lane: bool,
+    from_m: f64,
+    to_m: f64,
+}
+
 fn limit_class(limit_mps: f64) -> u8 {
     class(limit_mps, &[6.5, 10.0, 12.5, 15.0, 19.0, 26.0])
 }
@@ -168,9 +178,9 @@ impl Cells<'_> {
             for (from_m, to_m) in cuts(length_m, cell_m) {
                 let s = 0.5 * (from_m + to_m);
                 let near_end = s < 0.25 * length_m || s > 0.75 * length_m;
-                self.push_walk(CellKind::Crosswalk, index, true, from_m, to_m, region, |_, _| {
-                    Some((1.0, [u8::from(near_end), 0, 0, 0, 0, 0]))
-                });
+                let walk =
+                    WalkStretch { kind: CellKind::Crosswalk, line: index, on_lane: true, from_m, to_m };
+                self.push_walk(walk, region, |_, _| Some((1.0, [u8::from(near_end), 0, 0, 0, 0, 0])));
             }
         }
     }
@@ -188,7 +198,8 @@ impl Cells<'_> {
         for &index in &walks {
             let length_m = self.graph.lanes()[index].path.length_m();
             for (from_m, to_m) in cuts(length_m, cell_m) {
-                self.push_walk(CellKind::Pavement, index, true, from_m, to_m, region, |graph, center| {
+                let walk = WalkStretch { kind: CellKind::Pavement, line: index, on_lane: true, from_m, to_m };
+                self.push_walk(walk, region, |graph, center| {
                     let hit = graph.nearest_for(center, EDGE_REACH_M, AgentType::Vehicle).into_iter().next();
                     // The kerb lies some two metres nearer to the road than a sidewalk's middle.
                     Some((1.0, pavement_features(graph, center, hit.as_ref(), 2.0, false)))
@@ -202,7 +213,9 @@ impl Cells<'_> {
             let median = self.scene.map.road_edges[index].line_type == "median";
             for (from_m, to_m) in cuts(self.edges[index].length_m(), cell_m) {
                 let heading_rad = self.edges[index].sample(0.5 * (from_m + to_m)).heading_rad;
-                self.push_walk(CellKind::Pavement, index, false, from_m, to_m, region, |graph, center| {
+                let walk =
+                    WalkStretch { kind: CellKind::Pavement, line: index, on_lane: false, from_m, to_m };
+                self.push_walk(walk, region, |graph, center| {
                     let hit =
                         graph.nearest_for(center, EDGE_REACH_M, AgentType::Vehicle).into_iter().next()?;
                     let lane = &graph.lanes()[hit.lane];
@@ -219,14 +232,11 @@ impl Cells<'_> {
 
     fn push_walk(
         &mut self,
-        kind: CellKind,
-        line: usize,
-        on_lane: bool,
-        from_m: f64,
-        to_m: f64,
+        walk: WalkStretch,
         region: &Region,
         features: impl Fn(&LaneGraph, Vec2) -> Option<(f64, [u8; FEATURES])>,
     ) {
+        let WalkStretch { kind, line, on_lane, from_m, to_m } = walk;
         let path = if on_lane { &self.graph.lanes()[line].path } else { &self.edges[line] };
         let center = path.position_at(0.5 * (from_m + to_m));
         if !region.may_hold(center, to_m - from_m + 6.0) {

@@ -35,6 +35,15 @@ pub struct Panel {
     pub svg: String,
 }
 
+/// What stands beside a picture before it is drawn.
+struct Caption<'a> {
+    /// Name in the page.
+    id: &'a str,
+    title: &'a str,
+    /// What is asked.
+    words: &'a str,
+}
+
 /// The panels of what was found in a scene.
 ///
 /// # Errors
@@ -49,7 +58,8 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
         let scene = asked(site, true);
         let words =
             "Everybody there is generated, with the states of the first frame and of the 90th as conditions.";
-        panel(role.id(), title, words, &scene, site.scene, (&everybody, &agent.id), engine, seed)
+        let caption = Caption { id: role.id(), title, words };
+        panel(caption, &scene, site.scene, (&everybody, &agent.id), engine, seed)
     };
     Ok(match found.role {
         Role::Creating => Vec::new(),
@@ -68,9 +78,8 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
             };
             let words = "The same scene; the vehicle that waited is to be 100 m ahead after 9 s, at 20 m/s along and \
                          -2 m/s across its heading.";
-            let title = "(d) The same vehicle is told to go";
-            let second =
-                panel("case-d", title, words, &scene, site.scene, (&everybody, &agent.id), engine, seed)?;
+            let caption = Caption { id: "case-d", title: "(d) The same vehicle is told to go", words };
+            let second = panel(caption, &scene, site.scene, (&everybody, &agent.id), engine, seed)?;
             vec![first, second]
         }
         Role::Editing => {
@@ -84,14 +93,16 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
             };
             let words = "A vehicle's end is dragged back: it is to be only after 9 s where it was after 5 s. The others \
                          keep their logs unless they have a cause to react.";
-            vec![edited("editing", "Editing", words, &scene, (&agent.id, true), engine, seed)?]
+            let caption = Caption { id: "editing", title: "Editing", words };
+            vec![edited(caption, &scene, (&agent.id, true), engine, seed)?]
         }
         Role::Correcting => {
             let mut scene = site.scene.clone();
             scene.agents[who].conditions.goal = lab_eval::together::joint_goal(site, who);
             let words = "A track that no vehicle can have driven (black dashes) is generated anew from its first state to \
                          its last.";
-            vec![edited("correcting", "Correcting", words, &scene, (&agent.id, false), engine, seed)?]
+            let caption = Caption { id: "correcting", title: "Correcting", words };
+            vec![edited(caption, &scene, (&agent.id, false), engine, seed)?]
         }
     })
 }
@@ -129,9 +140,7 @@ fn creating(site: &Site<'_>, engine: &Engine, seed: u64) -> Result<Panel> {
 
 /// Everybody generated together without sight of the log.
 fn panel(
-    id: &str,
-    title: &str,
-    words: &str,
+    caption: Caption<'_>,
     scene: &Scene,
     log: &Scene,
     (everybody, who): (&BTreeSet<String>, &String),
@@ -153,18 +162,16 @@ fn panel(
         }
     }
     Ok(Panel {
-        id: id.into(),
-        title: title.into(),
-        words: format!("{words} {reached} {}", faults(&sample)),
+        id: caption.id.into(),
+        title: caption.title.into(),
+        words: format!("{} {reached} {}", caption.words, faults(&sample)),
         svg: marked_svg(&drawn, &shown(&sample), middle(scene, who), Some(who)),
     })
 }
 
 /// One road user generated in the recording; the others answer or keep their logs.
 fn edited(
-    id: &str,
-    title: &str,
-    words: &str,
+    caption: Caption<'_>,
     scene: &Scene,
     (who, react): (&String, bool),
     engine: &Engine,
@@ -183,9 +190,9 @@ fn edited(
         n => format!("{n} others change their motion."),
     };
     Ok(Panel {
-        id: id.into(),
-        title: title.into(),
-        words: format!("{words} {reached} {others} {}", faults(&sample)),
+        id: caption.id.into(),
+        title: caption.title.into(),
+        words: format!("{} {reached} {others} {}", caption.words, faults(&sample)),
         svg: marked_svg(scene, &shown(&sample), middle(scene, who), Some(who)),
     })
 }
