@@ -98,7 +98,7 @@ impl Window<'_> {
             let leading = if likeliest_leads {
                 actor.likeliest()
             } else {
-                pick(&actor.probability, Key { agent: &actor.id, step: usize::MAX, ..key }.unit())
+                pick(&actor.probability, Key { agent: &actor.id, step: u64::MAX, ..key }.unit())
             };
             Drafts::of(actor, leading)
         };

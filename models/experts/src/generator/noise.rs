@@ -11,12 +11,12 @@ pub(super) struct Key<'a> {
     pub(super) agent: &'a str,
     pub(super) window: usize,
     /// Denoising step, or another purpose.
-    pub(super) step: usize,
+    pub(super) step: u64,
 }
 
 impl Key<'_> {
     fn stream(&self) -> random::Stream {
-        let numbers = [self.seed, self.sample as u64, self.window as u64, self.step as u64];
+        let numbers = [self.seed, self.sample as u64, self.window as u64, self.step];
         let key = numbers.into_iter().fold(random::Key::default(), random::Key::number);
         key.text(self.agent).stream()
     }

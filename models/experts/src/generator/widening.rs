@@ -12,7 +12,7 @@ use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
 /// Draws of each mode; the one farthest from the others is taken.
 const DRAWS: usize = 4;
 /// Steps of the key that are no refinement steps.
-const FIRST_KEY: usize = 1 << 32;
+const FIRST_KEY: u64 = 1 << 32;
 /// Waves of a drawn pace, and of a drawn line.
 const WAVES: usize = 3;
 
@@ -38,7 +38,7 @@ pub(super) fn widen(
     let mut taken: Vec<Sketch<'_>> =
         Slot::all().filter(steady).map(|slot| Sketch::of(actor, slot, &shown(slot))).collect();
     let draws: [Modes; DRAWS] =
-        std::array::from_fn(|draw| Key { step: FIRST_KEY + draw, ..key }.normals(1.0));
+        std::array::from_fn(|draw| Key { step: FIRST_KEY + draw as u64, ..key }.normals(1.0));
     let drawn: Vec<Slot> = Slot::all().filter(|slot| !steady(slot) && *slot != best).collect();
     let mut waiting: Vec<Sketch<'_>> =
         drawn.iter().rev().map(|slot| Sketch::of(actor, *slot, &shown(*slot))).collect();
