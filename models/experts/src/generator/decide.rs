@@ -67,6 +67,35 @@ pub(super) struct Decisions {
     pub(super) answered: Vec<Answered>,
 }
 
+/// A choice without uncaused reactions, and what follows from it.
+struct Settled {
+    /// Index of the candidate of each actor.
+    chosen: Vec<usize>,
+    /// The agent that causes the change of each reacting actor.
+    causes: Vec<Option<AgentId>>,
+    /// The actors' motions, as the others see them.
+    changed: Vec<Changed>,
+    answered: Vec<Answered>,
+}
+
+/// Replans at most `most` times, until the choice stays. `replan` gives the next choice without its uncaused reactions,
+/// or `None` where it finds no new candidate.
+fn replan_rounds<T>(
+    most: usize,
+    table: &mut T,
+    mut settled: Settled,
+    mut replan: impl FnMut(&mut T, &Settled) -> Option<Vec<usize>>,
+    settle: impl Fn(&T, Vec<usize>) -> Settled,
+) -> Settled {
+    for _ in 0..most {
+        match replan(table, &settled) {
+            Some(chosen) if chosen != settled.chosen => settled = settle(table, chosen),
+            _ => break,
+        }
+    }
+    settled
+}
+
 impl Window<'_> {
     /// Chooses one candidate an actor, and what the others answer.
     pub(super) fn decide(&self) -> Decisions {
@@ -88,20 +117,30 @@ impl Window<'_> {
         if self.request.stages.guidance {
             self.guide(&judge, &mut choice, &mut candidates, &mut chosen);
         }
-        let mut causes = self.put_back(&choice, &mut chosen);
-        let mut changed = self.changed(&candidates, &chosen);
-        let mut answered = self.answers(&changed);
         let mut blockers: Vec<Option<AgentId>> = vec![None; self.actors.len()];
         let rounds = if self.request.stages.guidance { MOST_ROUNDS } else { 0 };
-        for _ in 0..rounds {
-            let seen = (&changed[..], &answered[..]);
-            if !self.evade(&judge, &mut choice, &mut candidates, &mut chosen, seen, &mut blockers) {
-                break;
-            }
-            causes = self.put_back(&choice, &mut chosen);
-            changed = self.changed(&candidates, &chosen);
-            answered = self.answers(&changed);
-        }
+        let mut table = (choice, candidates);
+        let settle = |(choice, candidates): &(Choice<'_>, Vec<Vec<Candidate>>), mut chosen: Vec<usize>| {
+            let causes = self.put_back(choice, &mut chosen);
+            let changed = self.changed(candidates, &chosen);
+            let answered = self.answers(&changed);
+            Settled { chosen, causes, changed, answered }
+        };
+        let first = settle(&table, chosen);
+        let Settled { chosen, causes, changed, answered } = replan_rounds(
+            rounds,
+            &mut table,
+            first,
+            |(choice, candidates), settled| {
+                self.evade(&judge, choice, candidates, settled, &mut blockers).then(|| {
+                    let mut chosen = choice.solve();
+                    self.put_back(choice, &mut chosen);
+                    chosen
+                })
+            },
+            settle,
+        );
+        let (choice, candidates) = table;
         let (count, unlawful) = (self.request.modes.max(1), self.tuning().probability.unlawful);
         let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
         let actors = each.filter_map(|(i, ((actor, candidates), chosen))| {
@@ -165,15 +204,13 @@ impl Window<'_> {
     }
 
     /// Where somebody who was asked for still meets others, whatever they answer, leaves the road for a goal on it,
-    /// or breaks its rules with no goal at all, ways round become further candidates. True where the choice takes
-    /// another than before.
+    /// or breaks its rules with no goal at all, ways round become further candidates. False where there are none.
     fn evade(
         &self,
         judge: &Judge<'_>,
         choice: &mut Choice<'_>,
         candidates: &mut [Vec<Candidate>],
-        chosen: &mut Vec<usize>,
-        (changed, answered): (&[Changed], &[Answered]),
+        Settled { chosen, changed, answered, .. }: &Settled,
         blockers: &mut [Option<AgentId>],
     ) -> bool {
         let answering = self.answerers.movings_with(answered);
@@ -242,11 +279,7 @@ impl Window<'_> {
             choice.agents[i] = self.options(judge, i, &candidates[i]);
             changes = true;
         }
-        if !changes {
-            return false;
-        }
-        let before = std::mem::replace(chosen, choice.solve());
-        *chosen != before
+        changes
     }
 
     /// Reacting actors that left what they do without a cause go back to it. Says what caused the others, one entry
@@ -370,4 +403,36 @@ fn is_asked_to_meet(actor: &Actor, motion: &Motion, others: &[&Moving]) -> bool 
         let places = others.iter().filter_map(|other| other.boxes.get(target.step)?.as_ref());
         places.into_iter().any(|place| overlaps(&outline, place, 0.0))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settled(chosen: Vec<usize>) -> Settled {
+        Settled { chosen, causes: Vec::new(), changed: Vec::new(), answered: Vec::new() }
+    }
+
+    /// Rounds that are run, and the choice after them, where each of them ends in one of these choices.
+    fn rounds(choices: &[Option<&[usize]>]) -> (usize, Vec<usize>) {
+        let mut count = 0;
+        let next = |count: &mut usize, _: &Settled| {
+            *count += 1;
+            choices[*count - 1].map(<[usize]>::to_vec)
+        };
+        let last = replan_rounds(choices.len(), &mut count, settled(vec![2, 0]), next, |_, c| settled(c));
+        (count, last.chosen)
+    }
+
+    #[test]
+    fn a_reaction_without_a_cause_starts_no_further_round() {
+        // The new candidates let the second actor react; without a cause it has its kept motion again.
+        assert_eq!(rounds(&[Some(&[2, 0]), Some(&[2, 0])]), (1, vec![2, 0]));
+    }
+
+    #[test]
+    fn rounds_go_on_while_the_choice_changes_and_end_where_nothing_is_found() {
+        assert_eq!(rounds(&[Some(&[3, 0]), Some(&[3, 1])]), (2, vec![3, 1]));
+        assert_eq!(rounds(&[None, Some(&[3, 1])]), (1, vec![2, 0]));
+    }
 }
