@@ -7,12 +7,10 @@ use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::SpeedTuning;
+use crate::tuning::fixed::actor::BESIDE_LANE_M;
 use scene::geometry::direction;
 use scene::motion::{Gear, Kind};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
-
-/// Off a lane's middle by more than this, a vehicle is beside the lane, metres.
-const BESIDE_LANE_M: f64 = 1.4;
 
 /// A road user that gets new futures.
 pub(super) struct Actor {

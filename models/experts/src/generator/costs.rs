@@ -19,14 +19,6 @@ use scene::motion::{MotionState, Trajectory};
 use scene::score::{Actor as ScoreActor, Drivable};
 use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
-/// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
-const BOUND_TO_WRONG: f64 = 0.4;
-const LAWFUL: f64 = 0.6;
-/// Most that it costs a way round to be another than what was meant.
-const MOST_EVADING: f64 = 3.0;
-/// What it costs to halt before somebody, but for a goal that is missed so.
-const HALTING: f64 = 1.0;
-
 /// What an actor's candidates are held against.
 pub(super) struct Yardstick<'a> {
     /// The mode that the scene is built around.
@@ -66,13 +58,13 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
         let boxes = swept(&c.motion.states, size);
         // Where the others are alike, a way round is far from all of them.
         let cost = match c.origin {
-            Origin::Evading(_) | Origin::Shown(_) => cost.min(MOST_EVADING),
+            Origin::Evading(_) | Origin::Shown(_) => cost.min(tuning.most_swerving),
             Origin::Halting(_) => {
-                HALTING + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
+                tuning.stopping + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
             }
             _ => cost,
         };
-        let binds = if *broken < shown_breaks - LAWFUL { BOUND_TO_WRONG } else { 1.0 };
+        let binds = if *broken < shown_breaks - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
         let cost = if c.origin.is_given() { 0.0 } else { cost + broken + binds * leaving(c, by) };
         Choosable { boxes, cost, broken: *broken, kept: c.origin == Origin::Kept }
     };

@@ -247,7 +247,8 @@ impl Window<'_> {
             order.insert(0, chosen[i]);
             let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
             let off_lanes_m = self.tuning().choice.off_lanes_m;
-            let field = Field { graph: &self.map.graph, off_lanes_m, others: &others };
+            let weights = &self.tuning().replan;
+            let field = Field { graph: &self.map.graph, off_lanes_m, weights, others: &others };
             let size = &actor.plan.present.size;
             let is_clear = |c: &Candidate| {
                 let boxes = swept(&c.motion.states, size);

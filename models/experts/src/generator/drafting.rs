@@ -14,13 +14,12 @@ use crate::features::stays_in_the_world;
 use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
 use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::request::{GenerateError, Request, Shown};
+use crate::tuning::fixed::drafting::STAYS_ABOVE;
 use crate::weights::EXPERTS;
 use scene::{AgentId, AgentType};
 
 /// Fewest road users of a type in one network call, so that cutting them over threads pays.
 const FEWEST_IN_BATCH: usize = 4;
-/// What is more likely than this to stay does.
-const STAYS_ABOVE: f64 = 0.5;
 
 /// Road users of one expert that run in one network call.
 pub(super) struct Batch {

@@ -8,6 +8,8 @@ use super::slot::Slot;
 use super::trajectory::{Motion, PER_INSTANT, along_places, short_along};
 use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::INSTANTS;
+use crate::tuning::ReplanTuning;
+use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::motion::{Gear, Kind, Trajectory};
@@ -29,37 +31,10 @@ const SHIFTS: usize = ACROSS * ALONG;
 /// Most shifts that are changed at once, aside and ahead.
 const MOST_ASIDE: i32 = 2;
 const MOST_AHEAD: i32 = 1;
-/// Metres aside that a metre on wheels allows.
-const SLOPE: f64 = 0.35;
 /// Steps about an instant at which boxes are looked at.
 const ABOUT: [isize; 3] = [-2, 0, 2];
-/// A motion comes this near to the places that it is made from, metres.
-const SPARE_M: f64 = 0.2;
-/// Room that is kept beside others when halting, metres.
-const ROOM_M: f64 = 0.3;
-/// Room that is kept before others, metres: ten knots cannot follow every halt.
-const SHORT_M: f64 = 1.0;
 /// Goes on beyond the last place, metres.
 const TAIL_M: f64 = 20.0;
-/// Shorter ways have no sides, metres.
-const LEAST_WAY_M: f64 = 2.0;
-
-/// How hard one brakes who halts before somebody: shares of what is possible. Harder must bring so much, metres.
-const BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
-const HARDER_M: f64 = 2.0;
-
-/// What an instant costs: somebody met or close, ground off the road, a lane against the traffic.
-const MET: f64 = 8.0;
-const CLOSE: f64 = 0.7;
-const OFF_ROAD: f64 = 2.0;
-const AGAINST: f64 = 1.0;
-/// A place off the lanes.
-const AWAY: f64 = 0.5;
-/// What a shift costs at each instant, and its change: for a square metre.
-const ASIDE_COST: f64 = 0.01;
-const AHEAD_COST: f64 = 0.004;
-const DRIFT_COST: f64 = 0.25;
-const PACE_COST: f64 = 0.12;
 
 /// Some shift: along the path and to the left, metres.
 #[derive(Clone, Copy, PartialEq)]
@@ -87,8 +62,8 @@ impl Shift {
         f64::from(self.aside) * ASIDE_M
     }
 
-    fn cost(self) -> f64 {
-        ASIDE_COST * self.aside_m().powi(2) + AHEAD_COST * self.ahead_m().powi(2)
+    fn cost(self, weights: &ReplanTuning) -> f64 {
+        weights.aside * self.aside_m().powi(2) + weights.ahead * self.ahead_m().powi(2)
     }
 }
 
@@ -98,6 +73,7 @@ pub(super) struct Field<'a> {
     pub(super) graph: &'a LaneGraph,
     /// How far from every lane a place is off the lanes, metres.
     pub(super) off_lanes_m: f64,
+    pub(super) weights: &'a ReplanTuning,
     /// Those who are there.
     pub(super) others: &'a [&'a Moving],
 }
@@ -255,6 +231,7 @@ impl<'a> Course<'a> {
 
     /// What each shift of an instant costs by itself.
     fn costs(&self, instant: usize) -> Vec<f64> {
+        let weights = self.field.weights;
         let mut costs = vec![f64::INFINITY; SHIFTS];
         let step = instant * PER_INSTANT;
         let steps = ABOUT.map(|about| step.saturating_add_signed(about).min(HORIZON_STEPS));
@@ -264,11 +241,11 @@ impl<'a> Course<'a> {
             let met = if !moments.iter().any(|m| m.is_in(shift, |u| &u.close)) {
                 0.0
             } else if moments.iter().any(|m| m.is_in(shift, |u| &u.met)) {
-                MET
+                weights.met
             } else {
-                CLOSE
+                weights.close
             };
-            costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
+            costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost(weights);
         }
         costs
     }
@@ -297,11 +274,12 @@ impl<'a> Course<'a> {
     fn on_ground(&self, step: usize, aside: i32) -> f64 {
         let pose = self.pose(step, Shift { ahead: 0, aside });
         let away = self.keeps_to_lanes && self.is_off_lanes(pose.position);
-        let away = f64::from(u8::from(away)) * AWAY;
+        let weights = self.field.weights;
+        let away = f64::from(u8::from(away)) * weights.off_lanes;
         let Some(ground) = &self.plan.ground else { return away };
         let off = ground.box_outside_m(&self.outline(pose)).is_some_and(|m| m > BEYOND_M);
         let against = ground.is_wrong_way(pose.position, pose.direction()) == Some(true);
-        away + f64::from(u8::from(off)) * OFF_ROAD + f64::from(u8::from(against)) * AGAINST
+        away + f64::from(u8::from(off)) * weights.off_road + f64::from(u8::from(against)) * weights.against
     }
 
     fn is_off_lanes(&self, place: Vec2) -> bool {
@@ -341,6 +319,7 @@ impl<'a> Course<'a> {
 
     /// The cheapest shifts, one an instant; `None` where none at all are.
     fn least(&self) -> Option<[Shift; INSTANTS]> {
+        let weights = self.field.weights;
         let mut total = vec![f64::INFINITY; SHIFTS];
         total[Shift::NONE.index()] = 0.0;
         let mut before: Vec<Vec<usize>> = Vec::with_capacity(INSTANTS);
@@ -360,8 +339,8 @@ impl<'a> Course<'a> {
                         if !known || !self.can_drift(way_m, ahead, aside) {
                             continue;
                         }
-                        let drift = DRIFT_COST * (f64::from(aside) * ASIDE_M).powi(2)
-                            + PACE_COST * (f64::from(ahead) * AHEAD_M).powi(2);
+                        let drift = weights.drift * (f64::from(aside) * ASIDE_M).powi(2)
+                            + weights.pace * (f64::from(ahead) * AHEAD_M).powi(2);
                         let cost = total[last.index()] + drift + costs[shift.index()];
                         if cost < next[shift.index()] {
                             next[shift.index()] = cost;
@@ -375,7 +354,7 @@ impl<'a> Course<'a> {
         }
         let mut at = (0..SHIFTS).min_by(|a, b| total[*a].total_cmp(&total[*b]))?;
         // What is spared must be worth another motion.
-        if !total[at].is_finite() || total[at] > unshifted - 0.5 * OFF_ROAD {
+        if !total[at].is_finite() || total[at] > unshifted - 0.5 * weights.off_road {
             return None;
         }
         let mut shifts = [Shift::NONE; INSTANTS];

@@ -10,6 +10,8 @@ use crate::planning::profile::Caps;
 use crate::planning::{
     ACROSS_SCALE, ALONG_SCALE, INSTANT_S, INSTANTS, RESIDUAL, Residual, integrated_hat, twice_integrated_hat,
 };
+pub(super) use crate::tuning::fixed::variations::HURRY;
+use crate::tuning::fixed::variations::{CLEAR_M, GAPS_S, OVER_KERB_M};
 use nalgebra::{DMatrix, DVector};
 use scene::judge::{Trace, crossing};
 use scene::motion::Kind;
@@ -18,15 +20,8 @@ use std::cell::OnceCell;
 
 /// The end of a window, seconds.
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
-/// Time kept from the other at shared ground: what is tried, seconds.
-const GAPS_S: [f64; 3] = [0.9, 0.5, 0.2];
-/// Over the caps of a path by so much is usual.
-pub(super) const HURRY: f64 = 1.1;
 /// Times at which a draft that waits is where it should be, seconds, and how far over the kerb it may lean, metres.
 const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
-const OVER_KERB_M: f64 = 0.4;
-/// Way kept from shared ground, metres.
-const CLEAR_M: f64 = 0.4;
 
 /// A draft with its progress, as ideas are made from and measured.
 pub(super) struct Sketch<'a> {

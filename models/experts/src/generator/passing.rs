@@ -5,18 +5,11 @@ use super::slot::Slot;
 use super::trajectory::PER_INSTANT;
 use crate::features::agent::AgentPlan;
 use crate::planning::INSTANTS;
+use crate::tuning::fixed::via_steering::{KEEPS, NARROWS, PAST_M, SURE};
 use scene::motion::{GoalError, Knots, Pass, Projection, Target, project, project_through};
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
-/// Share of a tolerance that a motion may use up before it is brought nearer, and that it keeps then: futures
-/// stay apart where they may.
-const SURE: f64 = 0.8;
-const KEEPS: f64 = 0.5;
-/// An offset from the path shrinks towards a via point by so much a metre.
-const NARROWS: f64 = 0.15;
-/// Who has no goal is past its last via point by so much at the end, metres.
-const PAST_M: f64 = 1.0;
 /// Places on the way change when one of them is asked for; this often they are looked for anew.
 const ROUNDS: usize = 4;
 

@@ -7,6 +7,9 @@ use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::lights::Waiting;
 use crate::planning::profile::{Caps, Progress};
 use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
+use crate::tuning::fixed::trajectory::{
+    ALONG_LANE_M, AT_LINE_M, BACKING_BRAKE_MPS2, OFFSET_SHARES, SHORT_OF_LINE_M,
+};
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
@@ -47,14 +50,6 @@ impl From<Projection> for Motion {
         Self { states: p.trajectory, reach: p.reach }
     }
 }
-
-/// A front this near to a red line is over it, and how much farther from it the next try halts, metres.
-const AT_LINE_M: f64 = 0.25;
-const SHORT_OF_LINE_M: f64 = 1.2;
-/// Shares of an offset that are tried where the whole of it leaves the road.
-const OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
-/// Ending along a lane may change a motion by so much, metres.
-const ALONG_LANE_M: f64 = 1.5;
 
 /// Progress and offset of a draft at the instants.
 pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(f64, f64); INSTANTS] {
@@ -302,9 +297,6 @@ fn on_after(plan: &AgentPlan, motion: Projection, samples: &[Sampled]) -> Projec
     let same = (trajectory[step].position - motion.trajectory[step].position).norm() < 1e-9;
     if same { Projection { knots, trajectory, ..motion } } else { motion }
 }
-
-/// Braking of what rolls backwards without a reason to, m/s2.
-const BACKING_BRAKE_MPS2: f64 = 1.5;
 
 /// What rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window
 /// never changes the gear of a vehicle in motion.

@@ -2,6 +2,11 @@
 
 use super::profile::{Caps, Progress, arriving, speed_at};
 use super::world::{AgentAtStart, World};
+use crate::tuning::fixed::lights::{
+    BEFORE_LINE_M, BEYOND_M, BRAKE_MPS2, HARDEST_MPS2, IN_QUEUE_M, NEAR_LINE_M, ON_LANE_M, ONE_JUNCTION_M,
+    PASSED_M, PRESSED_SHARE, ROLLING_MPS, SAME_LANE_M, SET_OFF_MPS2, SET_OFF_TO_MPS, STOPPED_MPS, TELLING_M,
+    TURN_M,
+};
 use scene::geometry::cross;
 use scene::limits::Limits;
 use scene::motion::Target;
@@ -9,44 +14,14 @@ use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
-/// A lane is taken by a path that stays within this of its centre on average, metres.
-const ON_LANE_M: f64 = 2.2;
-/// Lanes this close to equally near cannot be told apart, metres.
-const SAME_LANE_M: f64 = 0.3;
-/// Length of path after (or before) a line that tells which lane is taken, metres.
-const TELLING_M: f64 = 20.0;
-/// Lines so near to each other along a path are of one junction, metres.
-const ONE_JUNCTION_M: f64 = 8.0;
-/// How far beyond its end a path is looked at, metres: motions go on after their goal.
-const BEYOND_M: f64 = 60.0;
-/// Somebody who stands so little past a line waits there, metres.
-const PASSED_M: f64 = 2.5;
-/// Slower than this counts as standing at a line, m/s.
-const STOPPED_MPS: f64 = 1.0;
-/// Where those who wait have their front, metres before the line, and how near to it others may come.
-const BEFORE_LINE_M: f64 = 1.0;
-const NEAR_LINE_M: f64 = 0.5;
 /// A turn at red shows this long after the line, steps, and takes this far, metres; who does not get there does
 /// not begin it.
 const TURN_STEPS: usize = 45;
-const TURN_M: f64 = 12.0;
-/// Braking for a light: as a rule, and at most, m/s2.
-const BRAKE_MPS2: f64 = 2.0;
-const HARDEST_MPS2: f64 = 4.0;
-/// How fast those who waited set off, m/s2, and to which speed at least, m/s.
-const SET_OFF_MPS2: f64 = 1.5;
-const SET_OFF_TO_MPS: f64 = 6.0;
 /// Steps after green at which the first in a queue leaves, and each further one after the one before it.
 const FIRST_LEAVES_STEPS: usize = 10;
 const NEXT_LEAVES_STEPS: usize = 12;
 /// Who would leave later than this step stays in the window.
 const LATEST_LEAVING: usize = 75;
-/// A standing road user this near to a path is in the queue on it, metres.
-const IN_QUEUE_M: f64 = 1.6;
-/// Speeding up and braking on the way to a goal beyond a light, shares of the limits.
-const PRESSED_SHARE: f64 = 0.85;
-/// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
-const ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
 
 /// Steps of a window as bits, the start first.
 pub(crate) type Steps = u128;

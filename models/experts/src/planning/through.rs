@@ -6,6 +6,7 @@ use super::anchors::{Anchor, SLOTS, Way, assumed_speed, paths_ahead};
 use super::profile::{Caps, Progress, arriving, cruising_from, going_on, speed_at};
 use super::to_goal::{GOAL_SLOTS, MOST_WAYS, goal_progress, paths_to_goal};
 use super::world::{AgentAtStart, World};
+use crate::tuning::fixed::through::PRESSED;
 use scene::motion::{MotionModel, Target};
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
@@ -13,8 +14,6 @@ use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 const WAYS_ON: usize = 2;
 /// Who has no goal passes its last via point at least so long before the window ends.
 const LEFT_STEPS: usize = 10;
-/// A via point is passed by going so much faster at most than a lane suggests.
-const PRESSED: f64 = 1.6;
 
 /// A via point as a window has it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,26 +1,18 @@
 //! What is in the way along a course, and when.
 
 use super::course::{BEYOND_M, Course, Moving};
+use crate::tuning::fixed::blocks::{CLEAR_M, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
-use scene::score::CLOSE_M;
 use scene::{HORIZON_STEPS, Size, Vec2};
 
 /// Places of a course are looked at this far apart, metres.
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
-/// Boxes come no nearer than this, metres: a little more than what the choice calls close.
-const CLEAR_M: f64 = CLOSE_M + 0.05;
 /// Somebody who is out of the way for less than this, steps, has not left.
 const FLICKER: usize = 3;
-/// A stop line belongs to a course that passes it nearer than this, metres, in its lane's direction within this,
-/// radians.
-const LINE_BESIDE_M: f64 = 2.0;
-const LINE_TURNED_RAD: f64 = 0.6;
-/// Front bumper to stop line, metres.
-const LINE_GAP_M: f64 = 0.5;
 
 /// Somebody or something in the way for a while. Progress is that of the course's box centre.
 #[derive(Clone, Debug)]

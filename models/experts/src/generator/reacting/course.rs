@@ -1,6 +1,8 @@
 //! The motion that a road user has without this call: a path, and how far along it it is at each step.
 
 use crate::planning::STAYS_WITHIN_M;
+pub(super) use crate::tuning::fixed::path_progress::BEYOND_M;
+use crate::tuning::fixed::path_progress::{HURRIED, LOOK_AHEAD_M, SETTING_OFF_MPS, TAKES_UP_MPS2};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::{direction, wrap_angle};
 use scene::motion::Trajectory;
@@ -12,14 +14,6 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 const GRAIN_M: f64 = 0.3;
 /// A gap in a recording that is bridged, steps.
 const MOST_BRIDGED: usize = 10;
-/// How far ahead the speed at a place is looked up where the road user stood or set off, metres.
-const LOOK_AHEAD_M: f64 = 6.0;
-/// Slower than this it stood or set off, m/s.
-const SETTING_OFF_MPS: f64 = 2.0;
-/// How far beyond its course somebody may get who goes no faster, metres.
-pub(super) const BEYOND_M: f64 = 15.0;
-/// How much further somebody gets who hurries: a share of its way.
-const HURRIED: f64 = 0.3;
 /// Every third step is looked at for meetings, as in the choice.
 pub(super) const STRIDE: usize = 3;
 
@@ -251,9 +245,6 @@ impl Course {
         Some(self.enters + i)
     }
 }
-
-/// How somebody who is later than it was takes up its own speed again, m/s2.
-const TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
 
 /// Carries a plan on for a window: along the way that these states have and the road goes on, as fast as they are at
 /// each place.

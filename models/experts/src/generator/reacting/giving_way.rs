@@ -4,27 +4,15 @@ use super::blocks::Block;
 use super::course::{Course, Moving, STRIDE};
 use super::yielding::{Manner, Paced};
 use super::{Answerer, Answerers};
+use crate::tuning::fixed::giving_way::{
+    FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M, PASSED_ON, VEHICLE_BRAKES,
+    VEHICLE_GAPS_M,
+};
 use scene::score::{SweptBoxes, overlap};
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// How hard somebody brakes, from easily to what is possible: shares of the hardest.
-const VEHICLE_BRAKES: [f64; 5] = [0.25, 0.375, 0.5, 0.75, 0.94];
-const OTHER_BRAKES: [f64; 3] = [0.4, 0.65, 0.93];
-/// The distance that is kept by each of them, metres.
-const VEHICLE_GAPS_M: [f64; 5] = [1.5, 1.5, 1.0, 0.5, 0.1];
-const OTHER_GAPS_M: [f64; 3] = [0.8, 0.4, 0.1];
-/// How fast somebody goes first: shares of its own speed.
-const FASTER: [f64; 2] = [1.15, 1.3];
-/// How it takes that up, m/s2.
-const HURRIES_MPS2: f64 = 1.8;
-/// Share of the sideways limit that hurrying may use.
-const HURRIED_LATERAL: f64 = 0.7;
 /// How often it is looked again who is in front of whom.
 const MOST_TURNS: usize = 3;
-/// What is left of the price of an overlap that cannot be helped, at no speed.
-const MITIGATED: f64 = 0.4;
-/// Share of the price of a meeting with somebody who may answer too.
-const PASSED_ON: f64 = 0.4;
 
 /// A motion with what it costs.
 #[derive(Clone, Debug)]

@@ -2,14 +2,13 @@
 
 use super::Answerer;
 use super::giving_way::Way;
+use crate::tuning::fixed::reaction::{ASIDE_M, SAME_PLACE_M};
 use scene::judge::{Reaction, ReactionKind};
 use scene::motion::Trajectory;
 use scene::{AgentId, STANDING_MPS, STEP_S, State};
 
 /// Standing so many steps longer than it does anyway is waiting.
 const WAITS_STEPS: usize = 5;
-/// A place where it stood anyway, within this, metres.
-const SAME_PLACE_M: f64 = 1.0;
 
 /// What somebody does for `cause`; the window begins at `start_step`.
 pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: usize) -> Reaction {
@@ -54,9 +53,6 @@ pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: us
     }
     .rounded()
 }
-
-/// Off the way that it had by more than this, somebody keeps clear, metres.
-const ASIDE_M: f64 = 1.0;
 
 /// What somebody does for `cause` who was planned anew: `kept` is what it did, from the first step after
 /// `start_s` on.

@@ -3,10 +3,9 @@
 
 use super::blocks::Block;
 use super::course::Course;
+use crate::tuning::fixed::yielding::WORTH_GOING_M;
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
-/// Who stands does not set off for less than this, metres: nobody creeps.
-const WORTH_GOING_M: f64 = 1.0;
 /// How far ahead in time that is looked at, steps.
 const GOING_STEPS: usize = 15;
 /// Others are given this much time before and after, steps.
