@@ -111,6 +111,11 @@ fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
             "mod" if next(2) == Some("{") => {
                 inner.push((next(1).unwrap_or_default().to_owned(), depth + 1));
             }
+            // How far a name is visible is no import.
+            "in" if at > 0 && tokens[at - 1] == "(" => {
+                at += tokens[at..].iter().take_while(|token| *token != ")").count();
+                continue;
+            }
             _ if next(1) == Some("::") && (fresh || token == "crate") && is_name(token) => {
                 let own = module.iter().chain(inner.iter().map(|(name, _)| name));
                 let mut base: Vec<String> = own.cloned().collect();
@@ -314,6 +319,7 @@ mod tests {
             paths(&module("a::b"), group),
             ["a::c", "a::d::E", "a::d::f", "a::self::g::H"].map(module)
         );
+        assert!(paths(&module("a::b"), "pub(in crate::a) fn f() {}").is_empty());
         let tests = "mod tests { use super::*; use super::super::c::D; } fn f() { super::c::d() }";
         assert_eq!(paths(&module("a::b"), tests), ["a::b", "a::c::D", "a::c::d"].map(module));
     }

@@ -569,6 +569,9 @@ pub enum GenerateError {
     /// The caller cancelled.
     #[error("cancelled")]
     Cancelled,
+    /// A part of a call was asked for before its window was planned; a defect of the program.
+    #[error("no window is planned")]
+    NoWindow,
     /// Anything the tensor library reports; a defect of the program or its weights.
     #[error("expert failed: {0}")]
     Expert(String),

@@ -1,9 +1,9 @@
 //! Walkers and carriageways: where a path steps onto the lanes, the way by a crosswalk, and waiting at the kerb while
 //! the lanes that are crossed have green.
 
-use super::anchors::{PathKind, Way};
-use super::lights::{Steps, StopLine};
 use super::profile::{Caps, Progress, approaching, arriving, speed_at};
+use super::stop_line::{Steps, StopLine};
+use super::way::{PathKind, Way};
 use super::world::{AgentAtStart, World};
 use crate::tuning::fixed::crossing::{
     AHEAD_M, BEHIND_LINE_M, BESIDE_M, DETOUR, DETOUR_M, DRAWN_SHORT_M, INSIDE_M, KERB_M, PACE_MPS, ROUNDED_M,

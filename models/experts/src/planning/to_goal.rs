@@ -1,10 +1,10 @@
 //! Ways to a goal position: along lanes where they lead there in time, off them where nothing else does.
 
-use super::MODES;
-use super::anchors::{Anchor, PathKind, Way, identity_of};
+use super::coordinates::MODES;
 use super::crossing::by_crosswalk;
 use super::legal::broken_m;
 use super::profile::{Caps, arriving, fastest, going_on, slowest};
+use super::way::{Anchor, PathKind, Way, identity_of};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use crate::tuning::fixed::to_goal::{AFTER_GOAL_M, ARRIVING_M, PRESSED, PRESSED_SHARE};

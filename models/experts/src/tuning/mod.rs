@@ -241,12 +241,12 @@ tuning! {
         harsh_second = 0.4, off 0.0;
         /// A walker who steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
         stepping_out = 1.5, off 0.0;
-        /// Leaving the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
+        /// Switching from the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
         /// modes apart. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7 % at 3, 2.3 % at 4.
         /// 2026-11-23.
-        leaving = 4.0, off 0.0;
-        /// Mean distance from it at which it is left altogether, metres.
-        leaving_m = 1.0;
+        switching = 4.0, off 0.0;
+        /// Mean distance from it from which on a motion is another one, metres.
+        switching_m = 1.0;
         /// Another mode than the one shown last, however near. Set by hand. 2026-11-22.
         other_mode = 0.1, off 0.0;
         /// A reacting road user that gives up the motion it has. Set by hand. 2026-11-21.
@@ -255,7 +255,7 @@ tuning! {
         /// 2026-11-21.
         deviation_m = 4.0;
         /// A motion that breaks rules by [`ChoiceTuning::lawful_by`] less than the future shown last pays this share of
-        /// `leaving` alone. Set by hand. 2026-11-24.
+        /// `switching` alone. Set by hand. 2026-11-24.
         unlawful_binds = 0.4, off 1.0;
         /// How much less that is, in costs of this choice. Set by hand. 2026-11-24.
         lawful_by = 0.6;

@@ -2,7 +2,7 @@
 //! in the same time.
 
 use super::targets::due;
-use crate::generator::KnownMap;
+use crate::maps::KnownMap;
 use crate::planning::profile::Caps;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{ByRoad, Request};

@@ -2,8 +2,8 @@
 //! asked of it is kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
 
 use super::actor::Actor;
+use super::draft_traces::trace_of;
 use super::slot::Slot;
-use super::standing::trace_of;
 use super::trajectory::{BASIS, route_coordinates};
 use crate::features::agent::AgentPlan;
 use crate::planning::profile::Caps;
@@ -24,7 +24,7 @@ const END_S: f64 = INSTANTS as f64 * INSTANT_S;
 const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
 
 /// A draft with its progress, as ideas are made from and measured.
-pub(super) struct Sketch<'a> {
+pub(super) struct DraftView<'a> {
     actor: &'a Actor,
     pub(super) slot: Slot,
     pub(super) residual: Residual,
@@ -34,7 +34,7 @@ pub(super) struct Sketch<'a> {
     trace: OnceCell<Trace>,
 }
 
-impl<'a> Sketch<'a> {
+impl<'a> DraftView<'a> {
     pub(super) fn of(actor: &'a Actor, slot: Slot, residual: &Residual) -> Self {
         let route = route_coordinates(&actor.plan, slot, residual);
         let anchor = &actor.plan.anchors[slot.index()];
@@ -238,7 +238,7 @@ pub(super) fn moves_m(offset: &Residual) -> (f64, f64) {
 }
 
 /// Other paces and lines to try, the most telling first: metres ahead, when, and metres aside.
-pub(super) fn ladder(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
+pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let agent_type = plan.present.agent_type;
     let (paces, aside_m): (&[f64], f64) = match (agent_type, plan.target.position.is_some()) {

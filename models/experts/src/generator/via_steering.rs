@@ -2,9 +2,8 @@
 //! make of it is projected through them.
 
 use super::slot::Slot;
-use super::trajectory::PER_INSTANT;
 use crate::features::agent::AgentPlan;
-use crate::planning::INSTANTS;
+use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::tuning::fixed::via_steering::{KEEPS, NARROWS, PAST_M, SURE};
 use scene::motion::{GoalError, Knots, Pass, Projection, Target, project, project_through};
 use scene::via::passings;
@@ -15,7 +14,7 @@ const ROUNDS: usize = 4;
 
 /// Progress and offset at the instants, led to the via points: at a fixed time the progress is that of the place,
 /// and beside each the offset is no more than its tolerance lets.
-pub(super) fn led(
+pub(super) fn steer_to_vias(
     plan: &AgentPlan,
     slot: Slot,
     mut coordinates: [(f64, f64); INSTANTS],
@@ -139,7 +138,7 @@ impl Tried {
             let step = waypoint.step.unwrap_or(nearest).clamp(1, last.max(1));
             let state = &motion.trajectory[step];
             let ahead = Vec2::new(state.heading_rad.cos(), state.heading_rad.sin());
-            // Whoever comes to it may come when it likes; whoever does not get there has to be brought there.
+            // A motion that comes to the via point may pass it at any time; another one is brought there.
             let comes = (via.position - passing.place).dot(&ahead).abs() < KEEPS * via.tolerance_m;
             let free = waypoint.step.is_none() && comes;
             let here = if free { passing.place } else { state.position };
