@@ -1,8 +1,8 @@
 //! Rooms inside a crate: which module imports which, read from the sources.
 //!
-//! A room is a module of a crate's root. Rooms stand on floors, and a room may import those on the floors below
-//! it alone; so there is no ring either, and rooms on one floor know nothing of each other. What is read is the text: paths that begin with `crate::` or climb
-//! with `super::` to the root, wherever they stand outside comments and strings.
+//! A room is a module of a crate's root, or of a module that is a house of its own. Rooms stand on floors, and a room
+//! may import those on the floors below it alone: rooms on one floor know nothing of each other. [`rings`] looks
+//! inside rooms, file by file. Both read the text: every path outside comments and strings.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 pub struct House {
     /// Name of the crate.
     pub name: &'static str,
-    /// Folder of its sources, below the repository's root.
+    /// Folder of the crate's sources, below the repository's root.
     pub sources: &'static str,
+    /// The module whose modules are the rooms; empty for the crate's root.
+    pub module: &'static [&'static str],
     /// Its rooms floor by floor, the lowest first.
     pub floors: &'static [&'static [&'static str]],
 }
@@ -23,8 +25,9 @@ impl House {
     /// When the sources cannot be read.
     pub fn faults(&self, root: &Path) -> std::io::Result<Vec<String>> {
         let sources = root.join(self.sources);
+        let folder = self.module.iter().fold(sources.clone(), |path, name| path.join(name));
         let mut faults = Vec::new();
-        for file in files(&sources)? {
+        for file in files(&folder)? {
             let module = module_of(file.strip_prefix(&sources).unwrap_or(&file));
             let text = std::fs::read_to_string(&file)?;
             let faulty = self.faults_of(&module, &text);
@@ -35,23 +38,36 @@ impl House {
 
     /// Faults of one module with this path from the crate's root.
     pub fn faults_of(&self, module: &[String], text: &str) -> Vec<String> {
-        // The root itself puts the rooms together.
-        let Some(room) = module.first() else { return Vec::new() };
+        let inside = |path: &[String]| {
+            let below = path.len() > self.module.len() && path.iter().zip(self.module).all(|(a, b)| a == b);
+            below.then(|| path[self.module.len()].clone())
+        };
+        // The house itself puts the rooms together.
+        let Some(room) = inside(module) else { return Vec::new() };
         let place = |name: &str| self.floors.iter().position(|floor| floor.contains(&name));
-        let Some(own) = place(room) else {
+        let Some(own) = place(&room) else {
             return vec![format!("the room {room} of {} has no floor", self.name)];
         };
-        let mut used: Vec<String> = used_rooms(module, text);
+        let mut used: Vec<String> = paths(module, text).iter().filter_map(|path| inside(path)).collect();
         used.sort();
         used.dedup();
-        let not_below = |name: &String| name != room && place(name).is_some_and(|at| at >= own);
-        let faulty = used.into_iter().filter(not_below);
-        faulty.map(|name| format!("{room} does not stand above {name} and must not import it")).collect()
+        let faulty = used.into_iter().filter_map(|name| match place(&name) {
+            Some(at) if name != room && at >= own => {
+                Some(format!("{room} does not stand above {name} and must not import it"))
+            }
+            // What a house itself defines stands above all of its rooms.
+            None if !self.module.is_empty() => Some(format!("{room} must not import {name} of its house")),
+            _ => None,
+        });
+        faulty.collect()
     }
 }
 
 /// All Rust files of a folder, in a fixed order.
-fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+///
+/// # Errors
+/// When it cannot be read.
+pub fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path()).collect();
     entries.sort();
     let mut all = Vec::new();
@@ -75,60 +91,157 @@ fn module_of(path: &Path) -> Vec<String> {
     parts
 }
 
-/// First names below the crate's root of all paths in a text.
-fn used_rooms(module: &[String], text: &str) -> Vec<String> {
-    let code = without_words(text);
-    let mut used = Vec::new();
-    let mut rest = code.as_str();
-    let mut before = ' ';
-    while let Some(start) = rest.chars().next() {
-        let fresh = !(before.is_alphanumeric() || before == '_' || before == ':');
-        let climbed = fresh.then(|| climb(module, rest)).flatten();
-        match climbed {
-            Some(tail) => {
-                used.extend(heads(tail));
-                before = ':';
-                rest = tail;
+/// All paths in a text of a module, from the crate's root on: `use super::{b, c::D}` in `a::e` gives `a::b` and
+/// `a::c::D`. A path that begins with a plain name is taken from the module itself.
+fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
+    let tokens = tokens(&without_words(text));
+    // The modules written out in the text, each with the depth of braces at which it opened.
+    let (mut inner, mut depth): (Vec<(String, usize)>, usize) = (Vec::new(), 0);
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(token) = tokens.get(at) {
+        let next = |ahead: usize| tokens.get(at + ahead).map(String::as_str);
+        let fresh = at == 0 || !["::", "$"].contains(&tokens[at - 1].as_str());
+        match token.as_str() {
+            "{" => depth += 1,
+            "}" => {
+                depth = depth.saturating_sub(1);
+                inner.retain(|(_, opened)| *opened <= depth);
             }
-            None => {
-                before = start;
-                rest = rest.get(start.len_utf8()..).unwrap_or_default();
+            "mod" if next(2) == Some("{") => {
+                inner.push((next(1).unwrap_or_default().to_owned(), depth + 1));
             }
-        }
-    }
-    used
-}
-
-/// What follows a path's way to the root; `None` when it does not lead there.
-fn climb<'a>(module: &[String], code: &'a str) -> Option<&'a str> {
-    if let Some(tail) = code.strip_prefix("crate::") {
-        return Some(tail);
-    }
-    let (mut tail, mut steps) = (code, 0);
-    while let Some(next) = tail.strip_prefix("super::") {
-        (tail, steps) = (next, steps + 1);
-    }
-    (steps > 0 && steps >= module.len()).then_some(tail)
-}
-
-/// Names that a path or a group of paths begins with: `a::b` gives a, `{a::b, c}` gives a and c.
-fn heads(tail: &str) -> Vec<String> {
-    let name = |text: &str| -> String {
-        text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-    };
-    let Some(group) = tail.trim_start().strip_prefix('{') else { return vec![name(tail)] };
-    let mut depth = 0;
-    let mut names = vec![name(group)];
-    for (at, c) in group.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' if depth == 0 => break,
-            '}' => depth -= 1,
-            ',' if depth == 0 => names.push(name(group.get(at + 1..).unwrap_or_default())),
+            // How far a name is visible is no import.
+            "in" if at > 0 && tokens[at - 1] == "(" => {
+                at += tokens[at..].iter().take_while(|token| *token != ")").count();
+                continue;
+            }
+            _ if next(1) == Some("::") && (fresh || token == "crate") && is_name(token) => {
+                let own = module.iter().chain(inner.iter().map(|(name, _)| name));
+                let mut base: Vec<String> = own.cloned().collect();
+                let mut start = at;
+                match token.as_str() {
+                    "crate" => {
+                        base.clear();
+                        start += 2;
+                    }
+                    "self" => start += 2,
+                    _ => {}
+                }
+                while tokens.get(start).is_some_and(|token| token == "super") {
+                    base.pop();
+                    start += 2;
+                }
+                at = tree(&tokens, start, &base, &mut found);
+                continue;
+            }
             _ => {}
         }
+        at += 1;
     }
-    names
+    found
+}
+
+/// Reads a path, or a group of them, below `base`; says where the text goes on.
+fn tree(tokens: &[String], mut at: usize, base: &[String], found: &mut Vec<Vec<String>>) -> usize {
+    if tokens.get(at).is_some_and(|token| token == "{") {
+        at += 1;
+        while let Some(token) = tokens.get(at) {
+            match token.as_str() {
+                "}" => return at + 1,
+                "," => at += 1,
+                _ => at = tree(tokens, at, base, found).max(at + 1),
+            }
+        }
+        return at;
+    }
+    let Some(name) = tokens.get(at).filter(|token| is_name(token)) else {
+        found.push(base.to_vec());
+        return at + usize::from(tokens.get(at).is_some_and(|token| token == "*"));
+    };
+    let mut path = base.to_vec();
+    path.push(name.clone());
+    if tokens.get(at + 1).is_some_and(|token| token == "::") {
+        return tree(tokens, at + 2, &path, found);
+    }
+    found.push(path);
+    at + 1
+}
+
+/// Names, `::`, and every other character that is no space.
+fn tokens(code: &str) -> Vec<String> {
+    let mut tokens: Vec<String> = Vec::new();
+    let mut chars = code.chars().peekable();
+    while let Some(c) = chars.next() {
+        if c.is_whitespace() {
+            continue;
+        }
+        let mut token = c.to_string();
+        let of_name = |c: char| c.is_alphanumeric() || c == '_';
+        if of_name(c) {
+            while let Some(more) = chars.next_if(|c| of_name(*c)) {
+                token.push(more);
+            }
+        } else if c == ':' && chars.next_if_eq(&':').is_some() {
+            token.push(':');
+        }
+        tokens.push(token);
+    }
+    tokens
+}
+
+fn is_name(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+/// Rings of imports among the files of a folder below a crate's sources, each as the modules in it. `folder` is the
+/// folder's module. Types count like everything else.
+///
+/// # Errors
+/// When the sources cannot be read.
+pub fn rings(sources: &Path, folder: &[&str]) -> std::io::Result<Vec<Vec<String>>> {
+    let below = folder.iter().fold(sources.to_owned(), |path, name| path.join(name));
+    let mut texts = Vec::new();
+    for file in files(&below)? {
+        let module = module_of(file.strip_prefix(sources).unwrap_or(&file));
+        texts.push((module, std::fs::read_to_string(&file)?));
+    }
+    Ok(rings_of(&texts))
+}
+
+/// Rings among modules, each given by its path and its text.
+pub fn rings_of(texts: &[(Vec<String>, String)]) -> Vec<Vec<String>> {
+    let index = |path: &[String]| {
+        let prefixes = (1..=path.len()).rev().filter_map(|n| path.get(..n));
+        prefixes.into_iter().find_map(|prefix| texts.iter().position(|(module, _)| module == prefix))
+    };
+    let imports = |(i, (module, text)): (usize, &(Vec<String>, String))| -> Vec<usize> {
+        let used = paths(module, text).into_iter().filter_map(|path| index(&path));
+        used.filter(|used| *used != i).collect()
+    };
+    let imports: Vec<Vec<usize>> = texts.iter().enumerate().map(imports).collect();
+    let reached: Vec<Vec<bool>> = (0..texts.len())
+        .map(|from| {
+            let mut seen = vec![false; texts.len()];
+            let mut open = imports[from].clone();
+            while let Some(next) = open.pop() {
+                if !std::mem::replace(&mut seen[next], true) {
+                    open.extend(&imports[next]);
+                }
+            }
+            seen
+        })
+        .collect();
+    let mut rings: Vec<Vec<String>> = Vec::new();
+    for from in 0..texts.len() {
+        let ring: Vec<usize> =
+            (0..texts.len()).filter(|to| reached[from][*to] && reached[*to][from]).collect();
+        // Each ring is told once, by its first module.
+        if ring.first() == Some(&from) {
+            rings.push(ring.into_iter().map(|i| texts[i].0.join("::")).collect());
+        }
+    }
+    rings
 }
 
 /// The text with comments and the insides of strings left out.
@@ -158,15 +271,19 @@ fn without_words(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{House, module_of, used_rooms};
+    use super::{House, module_of, paths, rings_of};
     use std::path::Path;
 
-    const HOUSE: House =
-        House { name: "house", sources: "src", floors: &[&["cellar"], &["kitchen", "hall"], &["attic"]] };
+    const FLOORS: &[&[&str]] = &[&["cellar"], &["kitchen", "hall"], &["attic"]];
+    const HOUSE: House = House { name: "house", sources: "src", module: &[], floors: FLOORS };
+    const WING: House = House { name: "wing", sources: "src", module: &["wing"], floors: FLOORS };
 
-    fn faults(module: &str, text: &str) -> usize {
-        let module: Vec<String> = module.split("::").map(str::to_owned).collect();
-        HOUSE.faults_of(&module, text).len()
+    fn module(path: &str) -> Vec<String> {
+        path.split("::").map(str::to_owned).collect()
+    }
+
+    fn faults(path: &str, text: &str) -> usize {
+        HOUSE.faults_of(&module(path), text).len()
     }
 
     #[test]
@@ -196,6 +313,43 @@ mod tests {
         assert_eq!(module_of(Path::new("routes/mod.rs")), ["routes"]);
         assert_eq!(module_of(Path::new("routes/scenes.rs")), ["routes", "scenes"]);
         assert!(module_of(Path::new("main.rs")).is_empty());
-        assert_eq!(used_rooms(&["a".into(), "b".into()], "super::super::c::d"), ["c"]);
+        assert_eq!(paths(&module("a::b"), "super::super::c::d"), [module("c::d")]);
+        let group = "use super::{c, d::{E, f::*}, self::g::H};";
+        assert_eq!(
+            paths(&module("a::b"), group),
+            ["a::c", "a::d::E", "a::d::f", "a::self::g::H"].map(module)
+        );
+        assert!(paths(&module("a::b"), "pub(in crate::a) fn f() {}").is_empty());
+        let tests = "mod tests { use super::*; use super::super::c::D; } fn f() { super::c::d() }";
+        assert_eq!(paths(&module("a::b"), tests), ["a::b", "a::c::D", "a::c::d"].map(module));
+    }
+
+    #[test]
+    fn a_module_may_be_a_house_of_its_own() {
+        let faults = |path: &str, text: &str| WING.faults_of(&module(path), text).len();
+        assert_eq!(faults("wing::attic", "use super::cellar::Wine; use crate::wing::kitchen::Pan;"), 0);
+        assert_eq!(faults("wing::cellar", "use super::attic::Trunk;"), 1);
+        assert_eq!(faults("wing::cellar::shelf", "use crate::wing::{hall, attic::Trunk};"), 2);
+        assert_eq!(faults("wing::cellar", "use crate::attic::Trunk;"), 0, "of another house");
+        assert_eq!(faults("wing::cellar", "use super::Key;"), 1, "the house stands above its rooms");
+        assert_eq!(faults("wing::cellar", "use super::super::hall::Door;"), 0, "outside the house");
+    }
+
+    #[test]
+    fn rings_are_found_file_by_file() {
+        let texts = |all: &[(&str, &str)]| -> Vec<(Vec<String>, String)> {
+            all.iter().map(|(path, text)| (module(path), (*text).to_owned())).collect()
+        };
+        let straight = [("a", "mod b; use b::B;"), ("a::b", "use super::c::C;"), ("a::c", "")];
+        assert!(rings_of(&texts(&straight)).is_empty());
+        let ring = [
+            ("a::b", "use super::c::C;"),
+            ("a::c", "fn f() { crate::a::d::e() }"),
+            ("a::d", "use super::b::B;"),
+        ];
+        assert_eq!(rings_of(&texts(&ring)), [["a::b", "a::c", "a::d"]]);
+        // A file that takes a type of the module that takes it.
+        let parent = [("a", "mod b; use b::B; struct Key;"), ("a::b", "use super::Key;")];
+        assert_eq!(rings_of(&texts(&parent)), [["a", "a::b"]]);
     }
 }

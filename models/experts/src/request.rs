@@ -2,6 +2,7 @@
 
 use crate::net::schedule;
 use crate::planning::world::Planning;
+use crate::tuning::fixed::rounds::ROUND_DIVERSITY;
 use scene::preference::{Feedback, Round};
 use scene::score::Thresholds;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
@@ -25,8 +26,6 @@ pub enum React {
 
 /// Samples of a round's draw.
 const ROUND_SAMPLES: usize = 32;
-/// A round's draw is at least this diverse: who is asked what they like must see what there is.
-const ROUND_DIVERSITY: f64 = 1.5;
 
 /// One call of the generator. The scene's agents carry the conditions that hold for this call.
 #[derive(Clone, Debug)]
@@ -570,6 +569,9 @@ pub enum GenerateError {
     /// The caller cancelled.
     #[error("cancelled")]
     Cancelled,
+    /// A part of a call was asked for before its window was planned; a defect of the program.
+    #[error("no window is planned")]
+    NoWindow,
     /// Anything the tensor library reports; a defect of the program or its weights.
     #[error("expert failed: {0}")]
     Expert(String),

@@ -244,6 +244,7 @@ impl From<GenerateError> for Problem {
                 .with(|m| (m.step, m.agent) = (Some(step), Some(agent))),
             GenerateError::Cancelled => Self::new(Code::Cancelled, detail),
             GenerateError::Expert(cause) => Self::internal(cause),
+            GenerateError::NoWindow => Self::internal(detail),
         }
     }
 }

@@ -1,18 +1,15 @@
 //! Road users that get new futures in a window.
 
-use super::covering::Cover;
 use super::slot::Slot;
 use crate::features::agent::{AgentPlan, plan};
 use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
-use crate::planning::{MODES, Modes, RESIDUAL, Residual};
+use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::tuning::SpeedTuning;
+use crate::tuning::fixed::actor::BESIDE_LANE_M;
 use scene::geometry::direction;
 use scene::motion::{Gear, Kind};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
-
-/// Off a lane's middle by more than this, a vehicle is beside the lane, metres.
-const BESIDE_LANE_M: f64 = 1.4;
 
 /// A road user that gets new futures.
 pub(super) struct Actor {
@@ -28,8 +25,6 @@ pub(super) struct Actor {
     pub(super) probability: [f64; MODES],
     /// Modes by falling probability.
     pub(super) order: [Slot; MODES],
-    /// What is added to its modes so that they differ.
-    pub(super) cover: Option<Cover>,
     /// Stays where it is.
     pub(super) rests: bool,
     /// It was parked when the call began and has not been asked to go anywhere.
@@ -37,8 +32,8 @@ pub(super) struct Actor {
     pub(super) stays_probability: f64,
     /// A vehicle that starts within the road's edges.
     pub(super) keeps_to_the_road: bool,
-    /// Share of what the networks say that counts.
-    familiar: f32,
+    /// Share of the networks' output that counts.
+    network_weight: f32,
 }
 
 /// Modes by falling probability.
@@ -49,57 +44,6 @@ pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
         falling.then(a.cmp(b))
     });
     order
-}
-
-impl Drafts {
-    /// The first drafts of an actor.
-    pub(super) fn of(actor: &Actor, leading: Slot) -> Self {
-        let offset = [[0.0; RESIDUAL]; MODES];
-        let (modes, probability, order) = (actor.modes, actor.probability, actor.order);
-        Self { modes, offset, probability, order, leading, settled: None }
-    }
-
-    /// Adds what the networks do not see.
-    pub(super) fn add(&mut self, offset: &Modes) {
-        for (mode, more) in [&mut self.modes, &mut self.offset].into_iter().map(|m| (m, offset)) {
-            for (value, more) in mode.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
-                *value += more;
-            }
-        }
-    }
-
-    /// The modes as the networks know them.
-    pub(super) fn plain(&self) -> Modes {
-        let mut plain = self.modes;
-        for (value, offset) in plain.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {
-            *value -= offset;
-        }
-        plain
-    }
-
-    /// Takes up the modes as the networks left them.
-    pub(super) fn refined(&mut self, plain: Modes) {
-        self.modes = plain;
-        for (value, offset) in self.modes.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {
-            *value += offset;
-        }
-    }
-}
-
-/// The drafts of an actor in one sample.
-#[derive(Clone)]
-pub(super) struct Drafts {
-    pub(super) modes: Modes,
-    /// What of them the networks do not see: see [`Cover`], and the draw.
-    pub(super) offset: Modes,
-    /// By mode, summing to one.
-    pub(super) probability: [f64; MODES],
-    /// Modes by falling probability.
-    pub(super) order: [Slot; MODES],
-    /// The mode that the others see of this actor while they refine.
-    pub(super) leading: Slot,
-    /// Where resolving overlaps led the leading draft, if it moved it.
-    pub(super) settled: Option<Residual>,
 }
 
 impl Actor {
@@ -113,28 +57,27 @@ impl Actor {
             modes: [[0.0; RESIDUAL]; MODES],
             probability: [1.0 / MODES as f64; MODES],
             order: std::array::from_fn(Slot::new),
-            cover: None,
             rests: false,
             stays_parked: false,
             stays_probability: 0.0,
             keeps_to_the_road: false,
-            familiar: 1.0,
+            network_weight: 1.0,
         }
     }
 
-    /// Who goes, or must go, faster than the networks have seen anybody go heeds them less.
-    pub(super) fn heeds(&mut self, tuning: &SpeedTuning) {
-        let Self { plan, familiar, .. } = self;
+    /// Lets the networks count less for an agent that goes, or must go, faster than their training data.
+    pub(super) fn weigh_networks(&mut self, tuning: &SpeedTuning) {
+        let Self { plan, network_weight, .. } = self;
         let mean_mps = |anchor: &Anchor| anchor.base[HORIZON_STEPS] / (HORIZON_STEPS as f64 * STEP_S);
         let asked_mps = plan.anchors.first().filter(|_| plan.target.position.is_some()).map_or(0.0, mean_mps);
         let speed_mps = plan.model.start_speed_mps().max(asked_mps);
         let SpeedTuning { known_mps, unknown_mps } = *tuning;
-        *familiar = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
+        *network_weight = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
     }
 
-    /// What counts of what the networks say of its modes.
-    pub(super) fn heeded(&self, mut modes: Modes) -> Modes {
-        modes.as_flattened_mut().iter_mut().for_each(|value| *value *= self.familiar);
+    /// The part of the networks' modes that counts.
+    pub(super) fn weighed(&self, mut modes: Modes) -> Modes {
+        modes.as_flattened_mut().iter_mut().for_each(|value| *value *= self.network_weight);
         modes
     }
 

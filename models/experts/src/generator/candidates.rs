@@ -1,13 +1,13 @@
 //! What an actor could do, each with where it came from. The choice picks one of them for every actor.
 
-use super::actor::{Actor, Drafts};
+use super::actor::Actor;
 use super::choice::distance;
+use super::drafts::Drafts;
 use super::slot::Slot;
 use super::trajectory::{
-    Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, short_along, to_trajectory,
-    without_creep,
+    Rollout, along_places, as_it_is, mean_trajectory, rest, short_along, to_trajectory, without_creep,
 };
-use crate::planning::{INSTANTS, MODES};
+use crate::planning::{INSTANTS, MODES, PER_INSTANT};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
 use scene::motion::Reach;
@@ -35,9 +35,9 @@ pub(super) enum Origin {
     /// The draft of this mode, guided out of a conflict of the chosen scene.
     Guided(Slot),
     /// What was chosen on the path of this mode, led round what is in its way.
-    Evading(Slot),
+    Swerving(Slot),
     /// What was chosen on the path of this mode, halting before whoever is in its way.
-    Halting(Slot),
+    Stopping(Slot),
 }
 
 impl Origin {
@@ -50,8 +50,8 @@ impl Origin {
             | Self::Shown(slot)
             | Self::Settled(slot)
             | Self::Guided(slot)
-            | Self::Evading(slot)
-            | Self::Halting(slot) => Some(slot),
+            | Self::Swerving(slot)
+            | Self::Stopping(slot) => Some(slot),
         }
     }
 
@@ -75,7 +75,7 @@ pub(super) struct Candidate {
     /// Where it came from.
     pub(super) origin: Origin,
     /// What it is.
-    pub(super) motion: Motion,
+    pub(super) motion: Rollout,
 }
 
 /// The drafts of one actor in one sample, to make candidates from.
@@ -120,7 +120,7 @@ impl Material<'_> {
         let (slot, places, near) = self.seen()?;
         let plan = &self.actor.plan;
         let motion = match missed {
-            Some(reach) => short_along(plan, &places, false).for_want_of(reach),
+            Some(reach) => short_along(plan, &places, false).with_reason_of(reach),
             None if near => along_places(plan, slot, &places),
             None => return None,
         };
@@ -128,10 +128,10 @@ impl Material<'_> {
     }
 
     /// The same where what was shown last halts before somebody.
-    pub(super) fn shown_halting(&self) -> Option<Candidate> {
+    pub(super) fn shown_stopping(&self) -> Option<Candidate> {
         let (slot, places, near) = self.seen()?;
         let motion = || short_along(&self.actor.plan, &places, false);
-        (!near).then(|| Candidate { probability: 0.0, origin: Origin::Halting(slot), motion: motion() })
+        (!near).then(|| Candidate { probability: 0.0, origin: Origin::Stopping(slot), motion: motion() })
     }
 
     /// What was shown last: its mode, its places, and whether they lead next to the goal of now.
@@ -203,7 +203,7 @@ impl Material<'_> {
         paths.into_iter().filter(|(_, modes)| modes.len() > 1).filter_map(mean).collect()
     }
 
-    fn without_creep(&self, motion: Motion) -> Motion {
+    fn without_creep(&self, motion: Rollout) -> Rollout {
         without_creep(&self.actor.plan, self.window, motion)
     }
 
@@ -331,9 +331,9 @@ mod tests {
     #[test]
     fn what_is_shown_in_place_of_a_mode_that_breaks_rules_is_weighed_by_what_it_does_itself() {
         let mut all = six();
-        all.push(candidate(0.0, Origin::Evading(Slot::new(2))));
+        all.push(candidate(0.0, Origin::Swerving(Slot::new(2))));
         let (at, alternatives) = shown(all, &[1.0, 1.0, 0.1, 1.0, 1.0, 1.0, 1.0], 6, 6).unwrap();
-        assert_eq!((at, alternatives[2].origin), (2, Origin::Evading(Slot::new(2))));
+        assert_eq!((at, alternatives[2].origin), (2, Origin::Swerving(Slot::new(2))));
         assert!(alternatives.iter().all(|c| (c.probability - 0.1).abs() < 1e-12));
     }
 

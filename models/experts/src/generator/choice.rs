@@ -1,32 +1,30 @@
 //! One candidate an actor so that the scene is coherent: coordinate descent with pair moves. It costs no
 //! accuracy and microseconds of time.
 
+use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
-use scene::Size;
-use scene::State;
 use scene::motion::Trajectory;
 use scene::score::{Overlap, SweptBoxes, overlap};
 use std::collections::HashMap;
+use std::sync::Arc;
 
-/// Every third step is looked at, the start left out: what overlaps there cannot be helped.
-const STRIDE: usize = 3;
 const MOST_SWEEPS: usize = 12;
 
-/// One thing a road user could do.
-pub(super) struct Choosable {
-    pub(super) boxes: SweptBoxes,
-    /// What it costs by itself.
+/// A candidate of an actor, as the joint choice weighs it.
+pub(super) struct JointOption {
+    pub(super) sweep: Arc<Sweep>,
+    /// Cost by itself.
     pub(super) cost: f64,
-    /// Of that, what it costs to break rules.
-    pub(super) broken: f64,
-    /// The motion that the road user has anyway: how near it comes to others that keep theirs is how it was.
+    /// The part of it for breaking rules.
+    pub(super) rule_cost: f64,
+    /// The motion that the agent has anyway: its distance to other kept motions is as it was.
     pub(super) kept: bool,
 }
 
-/// Boxes of a rollout at the looked-at steps.
-pub(super) fn swept(states: &Trajectory, size: &Size) -> SweptBoxes {
-    let states: Vec<State> = states.iter().skip(STRIDE).step_by(STRIDE).map(State::from).collect();
-    SweptBoxes::of_states(states.iter().map(Some), size)
+impl JointOption {
+    fn boxes(&self) -> &SweptBoxes {
+        self.sweep.swept()
+    }
 }
 
 /// Mean distance of two motions, metres.
@@ -45,8 +43,8 @@ pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]
 
 /// The scene's options and its fixed motions.
 pub(super) struct Choice<'a> {
-    pub(super) agents: Vec<Vec<Choosable>>,
-    pub(super) fixed: &'a [SweptBoxes],
+    pub(super) agents: Vec<Vec<JointOption>>,
+    pub(super) fixed: &'a [&'a SweptBoxes],
     pub(super) tuning: &'a ChoiceTuning,
 }
 
@@ -84,10 +82,10 @@ impl Choice<'_> {
         let mut out = vec![false; chosen.len()];
         let near = self.near();
         for (i, &o) in chosen.iter().enumerate() {
-            let boxes = &self.agents[i][o].boxes;
+            let boxes = self.agents[i][o].boxes();
             out[i] |= self.fixed.iter().any(|f| overlap(boxes, f).close);
             for &j in near[i].iter().filter(|j| **j > i) {
-                if overlap(boxes, &self.agents[j][chosen[j]].boxes).close {
+                if overlap(boxes, self.agents[j][chosen[j]].boxes()).close {
                     out[i] = true;
                     out[j] = true;
                 }
@@ -141,9 +139,9 @@ impl Choice<'_> {
 
     /// Each option by itself and against what is fixed.
     fn own_costs(&self) -> Vec<Vec<f64>> {
-        let against = |option: &Choosable| -> f64 {
+        let against = |option: &JointOption| -> f64 {
             let fixed = self.fixed.iter().filter(|_| !option.kept);
-            fixed.map(|f| price(overlap(&option.boxes, f), self.tuning)).sum()
+            fixed.map(|f| price(overlap(option.boxes(), f), self.tuning)).sum()
         };
         self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
@@ -156,7 +154,7 @@ impl Choice<'_> {
             for j in i + 1..n {
                 let meet = self.agents[i]
                     .iter()
-                    .any(|a| self.agents[j].iter().any(|b| overlap(&a.boxes, &b.boxes).close));
+                    .any(|a| self.agents[j].iter().any(|b| overlap(a.boxes(), b.boxes()).close));
                 if meet {
                     near[i].push(j);
                     near[j].push(i);
@@ -169,7 +167,7 @@ impl Choice<'_> {
 
 /// Costs of pairs of options, worked out once.
 struct Pairs<'a> {
-    agents: &'a [Vec<Choosable>],
+    agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,
     known: HashMap<(usize, usize, usize, usize), f64>,
 }
@@ -183,7 +181,7 @@ impl Pairs<'_> {
             if one.kept && other.kept {
                 return 0.0;
             }
-            price(overlap(&one.boxes, &other.boxes), tuning)
+            price(overlap(one.boxes(), other.boxes()), tuning)
         })
     }
 }
@@ -212,12 +210,14 @@ fn least(costs: impl Iterator<Item = f64>) -> usize {
 mod tests {
     use super::*;
     use crate::tuning::SHIPPED;
-    use scene::Vec2;
-    use scene::geometry::obb::OrientedBox;
+    use scene::{Size, State};
 
-    fn ride(y: f64, speed: f64, cost: f64) -> Choosable {
-        let at = |i: usize| Some(OrientedBox::new(Vec2::new(0.3 * speed * i as f64, y), 2.3, 1.0, 0.0));
-        Choosable { boxes: SweptBoxes::new((0..30).map(at).collect()), cost, broken: 0.0, kept: false }
+    const CAR: Size = Size { length_m: 4.6, width_m: 2.0, height_m: None };
+
+    fn ride(y: f64, speed: f64, cost: f64) -> JointOption {
+        let at = |i: usize| Some(State { x_m: 0.1 * speed * i as f64, y_m: y, ..State::default() });
+        let sweep = Sweep::new((0..=90).map(at).collect(), &CAR);
+        JointOption { sweep: Arc::new(sweep), cost, rule_cost: 0.0, kept: false }
     }
 
     #[test]
@@ -239,7 +239,7 @@ mod tests {
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
         let choice = Choice {
             agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)],
-            fixed: &[ride(8.3, 8.0, 0.0).boxes],
+            fixed: &[ride(8.3, 8.0, 0.0).boxes()],
             tuning: &SHIPPED.choice,
         };
         assert_eq!(choice.solve(), vec![0, 1]);
@@ -250,7 +250,7 @@ mod tests {
         let choice = Choice {
             tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]],
-            fixed: &[ride(0.0, 8.0, 0.0).boxes],
+            fixed: &[ride(0.0, 8.0, 0.0).boxes()],
         };
         assert_eq!(choice.solve(), vec![1]);
     }

@@ -1,15 +1,16 @@
 //! What each candidate of an actor costs by itself.
 
-use super::KnownMap;
 use super::actor::Actor;
 use super::candidates::{Candidate, Origin};
-use super::choice::{Choosable, medoid_costs, swept};
-use super::passing::vias_missed;
+use super::choice::{JointOption, medoid_costs};
+use super::motion::Sweep;
+use super::others::Others;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
-use super::trajectory::PER_INSTANT;
+use super::via_steering::vias_missed;
 use crate::features::agent::AgentPlan;
-use crate::planning::INSTANTS;
+use crate::maps::KnownMap;
+use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
 use scene::geometry::obb::OrientedBox;
@@ -18,14 +19,7 @@ use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
 use scene::score::{Actor as ScoreActor, Drivable};
 use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
-
-/// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
-const BOUND_TO_WRONG: f64 = 0.4;
-const LAWFUL: f64 = 0.6;
-/// Most that it costs a way round to be another than what was meant.
-const MOST_EVADING: f64 = 3.0;
-/// What it costs to halt before somebody, but for a goal that is missed so.
-const HALTING: f64 = 1.0;
+use std::sync::Arc;
 
 /// What an actor's candidates are held against.
 pub(super) struct Yardstick<'a> {
@@ -35,8 +29,8 @@ pub(super) struct Yardstick<'a> {
     pub(super) shown: Option<&'a ShownLast>,
     pub(super) map: &'a KnownMap,
     pub(super) judge: &'a Judge<'a>,
-    /// Those who go on with what they do.
-    pub(super) others: &'a [Trace],
+    /// The agents that do not act.
+    pub(super) others: &'a Others<'a>,
     /// The road user in the scene, and the window's first step.
     pub(super) agent: &'a Agent,
     pub(super) start_step: usize,
@@ -44,15 +38,15 @@ pub(super) struct Yardstick<'a> {
 }
 
 /// What the joint choice weighs: one entry a candidate, in their order.
-pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_>) -> Vec<Choosable> {
+pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_>) -> Vec<JointOption> {
     let tuning = by.tuning;
     let size = &actor.plan.present.size;
-    let broken = |c: &Candidate| match &c.motion.states {
+    let rule_cost = |c: &Candidate| match &c.motion.states {
         // What is given costs nothing by itself.
         _ if c.origin.is_given() => 0.0,
-        states => broken_rules(actor, states, by) + stepping_out(actor, states, by),
+        states => rule_cost_of(actor, states, by) + stepping_out(actor, states, by),
     };
-    let broken: Vec<f64> = candidates.iter().map(broken).collect();
+    let rule_cost: Vec<f64> = candidates.iter().map(rule_cost).collect();
     let costs = match &actor.kept {
         Some(kept) => candidates
             .iter()
@@ -61,22 +55,22 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
         None => central(&actor.plan, candidates, by.around, tuning),
     };
     let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
-    let shown_breaks = candidates.iter().position(is_shown).map_or(0.0, |shown| broken[shown]);
-    let option = |((c, cost), broken): ((&Candidate, f64), &f64)| {
-        let boxes = swept(&c.motion.states, size);
-        // Where the others are alike, a way round is far from all of them.
+    let shown_rule_cost = candidates.iter().position(is_shown).map_or(0.0, |shown| rule_cost[shown]);
+    let option = |((c, cost), rule_cost): ((&Candidate, f64), &f64)| {
+        let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
+        // Where the others are alike, a swerving motion is far from all of them.
         let cost = match c.origin {
-            Origin::Evading(_) | Origin::Shown(_) => cost.min(MOST_EVADING),
-            Origin::Halting(_) => {
-                HALTING + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
+            Origin::Swerving(_) | Origin::Shown(_) => cost.min(tuning.most_swerving),
+            Origin::Stopping(_) => {
+                tuning.stopping + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
             }
             _ => cost,
         };
-        let binds = if *broken < shown_breaks - LAWFUL { BOUND_TO_WRONG } else { 1.0 };
-        let cost = if c.origin.is_given() { 0.0 } else { cost + broken + binds * leaving(c, by) };
-        Choosable { boxes, cost, broken: *broken, kept: c.origin == Origin::Kept }
+        let binds = if *rule_cost < shown_rule_cost - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
+        let cost = if c.origin.is_given() { 0.0 } else { cost + rule_cost + binds * switching(c, by) };
+        JointOption { sweep, cost, rule_cost: *rule_cost, kept: c.origin == Origin::Kept }
     };
-    candidates.iter().zip(costs).zip(&broken).map(option).collect()
+    candidates.iter().zip(costs).zip(&rule_cost).map(option).collect()
 }
 
 /// How far each candidate is from all alternatives by their probability, and whether it misses its goal or a via
@@ -127,7 +121,7 @@ fn harsh(actor: &Actor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
 
 /// What it costs to run a red light, to brake or steer harshly, and a vehicle to leave the road or drive against the
 /// traffic.
-fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+fn rule_cost_of(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {
         let moved = states.iter().skip(1).map(State::from).collect();
@@ -142,17 +136,17 @@ fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
 fn stepping_out(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let plan = &actor.plan;
     let beside = plan.target.position.is_none() && plan.kerbs.iter().any(Option::is_some);
-    if !beside || by.others.is_empty() {
+    if !beside || by.others.traces().next().is_none() {
         return 0.0;
     }
     let at = |step: usize| states.get(step + 1).map(State::from);
     let me = Trace::new(&actor.id, plan.present.agent_type, &plan.present.size, HORIZON_STEPS, at);
-    let before_any = by.others.iter().any(|other| steps_out(&me, other).is_some());
+    let before_any = by.others.traces().any(|other| steps_out(&me, other).is_some());
     if before_any { by.tuning.stepping_out } else { 0.0 }
 }
 
 /// What it costs to show something else than a person has seen last.
-fn leaving(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
+fn switching(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
     let Some(shown) = by.shown else { return 0.0 };
     let mut apart: Vec<f64> = Vec::with_capacity(INSTANTS);
     for (i, place) in shown.places.iter().take(INSTANTS).enumerate() {
@@ -166,7 +160,7 @@ fn leaving(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
     let most_m = apart.iter().copied().fold(0.0, f64::max);
     let other = shown.anchor.is_some() && candidate.origin.slot().map(Slot::number) != shown.anchor;
     let (tuning, other) = (by.tuning, f64::from(u8::from(other)));
-    tuning.leaving * ((mean_m + 0.5 * most_m) / tuning.leaving_m).min(1.0) + tuning.other_mode * other
+    tuning.switching * ((mean_m + 0.5 * most_m) / tuning.switching_m).min(1.0) + tuning.other_mode * other
 }
 
 /// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the

@@ -1,45 +1,49 @@
-//! One future an actor, once the drafts are refined.
+//! One future for each actor, once the drafts are refined.
 
 use super::actor::Actor;
 use super::candidates::{Candidate, Origin, own, shown};
-use super::choice::{Choice, Choosable, swept};
+use super::choice::{Choice, JointOption};
 use super::costs::{Yardstick, drives_against, options};
-use super::evading::{Field, short_of, way_round};
 use super::guidance::guided;
-use super::reacting::{Answered, Changed, Moving, caused, reaction_of};
-use super::repulsion::{Outline, poses_of_states};
-use super::trajectory::{Motion, PER_INSTANT};
-use super::window::Window;
+use super::joint_drafts::JointDrafts;
+use super::motion::Sweep;
+use super::others::{Changed, Reacted, caused, reaction_of};
+use super::replan::{ReplanField, stop_before, swerve};
+use super::repulsion::{Outline, outlines};
+use super::trajectory::Rollout;
 use crate::features::agent::BEYOND_M;
+use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{Judge, Reaction};
 use scene::motion::MotionState;
-use scene::score::overlap;
+use scene::score::{SweptBoxes, overlap};
 use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
+use std::borrow::Cow;
+use std::sync::Arc;
 
-/// Motions of one road user that are led round what is in their way.
+/// Motions of one actor that are replanned in a round.
 const MOST_TRIED: usize = 2;
-/// How often that is done: who evades one may meet another.
+/// Rounds of replanning: an agent that swerves for one may meet another.
 const MOST_ROUNDS: usize = 2;
 
 /// What a window decided for one actor.
 pub(super) struct Decided {
     /// Index into the scene's agents.
     pub(super) agent: usize,
-    /// Index into [`Window::actors`].
+    /// Index into the window's actors.
     pub(super) actor: usize,
     /// Index into `alternatives`.
     pub(super) chosen: usize,
-    /// At most as many as were asked for; never empty.
+    /// At most as many as the request asks for; never empty.
     pub(super) alternatives: Vec<Candidate>,
-    /// Why it gave up what it did before, where it had something.
+    /// The cause of its change, where it had a motion before.
     pub(super) reaction: Option<Reaction>,
-    /// Before whom it halts and misses its goal.
+    /// The agent before which it stops and misses its goal.
     pub(super) blocked_by: Option<AgentId>,
-    /// What the others answer if one of `alternatives` is taken in place of the shown one, one entry each: `None`
-    /// where that makes no difference. Empty where it is not looked at.
-    pub(super) answers: Vec<Option<Vec<Answered>>>,
+    /// The reactions of the others if one of `alternatives` is taken in place of the shown one, one entry each: `None`
+    /// where they stay the same. Empty where the window does not look.
+    pub(super) reactions: Vec<Option<Vec<Reacted>>>,
 }
 
 impl Decided {
@@ -49,11 +53,11 @@ impl Decided {
     }
 
     /// The motion that is shown.
-    pub(super) fn motion(&self) -> &Motion {
+    pub(super) fn motion(&self) -> &Rollout {
         &self.shown().motion
     }
 
-    /// The road user stays where it is.
+    /// The actor stays where it is.
     pub(super) fn rests(&self) -> bool {
         self.shown().origin == Origin::Rest
     }
@@ -61,208 +65,258 @@ impl Decided {
 
 /// What a window decided.
 pub(super) struct Decisions {
-    /// Of actors. One that goes on with what it was given is left out.
+    /// Of the actors. An actor that goes on with a given motion is left out.
     pub(super) actors: Vec<Decided>,
-    /// Of those who give up what they do for the actors. Who keeps it is left out.
-    pub(super) answered: Vec<Answered>,
+    /// Of the agents that change their motion because of the actors. An agent that keeps it is left out.
+    pub(super) reacted: Vec<Reacted>,
 }
 
-impl Window<'_> {
-    /// Chooses one candidate an actor, and what the others answer.
-    pub(super) fn decide(&self) -> Decisions {
-        let mut candidates: Vec<Vec<Candidate>> =
-            self.workers().map(&self.indices(), |&i| self.material(i).candidates());
-        let mut choice =
-            Choice { agents: Vec::new(), fixed: &self.background.boxes, tuning: &self.tuning().choice };
-        let (scene, step) = (&self.world.scene, self.world.step);
-        let steps = step..step + HORIZON_STEPS + 1;
-        let judge = Judge::new(&scene.map, &scene.signals, &self.map.drivable, steps);
-        choice.agents = self.workers().map(&self.indices(), |&i| self.options(&judge, i, &candidates[i]));
-        let mut chosen = match self.request.stages.shown {
-            Shown::Chosen => choice.solve(),
-            Shown::Likeliest | Shown::Drawn => {
-                let each = self.actors.iter().zip(&self.drafts).zip(&candidates);
-                each.map(|((actor, drafts), all)| own(actor, drafts.leading, all)).collect()
-            }
-        };
-        if self.request.stages.guidance {
-            self.guide(&judge, &mut choice, &mut candidates, &mut chosen);
+/// Chooses one candidate for each actor, and the reactions of the others.
+pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
+    let setting = of.setting;
+    let scene = &setting.world.scene;
+    let steps = setting.world.step..setting.world.step + HORIZON_STEPS + 1;
+    let judge = Judge::new(&scene.map, &scene.signals, &setting.map.drivable, steps);
+    let fixed: Vec<&SweptBoxes> = of.others.kept().map(Sweep::swept).collect();
+    let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
+    let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
+    let mut table = Table { of, judge, choice, candidates };
+    table.choice.agents = setting.workers().map(&of.indices(), |&i| table.options(i));
+    let mut chosen = match setting.request.stages.shown {
+        Shown::Chosen => table.choice.solve(),
+        Shown::Likeliest | Shown::Drawn => {
+            let each = of.actors.iter().zip(of.drafts).zip(&table.candidates);
+            each.map(|((actor, drafts), all)| own(actor, drafts.leading, all)).collect()
         }
-        let mut causes = self.put_back(&choice, &mut chosen);
-        let mut changed = self.changed(&candidates, &chosen);
-        let mut answered = self.answers(&changed);
-        let mut blockers: Vec<Option<AgentId>> = vec![None; self.actors.len()];
-        let rounds = if self.request.stages.guidance { MOST_ROUNDS } else { 0 };
-        for _ in 0..rounds {
-            let seen = (&changed[..], &answered[..]);
-            if !self.evade(&judge, &mut choice, &mut candidates, &mut chosen, seen, &mut blockers) {
-                break;
-            }
-            causes = self.put_back(&choice, &mut chosen);
-            changed = self.changed(&candidates, &chosen);
-            answered = self.answers(&changed);
+    };
+    if setting.request.stages.guidance {
+        table.guide(&mut chosen);
+    }
+    let mut blockers: Vec<Option<AgentId>> = vec![None; of.actors.len()];
+    let rounds = if setting.request.stages.guidance { MOST_ROUNDS } else { 0 };
+    let first = table.settled(chosen);
+    let replan = |table: &mut Table<'_>, settled: &Settled| {
+        table.replan(settled, &mut blockers).then(|| {
+            let mut chosen = table.choice.solve();
+            table.restore_uncaused(&mut chosen);
+            chosen
+        })
+    };
+    let settled = replan_rounds(rounds, &mut table, first, replan, Table::settled);
+    table.decisions(settled, &blockers)
+}
+
+/// Replans at most `most` times, until the choice stays. `replan` gives the next choice without its uncaused reactions,
+/// or `None` where it finds no new candidate.
+fn replan_rounds<T>(
+    most: usize,
+    table: &mut T,
+    mut settled: Settled,
+    mut replan: impl FnMut(&mut T, &Settled) -> Option<Vec<usize>>,
+    settle: impl Fn(&T, Vec<usize>) -> Settled,
+) -> Settled {
+    for _ in 0..most {
+        match replan(table, &settled) {
+            Some(chosen) if chosen != settled.chosen => settled = settle(table, chosen),
+            _ => break,
         }
-        let (count, unlawful) = (self.request.modes.max(1), self.tuning().probability.unlawful);
-        let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
+    }
+    settled
+}
+
+/// A choice without uncaused reactions, and what follows from it.
+struct Settled {
+    /// Index of the candidate of each actor.
+    chosen: Vec<usize>,
+    /// The agent that causes the change of each reacting actor.
+    causes: Vec<Option<AgentId>>,
+    /// What the others see of the actors.
+    changed: Vec<Changed>,
+    reacted: Vec<Reacted>,
+}
+
+/// The candidates of all actors, and the options that the joint choice weighs: one for each candidate.
+struct Table<'a> {
+    of: JointDrafts<'a>,
+    judge: Judge<'a>,
+    choice: Choice<'a>,
+    candidates: Vec<Vec<Candidate>>,
+}
+
+impl Table<'_> {
+    /// A choice with its uncaused reactions undone, and the reactions of the others to it.
+    fn settled(&self, mut chosen: Vec<usize>) -> Settled {
+        let causes = self.restore_uncaused(&mut chosen);
+        let changed: Vec<Changed> = chosen
+            .iter()
+            .enumerate()
+            .map(|(i, option)| {
+                let sweep = Arc::clone(&self.choice.agents[i][*option].sweep);
+                self.change(i, &self.candidates[i][*option], sweep)
+            })
+            .collect();
+        let reacted = self.of.others.reactions(&changed.iter().collect::<Vec<_>>());
+        Settled { chosen, causes, changed, reacted }
+    }
+
+    fn change(&self, i: usize, taken: &Candidate, sweep: Arc<Sweep>) -> Changed {
+        Changed { id: self.of.actors[i].id.clone(), sweep, kept: taken.origin == Origin::Kept }
+    }
+
+    fn sweep(&self, i: usize, candidate: &Candidate) -> Sweep {
+        Sweep::of_rollout(&candidate.motion.states, &self.of.actors[i].plan.present.size)
+    }
+
+    /// What is shown of each actor.
+    fn decisions(self, settled: Settled, blockers: &[Option<AgentId>]) -> Decisions {
+        let setting = self.of.setting;
+        let (count, unlawful) = (setting.request.modes.max(1), setting.tuning().probability.unlawful);
+        let each = self.of.actors.iter().zip(&self.candidates).zip(&settled.chosen).enumerate();
         let actors = each.filter_map(|(i, ((actor, candidates), chosen))| {
-            let lawful: Vec<f64> = choice.agents[i].iter().map(|o| (-unlawful * o.broken).exp()).collect();
-            let (chosen, alternatives) = shown(candidates, &lawful, chosen, count)?;
-            let reaction = causes[i].as_ref().and_then(|cause| {
+            let lawful: Vec<f64> =
+                self.choice.agents[i].iter().map(|o| (-unlawful * o.rule_cost).exp()).collect();
+            let (chosen, alternatives) = shown(candidates.clone(), &lawful, *chosen, count)?;
+            let reaction = settled.causes[i].as_ref().and_then(|cause| {
                 let motion = &alternatives[chosen].motion.states;
-                let from_s = self.world.step as f64 * STEP_S;
+                let from_s = setting.world.step as f64 * STEP_S;
                 Some(reaction_of(actor.kept.as_ref()?, motion, cause.clone(), from_s))
             });
             let halts = alternatives[chosen].motion.reach.is_for_traffic();
             let blocked_by = blockers[i].clone().filter(|_| halts);
             let agent = actor.plan.present.index;
-            let answers = self.answers_to_each(i, chosen, &alternatives, &changed);
-            Some(Decided { agent, actor: i, chosen, alternatives, reaction, blocked_by, answers })
+            let reactions = self.reactions_to_each(i, chosen, &alternatives, &settled.changed);
+            Some(Decided { agent, actor: i, chosen, alternatives, reaction, blocked_by, reactions })
         });
-        Decisions { actors: actors.collect(), answered }
+        Decisions { actors: actors.collect(), reacted: settled.reacted }
     }
 
-    /// What the actors do, as the others see it.
-    fn changed(&self, candidates: &[Vec<Candidate>], chosen: &[usize]) -> Vec<Changed> {
-        self.indices().into_iter().map(|i| self.change(i, &candidates[i][chosen[i]])).collect()
-    }
-
-    fn change(&self, i: usize, taken: &Candidate) -> Changed {
-        let moving = Moving::of_rollout(&taken.motion.states, &self.actors[i].plan.present.size);
-        Changed { id: self.actors[i].id.clone(), moving, kept: taken.origin == Origin::Kept }
-    }
-
-    fn answers(&self, changed: &[Changed]) -> Vec<Answered> {
-        self.answerers.answers(&changed.iter().collect::<Vec<_>>())
-    }
-
-    /// What the others answer to each of an actor's alternatives, all other actors doing what is shown: for the verdicts
-    /// on them alone. Only whoever was asked for has futures to take.
-    fn answers_to_each(
+    /// The reactions to each alternative of an actor, with the shown motions of all other actors. The verdicts alone
+    /// need them, and only of the agents that the call regenerates.
+    fn reactions_to_each(
         &self,
         i: usize,
         chosen: usize,
         alternatives: &[Candidate],
         changed: &[Changed],
-    ) -> Vec<Option<Vec<Answered>>> {
-        if !self.request.stages.judged
-            || self.request.react == React::Nobody
-            || self.actors[i].kept.is_some()
-            || self.world.step > self.request.start_step
+    ) -> Vec<Option<Vec<Reacted>>> {
+        let JointDrafts { setting, others, .. } = self.of;
+        if !setting.request.stages.judged
+            || setting.request.react == React::Nobody
+            || self.of.actors[i].kept.is_some()
+            || setting.world.step > setting.request.start_step
         {
             return Vec::new();
         }
-        let shown_is_met = self.answerers.are_met_by(&changed[i].moving.swept);
+        let shown_matters = others.would_react_to(&changed[i].sweep);
         let each: Vec<usize> = (0..alternatives.len()).collect();
-        self.workers().map(&each, |&k| {
-            let other = (k != chosen).then(|| self.change(i, &alternatives[k]))?;
-            if !shown_is_met && !self.answerers.are_met_by(&other.moving.swept) {
+        setting.workers().map(&each, |&k| {
+            let taken = alternatives.get(k).filter(|_| k != chosen)?;
+            let other = self.change(i, taken, Arc::new(self.sweep(i, taken)));
+            if !shown_matters && !others.would_react_to(&other.sweep) {
                 return None;
             }
             let seen: Vec<&Changed> =
                 changed.iter().enumerate().map(|(j, c)| if j == i { &other } else { c }).collect();
-            Some(self.answerers.answers(&seen))
+            Some(others.reactions(&seen))
         })
     }
 
-    /// Where somebody who was asked for still meets others, whatever they answer, leaves the road for a goal on it,
-    /// or breaks its rules with no goal at all, ways round become further candidates. True where the choice takes
-    /// another than before.
-    fn evade(
-        &self,
-        judge: &Judge<'_>,
-        choice: &mut Choice<'_>,
-        candidates: &mut [Vec<Candidate>],
-        chosen: &mut Vec<usize>,
-        (changed, answered): (&[Changed], &[Answered]),
-        blockers: &mut [Option<AgentId>],
-    ) -> bool {
-        let answering = self.answerers.movings_with(answered);
-        let may_answer = self.request.react != React::Nobody;
-        let found = self.workers().map(&self.indices(), |&i| {
-            let actor = &self.actors[i];
-            let shown = &candidates[i][chosen[i]];
-            if actor.kept.is_some() || actor.keeps_still() || shown.origin == Origin::Rest {
-                return (Vec::new(), None);
-            }
-            let actors = changed.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| &c.moving);
-            let others: Vec<&Moving> =
-                answering.iter().map(|(_, moving)| moving.as_ref()).chain(actors).collect();
-            let own = &changed[i].moving;
-            let is_met = |o: &Moving| own.starts_apart(o) && own.meets(o);
-            let met = answering.iter().find(|(_, moving)| is_met(moving));
-            let meets = met.is_some() || others.iter().any(|o| is_met(o));
-            // Nothing was asked that would be missed by waiting behind whoever is in the lawful way.
-            let free = actor.plan.target.position.is_none();
-            let leaves = leaves_the_road(actor, &shown.motion);
-            let breaks = free && (leaves || is_against_traffic(actor, &shown.motion));
-            if !meets && !leaves && !breaks {
-                return (Vec::new(), None);
-            }
-            // Who only replays its log would answer if it might: to halt before it says nothing of the goal.
-            let halts = breaks
-                || meets
-                    && (may_answer || met.is_some_and(|(_, moving)| moving.stands()))
-                    && !is_asked_to_meet(actor, &shown.motion, &others);
-            let costs = &choice.agents[i];
-            let mut order: Vec<usize> = (0..candidates[i].len()).collect();
-            order.sort_by(|a, b| costs[*a].cost.total_cmp(&costs[*b].cost));
-            order.retain(|o| *o != chosen[i]);
-            order.insert(0, chosen[i]);
-            let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
-            let off_lanes_m = self.tuning().choice.off_lanes_m;
-            let field = Field { graph: &self.map.graph, off_lanes_m, others: &others };
-            let size = &actor.plan.present.size;
-            let is_clear = |c: &Candidate| {
-                let boxes = swept(&c.motion.states, size);
-                !others.iter().any(|o| own.starts_apart(o) && overlap(&boxes, &o.swept).overlaps)
-            };
-            let mut found: Vec<Candidate> = Vec::new();
-            // What no way reaches is missed for its own reason, whoever is in the way.
-            let missed_for = |motion: Motion, o: usize| motion.for_want_of(candidates[i][o].motion.reach);
-            let before = self.material(i).shown_halting().filter(|c| halts && is_clear(c));
-            found.extend(before.map(|c| Candidate { motion: missed_for(c.motion, chosen[i]), ..c }));
-            for (o, slot) in tried.take(MOST_TRIED) {
-                let plan = &actor.plan;
-                let states = &candidates[i][o].motion.states;
-                let mut add = |origin, motion: Option<Motion>| {
-                    found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
-                };
-                add(Origin::Evading(slot), way_round(plan, field, slot, states));
-                if halts {
-                    let halting = short_of(plan, field, states);
-                    add(Origin::Halting(slot), halting.map(|motion| missed_for(motion, o)));
-                }
-            }
-            (found, met.map(|(id, _)| (*id).clone()))
-        });
+    /// Adds replanned motions of the actors that still meet another agent, leave the road for a goal on it, or break
+    /// rules without any goal. False where it finds none. `blockers` are the agents that are met.
+    fn replan(&mut self, settled: &Settled, blockers: &mut [Option<AgentId>]) -> bool {
+        let others = self.of.others.with(&settled.reacted);
+        let found =
+            self.of.setting.workers().map(&self.of.indices(), |&i| self.replanned(i, settled, &others));
         let mut changes = false;
         for (i, (found, met)) in found.into_iter().enumerate().filter(|(_, (found, _))| !found.is_empty()) {
             blockers[i] = blockers[i].take().or(met);
-            candidates[i].extend(found);
-            choice.agents[i] = self.options(judge, i, &candidates[i]);
+            self.candidates[i].extend(found);
+            self.choice.agents[i] = self.options(i);
             changes = true;
         }
-        if !changes {
-            return false;
-        }
-        let before = std::mem::replace(chosen, choice.solve());
-        *chosen != before
+        changes
     }
 
-    /// Reacting actors that left what they do without a cause go back to it. Says what caused the others, one entry
-    /// an actor.
-    fn put_back(&self, choice: &Choice<'_>, chosen: &mut [usize]) -> Vec<Option<AgentId>> {
-        let moving = |i: usize, option: usize| &choice.agents[i][option].boxes;
-        let has_own = |i: usize| choice.agents[i].first().is_some_and(|o| o.kept);
+    /// Replanned motions of one actor, and the agent that its chosen motion meets.
+    fn replanned(
+        &self,
+        i: usize,
+        settled: &Settled,
+        others: &[(&AgentId, Cow<'_, Sweep>)],
+    ) -> (Vec<Candidate>, Option<AgentId>) {
+        let setting = self.of.setting;
+        let (actor, candidates, chosen) = (&self.of.actors[i], &self.candidates[i], settled.chosen[i]);
+        let shown = &candidates[chosen];
+        if actor.kept.is_some() || actor.keeps_still() || shown.origin == Origin::Rest {
+            return (Vec::new(), None);
+        }
+        let actors = settled.changed.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| &*c.sweep);
+        let all: Vec<&Sweep> = others.iter().map(|(_, sweep)| sweep.as_ref()).chain(actors).collect();
+        let own = &settled.changed[i].sweep;
+        let is_met = |o: &Sweep| own.starts_apart(o) && own.meets(o);
+        let met = others.iter().find(|(_, sweep)| is_met(sweep));
+        let meets = met.is_some() || all.iter().any(|o| is_met(o));
+        // Without a goal nothing is missed by waiting behind an agent in the lawful way.
+        let free = actor.plan.target.position.is_none();
+        let leaves = leaves_the_road(actor, &shown.motion);
+        let breaks = free && (leaves || is_against_traffic(actor, &shown.motion));
+        if !meets && !leaves && !breaks {
+            return (Vec::new(), None);
+        }
+        // With reactions off a replaying agent does not yield, so stopping for it would hide that the goal is reachable.
+        let may_react = setting.request.react != React::Nobody;
+        let stops = breaks
+            || meets
+                && (may_react || met.is_some_and(|(_, sweep)| sweep.stands()))
+                && !is_asked_to_meet(actor, &shown.motion, &all);
+        let size = &actor.plan.present.size;
+        let is_clear = |c: &Candidate| {
+            let sweep = Sweep::of_rollout(&c.motion.states, size);
+            !all.iter().any(|o| own.starts_apart(o) && overlap(sweep.swept(), o.swept()).overlaps)
+        };
+        // Where no candidate reaches the goal, it is missed for that reason and not for the agent in the way.
+        let missed = |motion: Rollout, o: usize| motion.with_reason_of(candidates[o].motion.reach);
+        let mut found: Vec<Candidate> = Vec::new();
+        let before = self.of.material(i).shown_stopping().filter(|c| stops && is_clear(c));
+        found.extend(before.map(|c| Candidate { motion: missed(c.motion, chosen), ..c }));
+        let off_lanes_m = setting.tuning().choice.off_lanes_m;
+        let weights = &setting.tuning().replan;
+        let field = ReplanField { graph: &setting.map.graph, off_lanes_m, weights, others: &all };
+        let costs = &self.choice.agents[i];
+        let mut order: Vec<usize> = (0..candidates.len()).collect();
+        order.sort_by(|a, b| costs[*a].cost.total_cmp(&costs[*b].cost));
+        order.retain(|o| *o != chosen);
+        order.insert(0, chosen);
+        let tried = order.into_iter().filter_map(|o| Some((o, candidates[o].origin.slot()?)));
+        for (o, slot) in tried.take(MOST_TRIED) {
+            let states = &candidates[o].motion.states;
+            let mut add = |origin, motion: Option<Rollout>| {
+                found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
+            };
+            add(Origin::Swerving(slot), swerve(&actor.plan, field, slot, states));
+            if stops {
+                let stopping = stop_before(&actor.plan, field, states);
+                add(Origin::Stopping(slot), stopping.map(|motion| missed(motion, o)));
+            }
+        }
+        (found, met.map(|(id, _)| (*id).clone()))
+    }
+
+    /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each
+    /// other change, one entry an actor.
+    fn restore_uncaused(&self, chosen: &mut [usize]) -> Vec<Option<AgentId>> {
+        let option = |i: usize, option: usize| &*self.choice.agents[i][option].sweep;
+        let has_own = |i: usize| self.choice.agents[i].first().is_some_and(|o| o.kept);
         let (reacting, asked): (Vec<usize>, Vec<usize>) =
-            self.indices().into_iter().partition(|i| has_own(*i));
-        let sources = asked.iter().map(|i| (&self.actors[*i].id, moving(*i, chosen[*i])));
-        let kept: Vec<_> = reacting.iter().map(|i| moving(*i, 0)).collect();
+            self.of.indices().into_iter().partition(|i| has_own(*i));
+        let actors = self.of.actors;
+        let sources = asked.iter().map(|i| (&actors[*i].id, option(*i, chosen[*i])));
+        let kept: Vec<_> = reacting.iter().map(|i| option(*i, 0)).collect();
         let changes: Vec<_> = reacting
             .iter()
-            .map(|i| (chosen[*i] != 0).then(|| (&self.actors[*i].id, moving(*i, chosen[*i]))))
+            .map(|i| (chosen[*i] != 0).then(|| (&actors[*i].id, option(*i, chosen[*i]))))
             .collect();
-        let mut causes = vec![None; self.actors.len()];
+        let mut causes = vec![None; actors.len()];
         for (i, cause) in reacting.iter().zip(caused(sources.collect(), &kept, &changes)) {
             if cause.is_none() {
                 chosen[*i] = 0;
@@ -272,78 +326,75 @@ impl Window<'_> {
         causes
     }
 
-    /// Where the chosen scene still has conflicts, drafts guided out of them become further candidates; the choice
-    /// takes them only where that costs less.
-    fn guide(
-        &self,
-        judge: &Judge<'_>,
-        choice: &mut Choice<'_>,
-        candidates: &mut [Vec<Candidate>],
-        chosen: &mut Vec<usize>,
-    ) {
-        let mut conflict = choice.in_conflict(chosen);
+    /// Where the chosen scene still has conflicts, adds drafts that are guided out of them; the choice takes them only
+    /// where that costs less.
+    fn guide(&mut self, chosen: &mut Vec<usize>) {
+        let JointDrafts { setting, actors, drafts, others, .. } = self.of;
+        let mut conflict = self.choice.in_conflict(chosen);
         for (i, conflict) in conflict.iter_mut().enumerate() {
-            *conflict |= self.burden(i, &candidates[i][chosen[i]]) >= self.tuning().choice.close;
+            *conflict |= self.burden(i, chosen[i]) >= setting.tuning().choice.close;
         }
         if !conflict.contains(&true) {
             return;
         }
-        let outlines: Vec<Outline> = (0..self.actors.len())
+        let energy = self.of.energy();
+        let of_actors: Vec<Outline> = (0..actors.len())
             .map(|i| {
-                let shown = &candidates[i][chosen[i]];
-                let poses = poses_of_states(&shown.motion.states);
-                Outline::new(poses, &self.actors[i].plan.present, self.energy().tuning)
+                let places = self.candidates[i][chosen[i]].motion.places();
+                Outline::new(&places, &actors[i].plan.present.size, energy.tuning)
             })
             .collect();
+        let background = outlines(others.sweeps(), energy.tuning);
         let concerned: Vec<usize> =
-            self.indices().into_iter().filter(|i| conflict[*i] && !self.actors[*i].keeps_still()).collect();
-        let found = self.workers().map(&concerned, |&i| {
-            let others = outlines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
-            let others: Vec<&Outline> = others.chain(&self.background.outlines).collect();
-            let tuning = &self.tuning().guidance;
-            guided(&self.energy(), tuning, &self.actors[i], &self.drafts[i].modes, &candidates[i], &others)
+            self.of.indices().into_iter().filter(|i| conflict[*i] && !actors[*i].keeps_still()).collect();
+        let found = setting.workers().map(&concerned, |&i| {
+            let near = of_actors.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
+            let near: Vec<&Outline> = near.chain(&background).collect();
+            let tuning = &setting.tuning().guidance;
+            guided(&energy, tuning, &actors[i], &drafts[i].modes, &self.candidates[i], &near)
         });
         for (i, found) in concerned.into_iter().zip(found) {
-            candidates[i].extend(found);
-            choice.agents[i] = self.options(judge, i, &candidates[i]);
+            self.candidates[i].extend(found);
+            self.choice.agents[i] = self.options(i);
         }
-        *chosen = choice.solve();
+        *chosen = self.choice.solve();
     }
 
-    fn options(&self, judge: &Judge<'_>, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
-        let actor = &self.actors[i];
+    fn options(&self, i: usize) -> Vec<JointOption> {
+        let JointDrafts { setting, others, sample, .. } = self.of;
+        let (actor, candidates) = (&self.of.actors[i], &self.candidates[i]);
         let yardstick = Yardstick {
-            around: self.material(i).around(self.sample),
-            shown: self.shown_last(actor),
-            map: &self.map,
-            judge,
-            others: &self.traces,
-            agent: self.world.agent(&actor.plan.present),
-            start_step: self.world.step,
-            tuning: &self.tuning().choice,
+            around: self.of.material(i).around(sample),
+            shown: self.of.shown_last(actor),
+            map: &setting.map,
+            judge: &self.judge,
+            others,
+            agent: setting.world.agent(&actor.plan.present),
+            start_step: setting.world.step,
+            tuning: &setting.tuning().choice,
         };
         let mut options = options(actor, candidates, &yardstick);
-        let meets = |&o: &usize| self.answerers.are_met_by(&options[o].boxes);
-        let met: Vec<usize> = (0..candidates.len()).filter(meets).collect();
-        let burdens = self.workers().map(&met, |&o| self.burden(i, &candidates[o]));
+        let matters = |&o: &usize| others.would_react_to(&options[o].sweep);
+        let met: Vec<usize> = (0..candidates.len()).filter(matters).collect();
+        let cost = |&o: &usize| {
+            if candidates[o].origin == Origin::Kept { 0.0 } else { others.burden(&options[o].sweep) }
+        };
+        let burdens = setting.workers().map(&met, cost);
         for (o, burden) in met.into_iter().zip(burdens) {
             options[o].cost += burden;
         }
         options
     }
 
-    /// What it costs the others that an actor does this.
-    fn burden(&self, i: usize, candidate: &Candidate) -> f64 {
-        if candidate.origin == Origin::Kept {
-            return 0.0;
-        }
-        let size = &self.actors[i].plan.present.size;
-        self.answerers.burden(&Moving::of_rollout(&candidate.motion.states, size))
+    /// What an option of an actor costs the others.
+    fn burden(&self, i: usize, option: usize) -> f64 {
+        let option = &self.choice.agents[i][option];
+        if option.kept { 0.0 } else { self.of.others.burden(&option.sweep) }
     }
 }
 
-/// A vehicle on the road is led off it although its goal, if it has one, lies on it.
-fn leaves_the_road(actor: &Actor, motion: &Motion) -> bool {
+/// A vehicle on the road leaves it although its goal, if it has one, lies on it.
+fn leaves_the_road(actor: &Actor, motion: &Rollout) -> bool {
     let Some(ground) = &actor.plan.ground else { return false };
     let is_off = |state: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
@@ -353,21 +404,52 @@ fn leaves_the_road(actor: &Actor, motion: &Motion) -> bool {
     !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
 }
 
-/// A vehicle on the road is led against the traffic.
-fn is_against_traffic(actor: &Actor, motion: &Motion) -> bool {
+/// A vehicle on the road drives against the traffic.
+fn is_against_traffic(actor: &Actor, motion: &Rollout) -> bool {
     let ground = actor.plan.ground.as_deref();
     ground.is_some_and(|ground| {
         motion.states.iter().step_by(PER_INSTANT).any(|state| drives_against(ground, state))
     })
 }
 
-/// The goal lies where somebody is when it is due: to meet them there is what was asked.
-fn is_asked_to_meet(actor: &Actor, motion: &Motion, others: &[&Moving]) -> bool {
+/// Another agent is at the goal when it is due: the request asks to meet it there.
+fn is_asked_to_meet(actor: &Actor, motion: &Rollout, others: &[&Sweep]) -> bool {
     let target = &actor.plan.target;
     let there = motion.states.get(target.step).filter(|_| target.position.is_some());
     there.is_some_and(|state| {
         let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
-        let places = others.iter().filter_map(|other| other.boxes.get(target.step)?.as_ref());
-        places.into_iter().any(|place| overlaps(&outline, place, 0.0))
+        others.iter().filter_map(|other| other.at(target.step)).any(|place| overlaps(&outline, place, 0.0))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settled(chosen: Vec<usize>) -> Settled {
+        Settled { chosen, causes: Vec::new(), changed: Vec::new(), reacted: Vec::new() }
+    }
+
+    /// Rounds that are run, and the choice after them, where each of them ends in one of these choices.
+    fn rounds(choices: &[Option<&[usize]>]) -> (usize, Vec<usize>) {
+        let mut count = 0;
+        let next = |count: &mut usize, _: &Settled| {
+            *count += 1;
+            choices[*count - 1].map(<[usize]>::to_vec)
+        };
+        let last = replan_rounds(choices.len(), &mut count, settled(vec![2, 0]), next, |_, c| settled(c));
+        (count, last.chosen)
+    }
+
+    #[test]
+    fn a_reaction_without_a_cause_starts_no_further_round() {
+        // The new candidates let the second actor react; without a cause it has its kept motion again.
+        assert_eq!(rounds(&[Some(&[2, 0]), Some(&[2, 0])]), (1, vec![2, 0]));
+    }
+
+    #[test]
+    fn rounds_go_on_while_the_choice_changes_and_end_where_nothing_is_found() {
+        assert_eq!(rounds(&[Some(&[3, 0]), Some(&[3, 1])]), (2, vec![3, 1]));
+        assert_eq!(rounds(&[None, Some(&[3, 1])]), (1, vec![2, 0]));
+    }
 }

@@ -1,30 +1,33 @@
 //! What the networks make of the actors of a window: first modes, a sample's draw, refinement steps.
 
-use super::actor::{Actor, Drafts, by_probability};
+use super::actor::{Actor, by_probability};
 use super::candidates::leads_by_probability;
+use super::diversity::DiverseModes;
+use super::drafts::Drafts;
 use super::duplicate_modes;
+use super::joint_drafts::JointDrafts;
 use super::noise::Key;
 use super::overlaps::resolve_overlaps;
-use super::repulsion::repulsions;
+use super::repulsion::{outlines, repulsions};
+use super::sampling::widen;
 use super::slot::Slot;
 use super::trajectory::may_rest;
-use super::widening::widen;
-use super::window::Window;
+use super::window_setting::WindowSetting;
 use crate::features::stays_in_the_world;
 use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
 use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::request::{GenerateError, Request, Shown};
+use crate::tuning::fixed::drafting::STAYS_ABOVE;
 use crate::weights::EXPERTS;
 use scene::{AgentId, AgentType};
 
-/// Fewest road users of a type in one network call, so that cutting them over threads pays.
+/// Fewest agents of a type in one network call, so that cutting them over threads pays.
 const FEWEST_IN_BATCH: usize = 4;
-/// What is more likely than this to stay does.
-const STAYS_ABOVE: f64 = 0.5;
 
-/// Road users of one expert that run in one network call.
+/// Actors of one expert that run in one network call.
 pub(super) struct Batch {
     agent_type: AgentType,
+    /// Indices of the window's actors.
     actors: Vec<usize>,
     prepared: Prepared,
 }
@@ -35,140 +38,157 @@ impl From<NetError> for GenerateError {
     }
 }
 
-impl Window<'_> {
-    /// Runs encoder and initializer on road users that will be numbered after the actors there are.
-    pub(super) fn encode(&self, actors: &mut [Actor]) -> Result<Vec<Batch>, GenerateError> {
-        let first = self.actors.len();
-        let mut groups: Vec<(AgentType, Vec<usize>)> = Vec::new();
-        for (agent_type, _) in EXPERTS {
-            let of_type = |i: &usize| actors[*i].plan.present.agent_type == agent_type;
-            let all: Vec<usize> = (0..actors.len()).filter(of_type).collect();
-            let run = all.len().div_ceil(self.workers().threads()).max(FEWEST_IN_BATCH);
-            groups.extend(all.chunks(run).map(|part| (agent_type, part.to_vec())));
-        }
-        let shared = &*actors;
-        let results = self.workers().map(&groups, |(agent_type, members)| {
-            let expert = self.generator.expert(*agent_type)?;
-            let features: Vec<_> = members.iter().map(|i| &shared[*i].plan.features).collect();
-            let context: Context = expert.encode(&features)?;
-            let output = expert.initialize(&context)?;
-            let prepared = expert.prepare_refine(&context)?;
-            Ok::<_, GenerateError>((output, prepared))
-        });
-        let mut batches = Vec::with_capacity(groups.len());
-        for ((agent_type, members), result) in groups.into_iter().zip(results) {
-            let (output, prepared) = result?;
-            for (row, index) in members.iter().enumerate() {
-                self.initialize(&mut actors[*index], &output, row)?;
-            }
-            let actors = members.into_iter().map(|i| i + first).collect();
-            batches.push(Batch { agent_type, actors, prepared });
-        }
-        Ok(batches)
+/// Runs encoder and initializer on actors; `first` is the number of the first of them in the window.
+pub(super) fn encode(
+    setting: &WindowSetting<'_>,
+    actors: &mut [Actor],
+    first: usize,
+) -> Result<Vec<Batch>, GenerateError> {
+    let workers = setting.workers();
+    let mut groups: Vec<(AgentType, Vec<usize>)> = Vec::new();
+    for (agent_type, _) in EXPERTS {
+        let of_type = |i: &usize| actors[*i].plan.present.agent_type == agent_type;
+        let all: Vec<usize> = (0..actors.len()).filter(of_type).collect();
+        let run = all.len().div_ceil(workers.threads()).max(FEWEST_IN_BATCH);
+        groups.extend(all.chunks(run).map(|part| (agent_type, part.to_vec())));
     }
-
-    /// Sets an actor's first modes, and whether it rests, from a row of the initializer's output.
-    fn initialize(&self, actor: &mut Actor, output: &InitialOutput, row: usize) -> Result<(), GenerateError> {
-        finite(&output.residual[row], 0, &actor.id)?;
-        let sure = actor.plan.target.position.is_some();
-        let temperature = if sure { 1.0 } else { self.tuning().probability.temperature };
-        actor.heeds(&self.tuning().speeds);
-        let mut modes = actor.heeded(output.residual[row]);
-        let mut probability = softmax(&output.log_prob[row], temperature);
-        if self.request.stages.parted {
-            let tuning = &self.tuning().duplicates;
-            duplicate_modes::replace(&actor.plan, &mut modes, &mut probability, tuning);
+    let shared = &*actors;
+    let results = workers.map(&groups, |(agent_type, members)| {
+        let expert = setting.resources.expert(*agent_type)?;
+        let features: Vec<_> = members.iter().map(|i| &shared[*i].plan.features).collect();
+        let context: Context = expert.encode(&features)?;
+        let output = expert.initialize(&context)?;
+        let prepared = expert.prepare_refine(&context)?;
+        Ok::<_, GenerateError>((output, prepared))
+    });
+    let mut batches = Vec::with_capacity(groups.len());
+    for ((agent_type, members), result) in groups.into_iter().zip(results) {
+        let (output, prepared) = result?;
+        for (row, index) in members.iter().enumerate() {
+            initialize(setting, &mut actors[*index], &output, row)?;
         }
-        actor.set_modes(modes, probability);
-        actor.stays_probability = stays_in_the_world(f64::from(output.stays[row]));
-        let free = actor.plan.is_free();
-        let waits = actor.plan.sets_off();
-        let stays = !free || (actor.stays_probability > STAYS_ABOVE && !waits) || actor.is_parked();
-        actor.rests = actor.stays_parked || (may_rest(&actor.plan, self.number) && stays);
-        Ok(())
+        let actors = members.into_iter().map(|i| i + first).collect();
+        batches.push(Batch { agent_type, actors, prepared });
     }
+    Ok(batches)
+}
 
-    /// Fresh drafts for a sample: the modes with the draw's noise.
-    pub(super) fn begin_sample(&mut self, sample: usize) -> Result<(), GenerateError> {
-        self.sample = sample;
-        let (seed, window) = (self.request.seed, self.number);
-        let key = Key { seed, sample, agent: "", window, step: 0 };
-        let likeliest_leads = leads_by_probability(self.request.stages.shown, sample);
-        let fresh = |actor: &Actor| {
-            let leading = if likeliest_leads {
-                actor.likeliest()
-            } else {
-                pick(&actor.probability, Key { agent: &actor.id, step: u64::MAX, ..key }.unit())
-            };
-            Drafts::of(actor, leading)
+/// Sets an actor's first modes, and whether it rests, from a row of the initializer's output.
+fn initialize(
+    setting: &WindowSetting<'_>,
+    actor: &mut Actor,
+    output: &InitialOutput,
+    row: usize,
+) -> Result<(), GenerateError> {
+    finite(&output.residual[row], 0, &actor.id)?;
+    let tuning = setting.tuning();
+    let sure = actor.plan.target.position.is_some();
+    let temperature = if sure { 1.0 } else { tuning.probability.temperature };
+    actor.weigh_networks(&tuning.speeds);
+    let mut modes = actor.weighed(output.residual[row]);
+    let mut probability = softmax(&output.log_prob[row], temperature);
+    if setting.request.stages.parted {
+        duplicate_modes::replace(&actor.plan, &mut modes, &mut probability, &tuning.duplicates);
+    }
+    actor.set_modes(modes, probability);
+    actor.stays_probability = stays_in_the_world(f64::from(output.stays[row]));
+    let free = actor.plan.is_free();
+    let waits = actor.plan.sets_off();
+    let stays = !free || (actor.stays_probability > STAYS_ABOVE && !waits) || actor.is_parked();
+    actor.rests = actor.stays_parked || (may_rest(&actor.plan, setting.number) && stays);
+    Ok(())
+}
+
+/// Fresh drafts for a sample, one entry an actor: the modes with the draw's noise. `diverse` has an entry an actor.
+pub(super) fn first_drafts(
+    setting: &WindowSetting<'_>,
+    actors: &[Actor],
+    batches: &[Batch],
+    diverse: &[Option<DiverseModes>],
+    sample: usize,
+) -> Result<Vec<Drafts>, GenerateError> {
+    let request = &*setting.request;
+    let key = Key { seed: request.seed, sample, agent: "", window: setting.number, step: 0 };
+    let likeliest_leads = leads_by_probability(request.stages.shown, sample);
+    let fresh = |actor: &Actor| {
+        let leading = if likeliest_leads {
+            actor.likeliest()
+        } else {
+            pick(&actor.probability, Key { agent: &actor.id, step: u64::MAX, ..key }.unit())
         };
-        self.drafts = self.actors.iter().map(fresh).collect();
-        if let Some(&(level, _)) = levels(&self.request).first() {
-            self.add_noise(key, level)?;
-        }
-        let (diversity, tuning) = (self.request.diversity, &self.generator.tuning.diversity);
-        let widened = self.workers().map(&self.indices(), |&i| {
-            let actor = &self.actors[i];
-            let cover = actor.cover.as_ref()?;
-            Some((cover.offset, widen(actor, cover, diversity, Key { agent: &actor.id, ..key }, tuning)))
-        });
-        for (drafts, widened) in self.drafts.iter_mut().zip(widened) {
-            let Some((offset, (added, probability))) = widened else { continue };
-            drafts.add(&offset);
-            drafts.add(&added);
-            drafts.probability = probability;
-            drafts.order = by_probability(&probability);
-        }
-        Ok(())
-    }
-
-    /// The draw's noise, which refinement takes out again but for a trace.
-    fn add_noise(&mut self, key: Key<'_>, level: usize) -> Result<(), GenerateError> {
-        for batch in &self.batches {
-            let modes: Vec<Modes> = batch.actors.iter().map(|i| self.drafts[*i].modes).collect();
-            let noise = |i: &usize| Key { agent: &self.actors[*i].id, ..key }.normals(self.request.diversity);
+        Drafts::of(actor, leading)
+    };
+    let mut drafts: Vec<Drafts> = actors.iter().map(fresh).collect();
+    if let Some(&(level, _)) = levels(request).first() {
+        for batch in batches {
+            let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].modes).collect();
+            // Refinement takes the draw's noise out again but for a trace.
+            let noise = |i: &usize| Key { agent: &actors[*i].id, ..key }.normals(request.diversity);
             let noise: Vec<Modes> = batch.actors.iter().map(noise).collect();
-            let expert = self.generator.expert(batch.agent_type)?;
+            let expert = setting.resources.expert(batch.agent_type)?;
             let noisy = expert.add_noise(&batch.prepared, &modes, &noise, level)?;
             for (i, modes) in batch.actors.iter().zip(noisy) {
-                self.drafts[*i].modes = modes;
+                drafts[*i].modes = modes;
             }
         }
-        Ok(())
     }
+    let (diversity, tuning) = (request.diversity, &setting.tuning().diversity);
+    let each: Vec<_> = actors.iter().zip(diverse).collect();
+    let widened = setting.workers().map(&each, |(actor, diverse)| {
+        let diverse = diverse.as_ref()?;
+        Some((diverse.offset, widen(actor, diverse, diversity, Key { agent: &actor.id, ..key }, tuning)))
+    });
+    for (drafts, widened) in drafts.iter_mut().zip(widened) {
+        let Some((offset, (added, probability))) = widened else { continue };
+        drafts.add(&offset);
+        drafts.add(&added);
+        drafts.probability = probability;
+        drafts.order = by_probability(&probability);
+    }
+    Ok(drafts)
+}
 
-    /// One refinement step for everybody.
-    pub(super) fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
-        let levels = levels(&self.request);
-        let Some(&level) = levels.get(step - 1) else { return Ok(()) };
-        let Self { actors, drafts, background, .. } = &*self;
-        let refining = &self.request.stages.refining;
-        let repulsions = if refining.repulsion {
-            repulsions(&self.energy(), self.workers(), actors, drafts, &background.outlines)
-        } else {
-            vec![[[0.0; RESIDUAL]; MODES]; actors.len()]
-        };
-        let results = self.workers().map(&self.batches, |batch| {
-            let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].plain()).collect();
-            let repulsion: Vec<Modes> = batch.actors.iter().map(|i| repulsions[*i]).collect();
-            let expert = self.generator.expert(batch.agent_type)?;
-            Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, &repulsion, level, None)?)
-        });
-        for (batch, result) in self.batches.iter().zip(results) {
-            for (i, modes) in batch.actors.iter().zip(result?) {
-                finite(&modes, step, &self.actors[*i].id)?;
-                self.drafts[*i].refined(self.actors[*i].heeded(modes));
-            }
+/// The drafts of every actor after a refinement step.
+pub(super) fn refine(
+    of: JointDrafts<'_>,
+    batches: &[Batch],
+    step: usize,
+) -> Result<Vec<Drafts>, GenerateError> {
+    let JointDrafts { setting, actors, others, sample, .. } = of;
+    let mut drafts = of.drafts.to_vec();
+    let stages = &setting.request.stages;
+    let levels = levels(&setting.request);
+    let Some(&level) = levels.get(step - 1) else { return Ok(drafts) };
+    // The choice and guidance clear the first sample that is chosen, and its user waits.
+    let drawn = sample > 0 || stages.shown != Shown::Chosen;
+    let resolves = drawn && stages.refining.resolve_overlaps && step == levels.len();
+    let energy = of.energy();
+    let obstacles = if stages.refining.repulsion || resolves {
+        outlines(others.sweeps(), energy.tuning)
+    } else {
+        Vec::new()
+    };
+    let repulsions = if stages.refining.repulsion {
+        repulsions(&energy, setting.workers(), actors, &drafts, &obstacles)
+    } else {
+        vec![[[0.0; RESIDUAL]; MODES]; actors.len()]
+    };
+    let results = setting.workers().map(batches, |batch| {
+        let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].plain()).collect();
+        let repulsion: Vec<Modes> = batch.actors.iter().map(|i| repulsions[*i]).collect();
+        let expert = setting.resources.expert(batch.agent_type)?;
+        Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, &repulsion, level, None)?)
+    });
+    for (batch, result) in batches.iter().zip(results) {
+        for (i, modes) in batch.actors.iter().zip(result?) {
+            finite(&modes, step, &actors[*i].id)?;
+            drafts[*i].refined(actors[*i].weighed(modes));
         }
-        // A first sample that is chosen does without: choice and guidance clear it, and its user waits.
-        let drawn = self.sample > 0 || self.request.stages.shown != Shown::Chosen;
-        if drawn && self.request.stages.refining.resolve_overlaps && step == levels.len() {
-            let mut drafts = std::mem::take(&mut self.drafts);
-            resolve_overlaps(&self.energy(), &self.actors, &mut drafts, &self.background.outlines);
-            self.drafts = drafts;
-        }
-        Ok(())
     }
+    if resolves {
+        resolve_overlaps(&energy, actors, &mut drafts, &obstacles);
+    }
+    Ok(drafts)
 }
 
 /// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.

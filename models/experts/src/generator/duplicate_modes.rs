@@ -6,10 +6,10 @@
 //! the six; on synthetic traffic, where the modes are sure with reason, next to nothing is lost.
 
 use super::slot::Slot;
-use super::trajectory::{BASIS, PER_INSTANT, places};
+use super::trajectory::{BASIS, places};
 use crate::features::agent::AgentPlan;
 use crate::planning::profile::{Caps, approaching};
-use crate::planning::{ALONG_SCALE, INSTANTS, MODES, Modes, Residual};
+use crate::planning::{ALONG_SCALE, INSTANTS, MODES, Modes, PER_INSTANT, Residual};
 use crate::tuning::DuplicateTuning;
 use nalgebra::{SMatrix, SVector};
 use scene::motion::Kind;

@@ -4,7 +4,7 @@ use super::actor::Actor;
 use super::candidates::{Candidate, Origin};
 use super::repulsion::{Outline, SceneEnergy, Terms};
 use super::slot::Slot;
-use super::trajectory::{Motion, places, to_trajectory};
+use super::trajectory::{Rollout, places, to_trajectory};
 use crate::planning::{Modes, Residual};
 use crate::tuning::GuidanceTuning;
 
@@ -33,7 +33,7 @@ fn out_of_the_way(
     slot: Slot,
     residual: &Residual,
     others: &[&Outline],
-) -> Option<Motion> {
+) -> Option<Rollout> {
     let share = tuning.share as f32;
     let mut moved = *residual;
     let mut repelled = false;

@@ -1,48 +1,54 @@
 //! The generator: three experts behind their gate, and calls that yield events.
 
 mod actor;
-mod background;
 mod candidates;
+mod cast;
 mod choice;
 mod costs;
-mod covering;
 mod decide;
+mod diversity;
+mod draft_relations;
+mod draft_traces;
 mod drafting;
+mod drafts;
 mod duplicate_modes;
-mod evading;
 mod extrapolation;
 mod generation;
 mod guidance;
-mod ideas;
+mod joint_drafts;
 mod kerb;
+mod motion;
 mod noise;
+mod others;
 mod overlaps;
-mod passing;
-mod reacting;
+mod replan;
 mod report;
 mod repulsion;
+mod resources;
 mod rounds;
 #[cfg(test)]
 mod samples;
+mod sampling;
 mod slot;
-mod standing;
 mod stepping_out;
 mod subgoal;
 mod trajectory;
-mod widening;
-mod window;
+mod variations;
+mod via_steering;
+mod window_setting;
 mod workers;
 
 pub use generation::Generation;
 
 use crate::clock::{self, Clock};
-use crate::maps::{KnownMap, Maps};
+use crate::maps::Maps;
 use crate::net::Expert;
 use crate::request::{Answer, Cancel, Event, GenerateError, Request};
 use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
+use resources::Resources;
 use scene::map::Lane;
-use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype, Vec2};
+use scene::{Agent, LaneMap, Scene, State, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -50,12 +56,9 @@ use workers::Workers;
 
 /// The three experts with what is known of maps. Cheap to share; calls may run at the same time.
 pub struct Generator {
-    experts: Arc<BTreeMap<AgentType, Expert>>,
+    resources: Resources,
     info: BTreeMap<String, WeightsInfo>,
     maps: Arc<Maps>,
-    workers: Workers,
-    clock: Clock,
-    tuning: Tuning,
     /// Of the tuning: it goes into every answer.
     tuning_hash: String,
 }
@@ -80,12 +83,14 @@ impl Generator {
             experts.insert(agent_type, expert);
         }
         Ok(Self {
-            experts: Arc::new(experts),
+            resources: Resources {
+                experts: Arc::new(experts),
+                workers: Workers::of_machine(),
+                clock: clock::standing,
+                tuning: tuning::SHIPPED,
+            },
             info,
             maps,
-            workers: Workers::of_machine(),
-            clock: clock::standing,
-            tuning: tuning::SHIPPED,
             tuning_hash: tuning::SHIPPED.hash().hex(),
         })
     }
@@ -101,19 +106,21 @@ impl Generator {
     /// Cuts whole scenes over so many threads; the answer does not depend on it.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
-        Self { workers: Workers::new(threads), ..self }
+        let workers = Workers::new(threads);
+        Self { resources: Resources { workers, ..self.resources }, ..self }
     }
 
     /// The same experts and maps with threads of their own: calls of the one never wait for those of the other.
     #[must_use]
     pub fn beside(&self, threads: usize) -> Self {
         Self {
-            experts: Arc::clone(&self.experts),
+            resources: Resources {
+                experts: Arc::clone(&self.resources.experts),
+                workers: Workers::new(threads),
+                ..self.resources
+            },
             info: self.info.clone(),
             maps: Arc::clone(&self.maps),
-            workers: Workers::new(threads),
-            clock: self.clock,
-            tuning: self.tuning,
             tuning_hash: self.tuning_hash.clone(),
         }
     }
@@ -121,18 +128,19 @@ impl Generator {
     /// Measures answers' timings by a clock; without one they are zero.
     #[must_use]
     pub fn with_clock(self, clock: Clock) -> Self {
-        Self { clock, ..self }
+        Self { resources: Resources { clock, ..self.resources }, ..self }
     }
 
     /// With other tuned numbers than the shipped ones.
     #[must_use]
     pub fn with_tuning(self, tuning: Tuning) -> Self {
-        Self { tuning_hash: tuning.hash().hex(), tuning, ..self }
+        let tuning_hash = tuning.hash().hex();
+        Self { tuning_hash, resources: Resources { tuning, ..self.resources }, ..self }
     }
 
     /// The tuned numbers.
     pub fn tuning(&self) -> &Tuning {
-        &self.tuning
+        &self.resources.tuning
     }
 
     /// Runs each expert once on a small scene so that the first user does not pay for it: fills the heap and
@@ -177,7 +185,7 @@ impl Generator {
     /// # Errors
     /// What can be told before any work: unknown ids, missing starts, too many road users.
     pub fn start(&self, request: Request, cancel: Cancel) -> Result<Generation<'_>, GenerateError> {
-        Generation::new(self, request, cancel)
+        Generation::new(&self.resources, &self.maps, request, cancel)
     }
 
     /// Runs a call to its end, without its drafts.
@@ -191,12 +199,5 @@ impl Generator {
             }
         }
         Err(GenerateError::Expert("the call ended without an answer".into()))
-    }
-
-    /// The gate: which expert a type runs on.
-    fn expert(&self, agent_type: AgentType) -> Result<&Expert, GenerateError> {
-        self.experts
-            .get(&agent_type)
-            .ok_or_else(|| GenerateError::Expert(format!("no expert for {agent_type:?}")))
     }
 }

@@ -1,7 +1,9 @@
 //! Overlaps of drawn drafts, resolved without the networks.
 
-use super::actor::{Actor, Drafts};
-use super::repulsion::{Outline, Poses, SceneEnergy, Terms, leading_outlines, poses_of};
+use super::actor::Actor;
+use super::drafts::Drafts;
+use super::motion::Places;
+use super::repulsion::{Outline, SceneEnergy, Terms, leading_outlines};
 use super::slot::Slot;
 use super::trajectory::places;
 use crate::planning::Residual;
@@ -32,11 +34,11 @@ pub(super) fn resolve_overlaps(
             let others = outlines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
             let others: Vec<&Outline> = others.chain(background).collect();
             let from = settled.as_ref().unwrap_or(leading.of(modes));
-            let Some((residual, poses)) = step_downhill(energy, actor, *leading, from, &others) else {
+            let Some((residual, places)) = step_downhill(energy, actor, *leading, from, &others) else {
                 continue;
             };
             drafts[i].settled = Some(residual);
-            let now = Outline::new(poses, &actor.plan.present, energy.tuning);
+            let now = Outline::new(&places, &actor.plan.present.size, energy.tuning);
             let before = std::mem::replace(&mut outlines[i], now);
             for (k, looks) in looks.iter_mut().enumerate() {
                 let near = k == i || outlines[k].near(&outlines[i]) || outlines[k].near(&before);
@@ -53,14 +55,14 @@ fn step_downhill(
     slot: Slot,
     residual: &Residual,
     others: &[&Outline],
-) -> Option<(Residual, Poses)> {
+) -> Option<(Residual, Places)> {
     let (before, downhill) = energy.downhill(actor, slot, residual, others, Terms::All)?;
     let longest = energy.tuning.share as f32;
     [longest, 0.5 * longest, 0.25 * longest].into_iter().find_map(|share| {
         let moved = std::array::from_fn(|i| residual[i] + share * downhill[i]);
         let places = places(&actor.plan, slot, &moved);
         let lower = energy.at(actor, &places, others, Terms::All).0 < before;
-        lower.then(|| (moved, poses_of(&places)))
+        lower.then(|| (moved, places.map(Some)))
     })
 }
 

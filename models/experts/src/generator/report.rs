@@ -2,7 +2,7 @@
 //! words, and warnings.
 
 use super::actor::Actor;
-use super::trajectory::Motion;
+use super::trajectory::Rollout;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{
     Field, Intermediate, NearestState, ReachReport, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia,
@@ -115,7 +115,7 @@ pub(super) fn missed_words(number: usize, via: &ResolvedVia) -> String {
 /// its words are about the way from there. `blocked_by` is in the way of a motion that halts before somebody.
 pub(super) fn reach_report(
     actor: &Actor,
-    motion: &Motion,
+    motion: &Rollout,
     since_s: Option<f64>,
     blocked_by: Option<&AgentId>,
 ) -> ReachReport {

@@ -1,87 +1,70 @@
 //! The scene's energy (boxes too close, now or soon, and corners past a kerb) and what repels a draft: the way
 //! downhill in it.
 
-use super::actor::{Actor, Drafts};
+use super::actor::Actor;
+use super::drafts::Drafts;
 use super::kerb::kerb;
+use super::motion::{Places, Sweep};
 use super::slot::Slot;
-use super::trajectory::{PER_INSTANT, as_it_is, places};
+use super::trajectory::{as_it_is, places};
 use super::workers::Workers;
 use crate::planning::pullback::Pullback;
-use crate::planning::world::AgentAtStart;
 use crate::planning::{INSTANTS, MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::OverlapTuning;
-use scene::Vec2;
 use scene::geometry::direction;
-use scene::geometry::obb::OrientedBox;
 use scene::geometry::overlap_energy::{
-    Bounds, Growth, MovingBox, OverlapEnergy, absent, carried_back, carried_on, overlap_energy,
+    Bounds, Growth, MovingBox, OverlapEnergy, Poses, absent, carried_back, carried_on, overlap_energy,
 };
-use scene::motion::MotionState;
+use scene::{Size, Vec2};
 
 /// Boxes farther apart than this do not matter to each other, metres.
 const NEAR_M: f32 = 1.0;
 
-/// Places and headings at the instants; [`ABSENT`] where somebody is not there.
-pub(super) type Poses = scene::geometry::overlap_energy::Poses<INSTANTS>;
-
-/// The pose of nobody.
-pub(super) const ABSENT: [f32; 4] = [0.0; 4];
-
-/// Somebody as an obstacle.
+/// An agent as an obstacle.
 pub(super) struct Outline {
-    now: Course,
+    now: PoseTrack,
     /// Where it would be soon.
-    soon: Course,
+    soon: PoseTrack,
     /// Half length and half width, metres.
     half: [f32; 2],
 }
 
-/// Poses, and what is about them.
-struct Course {
-    poses: Poses,
+/// Poses at the instants, and the rectangle about them.
+struct PoseTrack {
+    poses: Poses<INSTANTS>,
     bounds: Bounds,
 }
 
-impl Course {
-    fn new(poses: Poses) -> Self {
+impl PoseTrack {
+    fn new(poses: Poses<INSTANTS>) -> Self {
         Self { bounds: Bounds::of(&poses), poses }
     }
 }
 
 impl Outline {
-    /// Of somebody's box along these poses.
-    pub(super) fn new(poses: Poses, who: &AgentAtStart, tuning: &OverlapTuning) -> Self {
-        Self::sized(poses, half_size(who), tuning)
-    }
-
-    fn sized(poses: Poses, half: [f32; 2], tuning: &OverlapTuning) -> Self {
+    /// Of a box along these places.
+    pub(super) fn new(places: &Places, size: &Size, tuning: &OverlapTuning) -> Self {
+        let poses = poses_of(places);
         let soon = carried_on(&poses, tuning.soon_intervals as f32);
-        Self { now: Course::new(poses), soon: Course::new(soon), half }
-    }
-
-    /// Of boxes at each step of a window, the start first; nobody is there where there is none.
-    pub(super) fn of_boxes(boxes: &[Option<OrientedBox>], tuning: &OverlapTuning) -> Self {
-        let at = |i: usize| boxes.get((i + 1) * PER_INSTANT)?.as_ref();
-        let pose = |i: usize| at(i).map_or(ABSENT, |b| pose_of(b.center(), b.heading_rad()));
-        let half = boxes
-            .iter()
-            .flatten()
-            .next()
-            .map_or([0.0; 2], |b| [b.half_length_m() as f32, b.half_width_m() as f32]);
-        Self::sized(std::array::from_fn(pose), half, tuning)
+        Self { now: PoseTrack::new(poses), soon: PoseTrack::new(soon), half: half_of(size) }
     }
 
     /// Whether two come near each other, now or soon.
     pub(super) fn near(&self, other: &Self) -> bool {
         let reach = NEAR_M + self.half[0] + self.half[1] + other.half[0] + other.half[1];
-        let close = |a: &Poses, b: &Poses| {
-            a.iter().zip(b).any(|(a, b)| {
+        let close = |a: &PoseTrack, b: &PoseTrack| {
+            a.poses.iter().zip(&b.poses).any(|(a, b)| {
                 let far = (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > reach;
                 !far && !absent(a) && !absent(b)
             })
         };
-        close(&self.now.poses, &other.now.poses) || close(&self.soon.poses, &other.soon.poses)
+        close(&self.now, &other.now) || close(&self.soon, &other.soon)
     }
+}
+
+/// Motions as obstacles.
+pub(super) fn outlines<'a>(sweeps: impl Iterator<Item = &'a Sweep>, tuning: &OverlapTuning) -> Vec<Outline> {
+    sweeps.map(|sweep| Outline::new(&sweep.places(), sweep.size(), tuning)).collect()
 }
 
 /// Which terms of the scene's energy count.
@@ -132,8 +115,8 @@ impl SceneEnergy<'_> {
         others: &[&Outline],
         terms: Terms,
     ) -> (f32, [[f32; 2]; INSTANTS]) {
-        let own = poses_of(places);
-        let half = half_size(&actor.plan.present);
+        let own = poses_of(&places.map(Some));
+        let half = half_of(&actor.plan.present.size);
         let found = energy_among(&own, half, others, |o| &o.now);
         let (mut energy, mut gradient) = (found.energy, found.gradient);
         let mut add = |weight: f32, more: f32, slope: [[f32; 2]; INSTANTS]| {
@@ -158,14 +141,14 @@ impl SceneEnergy<'_> {
 
 /// The energy among those of many who come near at all.
 fn energy_among(
-    own: &Poses,
+    own: &Poses<INSTANTS>,
     half: [f32; 2],
     others: &[&Outline],
-    course: impl Fn(&Outline) -> &Course,
+    track: impl Fn(&Outline) -> &PoseTrack,
 ) -> OverlapEnergy<INSTANTS> {
     let bounds = Bounds::of(own);
-    let near = others.iter().filter(|o| bounds.may_touch(half, &course(o).bounds, o.half));
-    let obstacles = near.map(|o| MovingBox { poses: &course(o).poses, half: o.half });
+    let near = others.iter().filter(|o| bounds.may_touch(half, &track(o).bounds, o.half));
+    let obstacles = near.map(|o| MovingBox { poses: &track(o).poses, half: o.half });
     overlap_energy(own, half, obstacles, Growth::Square)
 }
 
@@ -198,38 +181,30 @@ pub(super) fn repulsions(
 pub(super) fn leading_outlines(actors: &[Actor], drafts: &[Drafts], tuning: &OverlapTuning) -> Vec<Outline> {
     let outline = |(actor, drafts): (&Actor, &Drafts)| {
         let start = &actor.plan.present.start;
-        let poses = if let Some(pinned) = &actor.pinned {
-            // A picked future is where it is, whatever its drafts say.
-            poses_of_states(&as_it_is(&actor.plan, pinned).states)
+        let places = if let Some(pinned) = &actor.pinned {
+            // A picked future stays as it is, whatever the drafts are.
+            as_it_is(&actor.plan, pinned).places()
         } else if actor.rests {
-            [pose_of(start.position(), start.heading_rad); INSTANTS]
+            [Some((start.position(), start.heading_rad)); INSTANTS]
         } else {
-            poses_of(&places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes)))
+            places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes)).map(Some)
         };
-        Outline::new(poses, &actor.plan.present, tuning)
+        Outline::new(&places, &actor.plan.present.size, tuning)
     };
     actors.iter().zip(drafts).map(outline).collect()
 }
 
-fn half_size(who: &AgentAtStart) -> [f32; 2] {
-    [0.5 * who.size.length_m as f32, 0.5 * who.size.width_m as f32]
+fn half_of(size: &Size) -> [f32; 2] {
+    [0.5 * size.length_m as f32, 0.5 * size.width_m as f32]
 }
 
-/// One place and heading.
-pub(super) fn pose_of(position: Vec2, heading_rad: f64) -> [f32; 4] {
-    let ahead = direction(heading_rad);
-    [position.x as f32, position.y as f32, ahead.x as f32, ahead.y as f32]
-}
-
-/// Places and headings of a draft.
-pub(super) fn poses_of(places: &[(Vec2, f64); INSTANTS]) -> Poses {
-    places.map(|(position, heading)| pose_of(position, heading))
-}
-
-/// Places and headings of a motion; nobody is there after its end.
-pub(super) fn poses_of_states(states: &[MotionState]) -> Poses {
-    let at = |i: usize| states.get((i + 1) * PER_INSTANT);
-    std::array::from_fn(|i| at(i).map_or(ABSENT, |s| pose_of(s.position, s.heading_rad)))
+/// Places as the energy reads them: an absent agent has no direction.
+fn poses_of(places: &Places) -> Poses<INSTANTS> {
+    let pose = |(position, heading_rad): (Vec2, f64)| {
+        let ahead = direction(heading_rad);
+        [position.x as f32, position.y as f32, ahead.x as f32, ahead.y as f32]
+    };
+    places.map(|place| place.map_or([0.0; 4], pose))
 }
 
 #[cfg(test)]
@@ -242,9 +217,9 @@ mod tests {
     /// A car at 8 m/s, and somebody who stands at `x`, `y`.
     fn energy_of(x: f64, y: f64, terms: Terms, draft: &Residual) -> Option<(f32, Residual)> {
         let plan = car_on_a_street(8.0, Goal::default());
-        let who = plan.present.clone();
+        let size = plan.present.size;
         let actor = Actor::new("1".into(), plan, None);
-        let standing = Outline::new([pose_of(Vec2::new(x, y), 0.0); INSTANTS], &who, &SHIPPED.overlaps);
+        let standing = Outline::new(&[Some((Vec2::new(x, y), 0.0)); INSTANTS], &size, &SHIPPED.overlaps);
         let pullback = Pullback::default();
         let energy = SceneEnergy { pullback: &pullback, tuning: &SHIPPED.overlaps };
         energy.downhill(&actor, Slot::FIRST, draft, &[&standing], terms)
@@ -267,8 +242,10 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_where_a_motion_has_ended() {
-        let poses = poses_of_states(&[MotionState::default(); 11]);
-        assert!(poses[1] != ABSENT && poses[2] == ABSENT);
+    fn an_agent_is_absent_where_its_motion_has_ended() {
+        let size = Size { length_m: 4.6, width_m: 2.0, height_m: None };
+        let sweep = Sweep::new(vec![Some(scene::State::default()); 11], &size);
+        let poses = poses_of(&sweep.places());
+        assert!(!absent(&poses[1]) && absent(&poses[2]));
     }
 }

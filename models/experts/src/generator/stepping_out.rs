@@ -1,14 +1,8 @@
 //! Walkers who step out before a vehicle that comes fast.
 
+use crate::tuning::fixed::stepping_out::{AFTER_S, FAST_MPS, HARD_MPS2};
 use scene::AgentType;
 use scene::judge::{Trace, crossing};
-
-/// Slower vehicles let people go, m/s.
-const FAST_MPS: f64 = 4.0;
-/// Who would have to brake harder than this is stepped out before, m/s2.
-const HARD_MPS2: f64 = 3.0;
-/// Time kept from a vehicle that has passed, seconds.
-const AFTER_S: f64 = 0.3;
 
 /// When a vehicle has passed that a walker meets, or that must brake hard for it, seconds; `None` where the walker
 /// is over before it comes, lets it pass, or leaves it room to stop.

@@ -1,12 +1,16 @@
 //! From route coordinates to motion: residual knots on an anchor, to positions, to control knots, to a
 //! rollout that meets the goal and the limits.
 
-use super::passing::{led, projected};
+use super::motion::Places;
 use super::slot::Slot;
+use super::via_steering::{projected, steer_to_vias};
 use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::lights::Waiting;
 use crate::planning::profile::{Caps, Progress};
-use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
+use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, PER_INSTANT, Residual, STAYS_WITHIN_M};
+use crate::tuning::fixed::trajectory::{
+    ALONG_LANE_M, AT_LINE_M, BACKING_BRAKE_MPS2, OFFSET_SHARES, SHORT_OF_LINE_M,
+};
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
@@ -16,21 +20,24 @@ use scene::motion::{
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
 
-/// Steps between two instants.
-pub(super) const PER_INSTANT: usize = HORIZON_STEPS / INSTANTS;
-
 pub(super) static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 
-/// One future as motion.
+/// The states of a future, and whether it meets the goal.
 #[derive(Clone, Debug)]
-pub(super) struct Motion {
+pub(super) struct Rollout {
     pub(super) states: Trajectory,
     pub(super) reach: Reach,
 }
 
-impl Motion {
-    /// Where the goal is missed, it is for the reason that another motion misses it.
-    pub(super) fn for_want_of(mut self, other: Reach) -> Self {
+impl Rollout {
+    /// Box centres and headings at the instants.
+    pub(super) fn places(&self) -> Places {
+        let place = |s: &MotionState| (s.position, s.heading_rad);
+        std::array::from_fn(|i| self.states.get((i + 1) * PER_INSTANT).map(place))
+    }
+
+    /// A missed goal is reported with the reason for which another motion misses it.
+    pub(super) fn with_reason_of(mut self, other: Reach) -> Self {
         if let (
             Reach::Unreachable { limiting, needs, .. },
             Reach::Unreachable { limiting: why, needs: what, .. },
@@ -42,19 +49,11 @@ impl Motion {
     }
 }
 
-impl From<Projection> for Motion {
+impl From<Projection> for Rollout {
     fn from(p: Projection) -> Self {
         Self { states: p.trajectory, reach: p.reach }
     }
 }
-
-/// A front this near to a red line is over it, and how much farther from it the next try halts, metres.
-const AT_LINE_M: f64 = 0.25;
-const SHORT_OF_LINE_M: f64 = 1.2;
-/// Shares of an offset that are tried where the whole of it leaves the road.
-const OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
-/// Ending along a lane may change a motion by so much, metres.
-const ALONG_LANE_M: f64 = 1.5;
 
 /// Progress and offset of a draft at the instants.
 pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(f64, f64); INSTANTS] {
@@ -68,15 +67,15 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
             across += f64::from(ACROSS_SCALE * BASIS.across[i][k] * residual[KNOTS + k]);
         }
         across *= plan.aside_share[i];
-        // Nobody rolls back along a path.
+        // Progress never falls.
         last = along.max(last);
         *place = (last, across);
     }
-    at_lights(plan, slot, led(plan, slot, out))
+    at_lights(plan, slot, steer_to_vias(plan, slot, out))
 }
 
-/// Progress and offset at the instants, waiting at red lights. Whoever waits is beside the path where it would
-/// have been at that progress.
+/// Progress and offset at the instants, waiting at red lights. A waiting agent keeps the offset that it would have had
+/// at that progress.
 fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
     let gates = &plan.lights[slot.index()];
     let kerb = plan.kerbs[slot.index()].as_ref().filter(|_| plan.target.position.is_some());
@@ -129,7 +128,7 @@ pub(super) fn places(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(Vec
 }
 
 /// The motion of a draft: fitted to its places and projected onto goal and limits.
-pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -> Motion {
+pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
@@ -138,7 +137,7 @@ pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -
 
 /// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
 /// path of the first of them, `path`.
-pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot, &Residual)]) -> Motion {
+pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot, &Residual)]) -> Rollout {
     let total: f64 = drafts.iter().map(|d| d.0).sum::<f64>().max(1e-12);
     let mut mean = [(0.0, 0.0); INSTANTS];
     for (probability, slot, residual) in drafts {
@@ -153,7 +152,7 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
 
 /// The motion at these progresses and offsets. Ten knots cannot follow every halt: where one that waits at a red
 /// light would roll over the line, it halts earlier.
-fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Motion {
+fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let motion = on_the_road(plan, slot, coordinates);
     let anchor = &plan.anchors[slot.index()];
     let mut earlier = coordinates;
@@ -177,7 +176,7 @@ fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) ->
 
 /// The motion at these progresses and offsets. Where an offset takes a corner beyond the road's edge and the path
 /// itself stays within, the offset shrinks.
-fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Motion {
+fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let anchor = &plan.anchors[slot.index()];
     let size = &plan.present.size;
     let places = coordinates.map(|(along, across)| {
@@ -197,15 +196,15 @@ fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]
 }
 
 /// The motion that passes near these box centres at the instants, facing where it goes.
-pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Motion {
+pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The same for one that does not get to its goal, or no farther than that, because somebody is in the way.
-pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_there: bool) -> Motion {
+/// The same for an agent that stops before its goal, or at it, because another is in the way.
+pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_there: bool) -> Rollout {
     let knots = fit(&plan.model, &samples(plan, &facing_on(plan, centres)));
     let free = Target { step: plan.target.step, ..Target::default() };
     let target = if gets_there { projected_onto(plan) } else { free };
@@ -217,10 +216,10 @@ pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_the
     } else {
         Reach::Unreachable { nearest, residuals, limiting: Limiting::Traffic, needs: None }
     };
-    Motion { states: motion.trajectory, reach }
+    Rollout { states: motion.trajectory, reach }
 }
 
-/// Box centres with the headings of who drives from each to the next.
+/// Box centres with the headings of an agent that drives from each to the next.
 fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INSTANTS] {
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     let facing = centres.map(|centre| {
@@ -229,7 +228,7 @@ fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INST
         last = (centre, heading_rad);
         last
     });
-    // A chord says the heading half way along it.
+    // A chord has the heading half way along it.
     let mut places = facing;
     for i in 0..INSTANTS - 1 {
         places[i].1 += 0.5 * wrap_angle(facing[i + 1].1 - facing[i].1);
@@ -237,10 +236,10 @@ fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INST
     places
 }
 
-/// Shorter chords say nothing of the heading, metres.
+/// Shorter chords have no heading, metres.
 const LEAST_CHORD_M: f64 = 0.2;
 
-/// What motions are projected onto: the goal, or nothing but the limits.
+/// The target that motions are projected onto: the goal, or the limits alone.
 fn projected_onto(plan: &AgentPlan) -> Target {
     let target = plan.target;
     if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
@@ -251,7 +250,7 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     for (i, &(position, path_heading)) in places.iter().enumerate() {
-        // Drifting across a path turns the body; at a crawl the path says it better.
+        // Drifting across a path turns the body; at a crawl the heading is the path's.
         let chord = position - last.0;
         let chord_heading = if chord.norm() > 1.0 { chord.y.atan2(chord.x) } else { path_heading };
         let drift = wrap_angle(chord_heading - path_heading).clamp(-0.5, 0.5);
@@ -264,7 +263,7 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
 
 /// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
 /// this slot.
-fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
+fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rollout {
     let samples = samples(plan, &places);
     let knots = fit(&plan.model, &samples);
     let target = projected_onto(plan);
@@ -303,18 +302,15 @@ fn on_after(plan: &AgentPlan, motion: Projection, samples: &[Sampled]) -> Projec
     if same { Projection { knots, trajectory, ..motion } } else { motion }
 }
 
-/// Braking of what rolls backwards without a reason to, m/s2.
-const BACKING_BRAKE_MPS2: f64 = 1.5;
-
-/// What rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window
-/// never changes the gear of a vehicle in motion.
-fn backing(plan: &AgentPlan) -> Motion {
+/// A vehicle that rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window never
+/// changes the gear of a vehicle in motion.
+fn backing(plan: &AgentPlan) -> Rollout {
     let braking = Knots { first: [-BACKING_BRAKE_MPS2; KNOTS], ..Knots::default() };
     project(&plan.model, &braking, &projected_onto(plan), None).into()
 }
 
 /// A goal behind a standing vehicle may be met backwards.
-fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Motion> {
+fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let goal = plan.target.position?;
     let local = plan.model.to_local(goal);
     let may = plan.model.kind == Kind::Drive
@@ -340,33 +336,33 @@ fn still(plan: &AgentPlan) -> MotionState {
 }
 
 /// Exact rest at the start pose.
-pub(super) fn rest(plan: &AgentPlan) -> Motion {
+pub(super) fn rest(plan: &AgentPlan) -> Rollout {
     let still = still(plan);
     let error = GoalError::of(&still, &plan.target);
-    Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
+    Rollout { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
 }
 
-/// The motion of somebody who is at these states from the first step on, whatever was asked.
-pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Motion {
+/// The motion with these states from the first step on, whatever the goal.
+pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
     let states: Trajectory = std::iter::once(&plan.present.start)
         .chain(states)
         .map(|s| MotionState { position: s.position(), heading_rad: s.heading_rad, velocity: s.velocity() })
         .collect();
     let due = states.get(plan.target.step).or(states.last()).copied().unwrap_or_default();
-    Motion { reach: Reach::Reached(GoalError::of(&due, &plan.target)), states }
+    Rollout { reach: Reach::Reached(GoalError::of(&due, &plan.target)), states }
 }
 
 /// A road user that stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in the whole
 /// window is rest.
-pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Motion) -> Motion {
+pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Rollout) -> Rollout {
     let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
     let rests = plan.is_free() && may_rest(plan, window) && motion.states.iter().all(creeps);
     if rests { rest(plan) } else { motion }
 }
 
-/// Standing at the start, and rest meets whatever is asked. What a recording shows standing may creep by
-/// its jitter; what an earlier window brought here has to have come to rest by its own motion.
+/// The agent stands at the start, and rest meets its goal. A recording that shows it standing may creep by its jitter; an
+/// earlier window must have brought it to rest by its own motion.
 pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
     let standing_mps = if window == 0 { 0.3 } else { 0.05 };
     plan.vias.is_empty()

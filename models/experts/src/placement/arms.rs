@@ -5,6 +5,9 @@ use super::driving::allowed_mps;
 use super::region::Region;
 use super::request::SpeedRange;
 use super::stop_lines::{Lights, straightest};
+use crate::tuning::placing::arms::{
+    BEHIND_M, FREE_SHARE, LONGEST_M, RAGGED_M, SAME_ROAD_M, SAME_ROAD_RAD, SHORTEST_M,
+};
 use scene::map::LaneType;
 use scene::routes::graph::{GraphLane, LaneGraph};
 use scene::routes::{Polyline, Pose};
@@ -12,25 +15,11 @@ use scene::{AgentType, Vec2, wrap_angle};
 use std::collections::HashSet;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// Lanes whose headings differ by more are of different roads, radians.
-const SAME_ROAD_RAD: f64 = 0.6;
-/// The same of their places across and along the road, metres.
-const SAME_ROAD_M: (f64, f64) = (10.0, 30.0);
-/// So far behind its beginning a lane that opens beside another has that one beside it, metres.
-const BEHIND_M: f64 = 4.0;
-/// Lanes of one road that the map's edge cuts may begin so far apart, metres.
-const RAGGED_M: f64 = 15.0;
-/// A shorter lane leads nobody in, metres.
-const SHORTEST_M: f64 = 5.0;
 /// Where a lane comes into a region is looked for at this distance, metres.
 const LOOK_STEP_M: f64 = 2.0;
-/// An arm is followed so far, metres, and along so many lanes.
-const LONGEST_M: f64 = 3_000.0;
 const MOST_LEGS: usize = 200;
 /// Travel times are worked out at this distance, metres.
 const TIME_STEP_M: f64 = 2.0;
-/// Free traffic drives at this share of what limit and bends allow: nobody is faster than the limit.
-const FREE_SHARE: f64 = 0.95;
 
 /// A lane by which an arm leads in.
 #[derive(Clone, Copy, Debug, PartialEq)]

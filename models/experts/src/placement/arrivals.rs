@@ -15,6 +15,7 @@ use super::pose::{Pose, draw_size};
 use super::random;
 use super::request::{ArmTraffic, Arrivals};
 use crate::request::{Cancel, GenerateError};
+use crate::tuning::placing::arrivals::{BACK_M, CAR_M, ENTRY_GAP_M, LEAST_HEADWAY_S, SHARES, WAIT_S};
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::{direction, wrap_angle};
 use scene::limits::Limits;
@@ -23,19 +24,7 @@ use scene::routes::Polyline;
 use scene::{Agent, AgentId, AgentType, Conditions, STEP_S, Size, State, Subtype, Track, Vec2};
 use std::collections::HashSet;
 
-/// Least time between two vehicles of a lane, seconds: 2,400 an hour at most.
-const LEAST_HEADWAY_S: f64 = 1.5;
-/// A car and a little, metres: where free traffic is slow the length counts, not the time.
-const CAR_M: f64 = 5.5;
-/// Drivers alone go at this share of the speed of free traffic.
-const SHARES: (f64, f64) = (0.96, 1.04);
-/// Who finds no room is tried farther back, by so much, so often.
-const BACK_M: f64 = 1.5;
 const BACK_TRIES: usize = 16;
-/// Whoever comes in later waits outside until there is room, so long, seconds.
-const WAIT_S: f64 = 6.0;
-/// Room to the one before that somebody coming in needs, metres.
-const ENTRY_GAP_M: f64 = 3.0;
 
 /// A vehicle of an arm's lane.
 struct Arrival {

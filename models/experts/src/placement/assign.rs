@@ -1,17 +1,9 @@
 //! The cell and the lane that a road user of a scene is in.
 
 use super::cells::{Cell, CellKind, Cells};
+use crate::tuning::placing::assign::{CROSSWALK_M, PARKED_EXTENT_M, PARKED_M, PAVEMENT_M};
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{Agent, AgentType, State, Vec2, wrap_angle};
-
-/// A road user farther from a crosswalk's middle line than its half width and this is not on it, metres.
-const CROSSWALK_M: f64 = 0.5;
-/// Farthest from a road edge that still counts as its pavement, metres.
-const PAVEMENT_M: f64 = 7.0;
-/// Farthest centre of a parked vehicle from the lane it stands beside, metres.
-const PARKED_M: f64 = 12.0;
-/// A vehicle that moves less than this in the recording is parked when it stands off the lanes, metres.
-const PARKED_EXTENT_M: f64 = 1.0;
 
 /// The lane that somebody drives on: near its middle and along it.
 pub(super) fn driven_lane(graph: &LaneGraph, agent_type: AgentType, state: &State) -> Option<LaneHit> {

@@ -3,25 +3,14 @@
 use super::cells::{CellKind, Cells};
 use super::placed::PlacedAgent;
 use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+pub(super) use crate::tuning::placing::checks::END_M;
+use crate::tuning::placing::checks::{BAND, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::speed::Obstacle;
 use scene::routes::{GraphLane, LaneGraph};
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_4;
-
-/// Room around every box, metres.
-const MARGIN_M: f64 = 0.1;
-/// The same between two who drive, to the side, metres: lanes keep people farther apart than doors need.
-const SIDE_M: f64 = 0.4;
-/// Whoever drives where a lane leaves the map is so far before its end at least, metres: it is to be seen for a while.
-pub(super) const END_M: f64 = 8.0;
-/// Vehicles longer than this stand straight on their lane only where nose and tail are on a lane too, metres.
-const LONG_M: f64 = 6.0;
-/// Nose and tail of a long vehicle turn from their lane by this at most, radians.
-const LONG_TURN_RAD: f64 = 0.5;
-/// Share of a lane's half width on which nobody parks or stands.
-const BAND: f64 = 0.9;
 
 /// The boxes that a new one keeps clear of.
 #[derive(Default)]

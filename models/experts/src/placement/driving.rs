@@ -2,20 +2,12 @@
 
 use super::model::{SPEED_CLASSES, SPEED_STEP};
 use super::stop_lines::straightest;
+use crate::tuning::placing::driving::{BEND_LOOK_M, BEND_MPS2, CYCLIST_MPS, LEADER_LOOK_M};
 use scene::STANDING_MPS;
 use scene::geometry::obb::OrientedBox;
 use scene::routes::speed::{Leader, Obstacle, leader};
 use scene::routes::{LaneGraph, Polyline};
 use scene::{AgentType, Vec2};
-
-/// How far ahead bends are braked for, metres.
-const BEND_LOOK_M: f64 = 20.0;
-/// How far ahead a leader matters, metres.
-const LEADER_LOOK_M: f64 = 45.0;
-/// Sideways acceleration in bends and braking ahead of them, m/s2 (the figure that routes use).
-const BEND_MPS2: f64 = 2.2;
-/// No cyclist is expected to be faster, m/s.
-const CYCLIST_MPS: f64 = 7.0;
 
 /// Speed that limit and bends allow at a place of a lane, m/s.
 pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: AgentType) -> f64 {

@@ -7,24 +7,14 @@
 use super::arms::Way;
 use super::driving::allowed_mps;
 use super::request::SpeedRange;
+use crate::tuning::placing::following::{
+    BESIDE_M, BRAKING_MPS2, HARDEST_MPS2, HEADWAY_S, LOOK_M, SPEEDING_UP_MPS2, STANDING_GAP_M,
+};
 use scene::random::Stream;
 use scene::routes::{LaneGraph, Polyline};
 use scene::{Agent, AgentType, STEP_S, Scene, Vec2};
 use std::collections::HashSet;
 
-/// Room to a standing leader, metres.
-const STANDING_GAP_M: f64 = 2.0;
-/// Headway that followers keep, seconds.
-const HEADWAY_S: f64 = 1.2;
-/// Speeding up and comfortable braking, m/s2.
-const SPEEDING_UP_MPS2: f64 = 1.5;
-const BRAKING_MPS2: f64 = 2.0;
-/// Nobody brakes harder, m/s2.
-const HARDEST_MPS2: f64 = 5.0;
-/// Somebody whose centre lies so far from the own path is not in the way, metres.
-const BESIDE_M: f64 = 1.8;
-/// Leaders are looked for so far, metres.
-const LOOK_M: f64 = 80.0;
 /// Speeds along a course are known at this distance, metres.
 const SPEED_STEP_M: f64 = 2.0;
 

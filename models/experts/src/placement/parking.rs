@@ -10,6 +10,10 @@ use super::random;
 use super::region::in_ring;
 use super::request::{Parked, counted};
 use crate::request::{Cancel, GenerateError};
+use crate::tuning::placing::parking::{
+    ASKEW_RAD, BAY_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, FAST_MPS, KERB_M, LONGEST_M, NEAR_M, NOSE_IN,
+    PLACE_M, ROOM_M, WIDEST_M,
+};
 use scene::geometry::obb::OrientedBox;
 use scene::map::LaneType;
 use scene::random::Stream;
@@ -17,32 +21,8 @@ use scene::routes::graph::{GraphLane, LaneSource};
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Length of a place at the kerb, metres: a car and room to leave.
-const PLACE_M: f64 = 6.0;
-/// The longest and the widest that parks in one, metres.
-const LONGEST_M: f64 = 5.3;
-const WIDEST_M: f64 = 2.1;
-/// A parking lane up to this length is one bay, metres.
-const BAY_M: f64 = 7.5;
-/// Room beside a lane in which cars park along the kerb, metres. More is another road or a square.
-const ROOM_M: (f64, f64) = (2.0, 6.0);
-/// From the kerb to the car, and how much that varies, metres.
-const KERB_M: (f64, f64) = (0.15, 0.2);
-/// Cars are not quite parallel to the kerb, radians.
-const ASKEW_RAD: f64 = 0.02;
-/// Nobody parks so near to a junction, a stop line or a crosswalk, metres.
-const CLEAR_M: f64 = 5.0;
-/// Driveways that lie so far from a lane open to it; before them and a little to the sides nobody parks, metres.
-const DRIVEWAY_M: f64 = 14.0;
-const DRIVEWAY_SIDE_M: f64 = 1.0;
-/// Driveways farther away have nothing to do with a place, metres.
-const NEAR_M: f64 = 30.0;
-/// Along faster roads nobody parks, m/s.
-const FAST_MPS: f64 = 17.0;
 /// Draws of a box that fits a place.
 const TRIES: usize = 6;
-/// Of cars in bays so many stand with the nose in.
-const NOSE_IN: f64 = 0.7;
 
 /// Where a car could park.
 #[derive(Clone, Copy, Debug)]

@@ -4,16 +4,12 @@
 use super::cells::{Cell, CellKind, Cells};
 use super::context::PoseContext;
 use super::model::{Histogram, TypeModel};
+use crate::tuning::placing::pose::{DRIVEWAY_END_M, NARROW_KERB_M};
 use scene::geometry::direction;
 use scene::map::LaneType;
 use scene::random::Stream;
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Room between a driveway's end and a car's, metres.
-const DRIVEWAY_END_M: f64 = 0.3;
-/// In a strip narrower than this parked vehicles keep to the kerb, in a wider one to the lane, metres.
-const NARROW_KERB_M: f64 = 3.5;
 
 /// Which offsets and headings hold in a cell.
 pub(super) fn pose_context(cells: &Cells<'_>, cell: &Cell) -> PoseContext {

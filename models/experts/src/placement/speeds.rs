@@ -9,22 +9,15 @@ use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
 use super::request::SpeedRange;
 use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+use crate::tuning::placing::speeds::{BRAKE_MPS2, FOLLOW_AFTER_S, FOLLOW_MPS2, UNKNOWN_LEADER_MPS};
 use scene::limits::Limits;
 use scene::random::Stream;
 use scene::routes::speed::Obstacle;
 use scene::{AgentType, STANDING_MPS};
 use std::collections::HashSet;
 
-/// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.
-const BRAKE_MPS2: f64 = 3.0;
 /// Speeds are rounded to this, m/s.
 const ROUNDING_MPS: f64 = 1e-3;
-/// Braking for a leader, m/s2, and how long after the start it begins, seconds: who must brake at once and hard goes
-/// round instead, where there is no room for it.
-const FOLLOW_MPS2: f64 = 2.0;
-const FOLLOW_AFTER_S: f64 = 0.5;
-/// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
-const UNKNOWN_LEADER_MPS: f64 = 5.0;
 
 /// Draws the speeds of one answer.
 pub(super) struct StartSpeeds<'a> {

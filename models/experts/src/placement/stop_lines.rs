@@ -1,20 +1,14 @@
 //! What a driver on a lane has to stop for: lights, stop signs, junctions.
 
 use super::context::RoadAhead;
+pub(super) use crate::tuning::placing::stop_lines::{LOOK_M, STOP_LINE_M};
+use crate::tuning::placing::stop_lines::{NEAR_M, PASSED_M};
 use scene::routes::LaneGraph;
 use scene::{Scene, SignalState};
 use std::collections::HashMap;
 
-/// How far drivers look, metres.
-pub(super) const LOOK_M: f64 = 80.0;
 /// Most lanes looked along.
 const MAX_HOPS: usize = 12;
-/// A stop line this little behind still counts as ahead, metres.
-const PASSED_M: f64 = 0.5;
-/// Room that a driver keeps to a red light's stop line, metres.
-pub(super) const STOP_LINE_M: f64 = 0.3;
-/// Upper bounds of the distance classes, metres.
-const NEAR_M: [f64; 6] = [4.0, 10.0, 18.0, 30.0, 50.0, LOOK_M];
 
 /// What rules the next stop line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

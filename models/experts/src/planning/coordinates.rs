@@ -15,6 +15,8 @@ use scene::{KNOT_S, KNOTS};
 pub const MODES: usize = 6;
 /// Instants at which route coordinates are compared: 0.5, 1.0, .. 9.0 s.
 pub const INSTANTS: usize = 18;
+/// Steps from an instant to the next.
+pub const PER_INSTANT: usize = scene::HORIZON_STEPS / INSTANTS;
 /// Seconds from an instant to the next.
 pub const INSTANT_S: f64 = scene::HORIZON_STEPS as f64 / INSTANTS as f64 * scene::STEP_S;
 /// Numbers of one future in route coordinates: along knots, then across knots.

@@ -1,10 +1,14 @@
 //! Walkers and carriageways: where a path steps onto the lanes, the way by a crosswalk, and waiting at the kerb while
 //! the lanes that are crossed have green.
 
-use super::anchors::{PathKind, Way};
-use super::lights::{Steps, StopLine};
 use super::profile::{Caps, Progress, approaching, arriving, speed_at};
+use super::stop_line::{Steps, StopLine};
+use super::way::{PathKind, Way};
 use super::world::{AgentAtStart, World};
+use crate::tuning::fixed::crossing::{
+    AHEAD_M, BEHIND_LINE_M, BESIDE_M, DETOUR, DETOUR_M, DRAWN_SHORT_M, INSIDE_M, KERB_M, PACE_MPS, ROUNDED_M,
+    SETTING_OFF_MPS2, STOPPING_MPS2,
+};
 use scene::geometry::cross;
 use scene::geometry::segments::{Segment, pieces};
 use scene::map::Area;
@@ -14,29 +18,8 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
 /// Distance between the places of a path that are looked at, metres.
 const LOOK_M: f64 = 0.5;
-/// Lanes farther than this ahead are not looked at, metres.
-const AHEAD_M: f64 = 40.0;
-/// A kerb is looked for so far before the first lane, metres: parked cars and gutters lie between.
-const KERB_M: f64 = 5.0;
-/// How people walk when they have to be there, m/s, unless they are faster already, and how they set off, m/s2.
-const PACE_MPS: f64 = 1.8;
-const SETTING_OFF_MPS2: f64 = 1.3;
-/// People stop at a kerb by at most this, m/s2.
-const STOPPING_MPS2: f64 = 2.0;
-/// A crosswalk may be a detour of so many times the straight way, or so many metres more.
-const DETOUR: f64 = 2.0;
-const DETOUR_M: f64 = 15.0;
-/// Who walks this near beside a crosswalk uses it, metres.
-const BESIDE_M: f64 = 1.5;
-/// Room kept from the sides of a crosswalk, metres.
-const INSIDE_M: f64 = 0.6;
-/// Crosswalks drawn short of the kerb are gone along for so much longer, metres.
-const DRAWN_SHORT_M: f64 = 4.0;
-/// A crosswalk that a light holds the traffic before lies so far behind its stop line at most, metres.
-const BEHIND_LINE_M: f64 = 12.0;
 /// Over these two a corner of a path is rounded off, metres.
 const SPACING_M: f64 = 0.5;
-const ROUNDED_M: f64 = 1.0;
 /// Ways by crosswalks are named from here on.
 const IDENTITY: u64 = 1_000;
 /// Nobody sets off at the very moment the lanes are stopped, steps.

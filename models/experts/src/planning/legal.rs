@@ -1,6 +1,7 @@
 //! How much of a path breaks the rules of the road: beyond its edges, over a median, against the traffic.
 
 use super::world::AgentAtStart;
+use crate::tuning::fixed::legal::{BESIDE_LANES_M, BEYOND_M, EDGE_M, NARROWER_M};
 use scene::geometry::direction;
 use scene::routes::Polyline;
 use scene::score::Drivable;
@@ -9,14 +10,6 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Distance between the places that are looked at, metres.
 const STEP_M: f64 = 1.5;
-/// Metres that crossing an edge of the road counts as.
-const EDGE_M: f64 = 5.0;
-/// The box counts as this much narrower than it is, metres: a path is no motion yet.
-const NARROWER_M: f64 = 0.2;
-/// How far beside a lane's assumed width a path may cut a corner, metres.
-const BESIDE_LANES_M: f64 = 1.0;
-/// How far beyond an edge a side of the box may be, metres.
-const BEYOND_M: f64 = 0.3;
 
 /// Metres of the first `to_m` of a path on which a road user would break the rules. Riders use pavements, so
 /// only the edges that they cross and the traffic count for them; nothing does on foot or where the map does not

@@ -1,138 +1,26 @@
-//! Red lights: the stop lines that a path crosses, and progress along it that waits at them.
+//! Red lights on a path: the stop lines that it crosses, and progress along it that waits at them.
 
 use super::profile::{Caps, Progress, arriving, speed_at};
+use super::stop_line::{Steps, StopLine};
 use super::world::{AgentAtStart, World};
-use scene::geometry::cross;
+use crate::tuning::fixed::lights::{
+    BEFORE_LINE_M, BEYOND_M, BRAKE_MPS2, HARDEST_MPS2, IN_QUEUE_M, NEAR_LINE_M, ON_LANE_M, ONE_JUNCTION_M,
+    PASSED_M, PRESSED_SHARE, ROLLING_MPS, SAME_LANE_M, SET_OFF_MPS2, SET_OFF_TO_MPS, STOPPED_MPS, TURN_M,
+};
 use scene::limits::Limits;
 use scene::motion::Target;
-use scene::routes::{LaneGraph, Polyline, Pose};
-use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
+use scene::routes::Polyline;
+use scene::{AgentType, HORIZON_STEPS, STEP_S, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
-/// A lane is taken by a path that stays within this of its centre on average, metres.
-const ON_LANE_M: f64 = 2.2;
-/// Lanes this close to equally near cannot be told apart, metres.
-const SAME_LANE_M: f64 = 0.3;
-/// Length of path after (or before) a line that tells which lane is taken, metres.
-const TELLING_M: f64 = 20.0;
-/// Lines so near to each other along a path are of one junction, metres.
-const ONE_JUNCTION_M: f64 = 8.0;
-/// How far beyond its end a path is looked at, metres: motions go on after their goal.
-const BEYOND_M: f64 = 60.0;
-/// Somebody who stands so little past a line waits there, metres.
-const PASSED_M: f64 = 2.5;
-/// Slower than this counts as standing at a line, m/s.
-const STOPPED_MPS: f64 = 1.0;
-/// Where those who wait have their front, metres before the line, and how near to it others may come.
-const BEFORE_LINE_M: f64 = 1.0;
-const NEAR_LINE_M: f64 = 0.5;
 /// A turn at red shows this long after the line, steps, and takes this far, metres; who does not get there does
 /// not begin it.
 const TURN_STEPS: usize = 45;
-const TURN_M: f64 = 12.0;
-/// Braking for a light: as a rule, and at most, m/s2.
-const BRAKE_MPS2: f64 = 2.0;
-const HARDEST_MPS2: f64 = 4.0;
-/// How fast those who waited set off, m/s2, and to which speed at least, m/s.
-const SET_OFF_MPS2: f64 = 1.5;
-const SET_OFF_TO_MPS: f64 = 6.0;
 /// Steps after green at which the first in a queue leaves, and each further one after the one before it.
 const FIRST_LEAVES_STEPS: usize = 10;
 const NEXT_LEAVES_STEPS: usize = 12;
 /// Who would leave later than this step stays in the window.
 const LATEST_LEAVING: usize = 75;
-/// A standing road user this near to a path is in the queue on it, metres.
-const IN_QUEUE_M: f64 = 1.6;
-/// Speeding up and braking on the way to a goal beyond a light, shares of the limits.
-const PRESSED_SHARE: f64 = 0.85;
-/// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
-const ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
-
-/// Steps of a window as bits, the start first.
-pub(crate) type Steps = u128;
-
-/// The stop line of a signal.
-#[derive(Clone, Debug)]
-pub struct StopLine {
-    at: Pose,
-    lane: usize,
-    half_width_m: f64,
-    /// The signal's lane goes on behind the line (it leads through the junction); else it ends there.
-    goes_on: bool,
-    /// Steps of the window at which it is red.
-    red: Steps,
-    /// Steps at which it is known not to be.
-    open: Steps,
-    /// Steps at which the lane has green, or had until a moment ago.
-    go: Steps,
-}
-
-impl StopLine {
-    /// The stop line of a signal in a window that starts at scene step `step`.
-    pub fn of(signal: &Signal, graph: &LaneGraph, step: usize) -> Option<Self> {
-        let lane = graph.lane_index(&signal.lane)?;
-        let lit = &graph.lanes()[lane];
-        // Without a stop point: lanes through a junction are controlled at their start, others at their end.
-        let default_m = if lit.interpolating { 0.0 } else { lit.path.length_m() };
-        let s_m = signal.stop.map_or(default_m, |p| lit.path.project(p).s_m);
-        let mut at = lit.path.sample(s_m);
-        at.position = signal.stop.unwrap_or(at.position);
-        let must_stop = |state: SignalState| state.is_stop() && state != SignalState::FlashingStop;
-        let steps = |is: &dyn Fn(SignalState) -> bool| {
-            (0..=HORIZON_STEPS).filter(|i| is(signal.at(step + i))).fold(0, |bits, i| bits | 1 << i)
-        };
-        Some(Self {
-            at,
-            lane,
-            half_width_m: 0.5 * lit.width_m + 0.25,
-            goes_on: lit.path.length_m() - s_m > 5.0,
-            red: steps(&must_stop),
-            open: steps(&|state| state != SignalState::Unknown && !must_stop(state)),
-            go: steps(&|state| matches!(state, SignalState::Go | SignalState::ArrowGo) || state.is_caution()),
-        })
-    }
-
-    /// The ground right behind the line, straight on for so many metres: its two ends.
-    pub(super) fn behind(&self, reach_m: f64) -> (Vec2, Vec2) {
-        let ahead = self.at.direction();
-        (self.at.position - ahead, self.at.position + ahead * reach_m)
-    }
-
-    /// Its middle, with the heading of its lane.
-    pub(crate) fn at(&self) -> Pose {
-        self.at
-    }
-
-    /// Steps of the window at which its lane has green.
-    pub(super) fn go(&self) -> Steps {
-        self.go
-    }
-
-    /// Steps of the window at which it is known to be red.
-    pub(crate) fn red(&self) -> Steps {
-        self.red
-    }
-
-    /// Arc length at which a path crosses the line in the lane's direction.
-    fn crossed_by(&self, path: &Polyline) -> Option<f64> {
-        let foot = path.project(self.at.position);
-        let here = path.sample(foot.s_m);
-        let ahead = self.at.direction();
-        let inside = foot.distance_m <= self.half_width_m + 0.5
-            && cross(ahead, here.position - self.at.position).abs() <= self.half_width_m;
-        (inside && here.direction().dot(&ahead) > 0.5).then_some(foot.s_m)
-    }
-
-    /// Mean distance of a path that crosses the line at `s_m` from the signal's lane, metres.
-    fn off_lane_m(&self, path: &Polyline, s_m: f64, graph: &LaneGraph) -> f64 {
-        let lane = &graph.lanes()[self.lane].path;
-        let side = if self.goes_on { 1.0 } else { -1.0 };
-        let places = (0..=8).map(|i| s_m + side * TELLING_M * f64::from(i) / 8.0);
-        let places: Vec<f64> = places.filter(|s| (0.0..=path.length_m()).contains(s)).collect();
-        let off = |s: &f64| lane.project(path.position_at(*s)).lateral_m.abs();
-        places.iter().map(off).sum::<f64>() / places.len().max(1) as f64
-    }
-}
 
 /// A stop line that a path crosses.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,7 +69,7 @@ pub fn sets_off(gates: &[Gate]) -> bool {
 /// Stop lines that are red at some time in the window on a road user's path, nearest first.
 pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate> {
     let drives = matches!(who.agent_type, AgentType::Vehicle | AgentType::Cyclist);
-    if !drives || world.stop_lines.iter().all(|line| line.red == 0) {
+    if !drives || world.stop_lines.iter().all(|line| line.red() == 0) {
         return Vec::new();
     }
     let end = path.extrapolate(path.length_m() + BEYOND_M).position;
@@ -206,7 +94,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
         // The nearest lane counts, and only if no lane that is as near lets go.
         let least = lines.iter().map(|l| l.1).fold(f64::INFINITY, f64::min);
         let taken = || lines.iter().filter(|l| l.1 <= least + SAME_LANE_M);
-        let red = taken().fold(Steps::MAX, |red, l| red & l.2.red);
+        let red = taken().fold(Steps::MAX, |red, l| red & l.2.red());
         let line_m = taken().map(|l| l.0).fold(f64::INFINITY, f64::min);
         let heading = |m: f64| longer.sample(line_m + half_length_m + m).heading_rad;
         let right = wrap_angle(heading(25.0) - heading(0.0)) < -FRAC_PI_4;
@@ -216,7 +104,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
             standing && foot.distance_m < IN_QUEUE_M && foot.s_m > 2.0 && foot.s_m < line_m + half_length_m
         };
         let queue = if stands { world.present.iter().filter(waits_ahead).count() } else { 0 };
-        let open = taken().fold(0, |open, l| open | l.2.open);
+        let open = taken().fold(0, |open, l| open | l.2.open());
         Gate { line_m, red, open, right, queue }
     };
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()

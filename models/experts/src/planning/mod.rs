@@ -1,8 +1,8 @@
 //! The planning prior: what can be said of a road user's futures before any network speaks.
 //!
-//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`crossing`] how
-//! walkers cross lanes, [`through`] how one gets to places on the way, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
-//! in the plane back to those numbers.
+//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`crossing`] how walkers
+//! cross lanes, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and
+//! [`pullback`] takes gradients in the plane back to those numbers.
 
 pub mod anchors;
 pub mod coordinates;
@@ -16,13 +16,15 @@ pub mod pullback;
 #[cfg(test)]
 mod road_tests;
 pub mod smooth;
+pub mod stop_line;
 #[cfg(test)]
 mod tests;
-pub mod through;
+mod through;
 mod to_goal;
+mod way;
 pub mod world;
 
 pub use coordinates::{
-    ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, Modes, RESIDUAL, Residual, STAYS_WITHIN_M,
-    hat, integrated_hat, twice_integrated_hat,
+    ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, Modes, PER_INSTANT, RESIDUAL, Residual,
+    STAYS_WITHIN_M, hat, integrated_hat, twice_integrated_hat,
 };

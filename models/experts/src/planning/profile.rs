@@ -1,9 +1,7 @@
 //! Progress along a path over time: the base of an anchor.
 
+use crate::tuning::fixed::profile::EASING_MPS2;
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S};
-
-/// Braking for a bend beyond the goal, m/s2.
-const EASING_MPS2: f64 = 3.0;
 
 /// Metres along a path at every step, the first zero.
 pub type Progress = [f64; HORIZON_STEPS + 1];

@@ -1,6 +1,7 @@
 //! Gradients at the instants of a draft as gradients of its knots: the way downhill in the scene's energy.
 
-use super::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, smooth};
+use super::coordinates::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
+use super::smooth;
 use scene::KNOTS;
 
 /// Longest step downhill, in normalised knots.

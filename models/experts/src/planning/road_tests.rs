@@ -1,7 +1,7 @@
 //! Ways by the road and lights on them, on scenes drawn by hand.
 
-use super::MODES;
 use super::anchors::{Anchor, PathKind, anchors};
+use super::coordinates::MODES;
 use super::legal::broken_m;
 use super::lights::{Waiting, gates};
 use super::profile::{Caps, Progress, cruising};

@@ -1,7 +1,7 @@
 //! The world at a step and the anchors that it offers, on scenes drawn by hand.
 
-use super::MODES;
 use super::anchors::{Anchor, PathKind, anchors};
+use super::coordinates::MODES;
 use super::profile::speed_at;
 use super::world::World;
 use scene::map::{Lane, LaneMap};

@@ -1,29 +1,19 @@
 //! Ways through via points: one leg after the other, each planned as a way to a goal, and a progress that is at
 //! each via point at its time.
 
-use super::MODES;
-use super::anchors::{Anchor, SLOTS, Way, assumed_speed, paths_ahead};
+use super::coordinates::MODES;
 use super::profile::{Caps, Progress, arriving, cruising_from, going_on, speed_at};
 use super::to_goal::{GOAL_SLOTS, MOST_WAYS, goal_progress, paths_to_goal};
-use super::world::{AgentAtStart, World};
+use super::way::{Anchor, SLOTS, Way, assumed_speed, paths_ahead};
+use super::world::{AgentAtStart, Waypoint, World};
+use crate::tuning::fixed::through::PRESSED;
 use scene::motion::{MotionModel, Target};
-use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
+use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
 /// Ways to a via point from which the next leg begins; the last leg has as many as there are slots for.
 const WAYS_ON: usize = 2;
 /// Who has no goal passes its last via point at least so long before the window ends.
 const LEFT_STEPS: usize = 10;
-/// A via point is passed by going so much faster at most than a lane suggests.
-const PRESSED: f64 = 1.6;
-
-/// A via point as a window has it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Waypoint {
-    /// As the user fixed it, its time counted from the window's start and free where it lies beyond the window.
-    pub via: Via,
-    /// Step of the window at which it is passed, where that is fixed: 1 ..= [`HORIZON_STEPS`].
-    pub step: Option<usize>,
-}
 
 /// A way through the via points so far, with how far along it each lies.
 struct Through {

@@ -1,12 +1,13 @@
 //! Ways to a goal position: along lanes where they lead there in time, off them where nothing else does.
 
-use super::MODES;
-use super::anchors::{Anchor, PathKind, Way, identity_of};
+use super::coordinates::MODES;
 use super::crossing::by_crosswalk;
 use super::legal::broken_m;
 use super::profile::{Caps, arriving, fastest, going_on, slowest};
+use super::way::{Anchor, PathKind, Way, identity_of};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
+use crate::tuning::fixed::to_goal::{AFTER_GOAL_M, ARRIVING_M, PRESSED, PRESSED_SHARE};
 use scene::geometry::direction;
 use scene::motion::{Kind, MotionModel, Projection, Target, Tension, project};
 use scene::routes::{
@@ -21,14 +22,6 @@ use std::sync::Arc;
 pub(super) const MOST_WAYS: usize = 3;
 /// The first path to a goal gets more of the slots than the others.
 pub(super) const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
-/// Goals may be missed by this much along a way that counts as fast enough, metres.
-const ARRIVING_M: f64 = 0.5;
-/// A way may be driven faster through its bends than is comfortable, when time presses.
-const PRESSED: f64 = 1.15;
-/// A way goes on beyond its goal for so much more than it takes, metres.
-const AFTER_GOAL_M: f64 = 10.0;
-/// Share of the limits of speeding up and braking that a way may need.
-const PRESSED_SHARE: f64 = 0.8;
 
 /// Anchors to a goal position, [`MODES`] of them.
 pub(super) fn anchors_to_goal(

@@ -1,7 +1,6 @@
 //! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
 
-use super::lights::StopLine;
-use super::through::Waypoint;
+use super::stop_line::StopLine;
 use crate::tuning::{self, Tuning};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
@@ -40,6 +39,15 @@ pub struct AgentAtStart {
     pub size: Size,
     /// Pose and velocity at the start, with conditions applied.
     pub start: State,
+}
+
+/// A via point as a window has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waypoint {
+    /// As the user fixed it, its time counted from the window's start and free where it lies beyond the window.
+    pub via: Via,
+    /// Step of the window at which it is passed, where that is fixed: 1 ..= [`HORIZON_STEPS`].
+    pub step: Option<usize>,
 }
 
 /// A scene that is borrowed for as long as a world lives, or shared with it.

@@ -1,13 +1,13 @@
 //! The ledger of a call: what everybody has done so far in the present sample, and what the answer will say.
 
 use super::targets::due;
+use super::window::PlanningWindow;
 use crate::generator::actor::Actor;
 use crate::generator::candidates::Candidate;
 use crate::generator::decide::{Decided, Decisions};
 use crate::generator::extrapolation::Guessed;
-use crate::generator::reacting::Answered;
+use crate::generator::others::Reacted;
 use crate::generator::report::{self, Outcome};
-use crate::generator::window::Window;
 use crate::planning::world::World;
 use crate::request::{
     Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// What a road user has done so far in the present sample.
-pub(super) struct Progress {
+pub(super) struct AgentProgress {
     /// Of the window in which it first got any.
     futures: AgentFutures,
     /// To where the next window begins, from the step after the call's start or, for one that came in
@@ -30,17 +30,17 @@ pub(super) struct Progress {
     reach: ReachReport,
     intermediate: Vec<Intermediate>,
     /// It drives its own way at another pace, for somebody else.
-    answers: bool,
+    reacts: bool,
     /// What the last window planned for it after what was executed.
     ahead: Vec<State>,
 }
 
-impl Progress {
+impl AgentProgress {
     fn new(futures: AgentFutures, executed: Vec<State>, absent: usize) -> Self {
         let reach = ReachReport::Reached { position_m: 0.0, heading_rad: 0.0, speed_mps: 0.0 };
-        let (parked, answers) = (false, false);
+        let (parked, reacts) = (false, false);
         let (intermediate, ahead) = (Vec::new(), Vec::new());
-        Self { futures, executed, absent, parked, reach, intermediate, answers, ahead }
+        Self { futures, executed, absent, parked, reach, intermediate, reacts, ahead }
     }
 
     /// What it did up to `steps` after the call's start while it followed a motion that was known.
@@ -54,7 +54,7 @@ impl Progress {
 /// All that a call writes down on its way to the answer.
 #[derive(Default)]
 pub(super) struct Ledger {
-    progress: BTreeMap<usize, Progress>,
+    progress: BTreeMap<usize, AgentProgress>,
     pub(super) samples: Vec<Sample>,
     resolved: BTreeMap<AgentId, Resolved>,
     /// Of the present sample.
@@ -69,7 +69,7 @@ pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<Future>)>>
 
 impl Ledger {
     /// What a road user has done in the present sample, if it got futures.
-    pub(super) fn progress(&self, agent: usize) -> Option<&Progress> {
+    pub(super) fn progress(&self, agent: usize) -> Option<&AgentProgress> {
         self.progress.get(&agent)
     }
 
@@ -80,10 +80,10 @@ impl Ledger {
 
     /// Those that drive their own way at another pace for somebody: where they are, and what they had planned from
     /// there.
-    pub(super) fn answering(&self) -> BTreeMap<usize, Vec<State>> {
-        let answering = self.progress.iter().filter(|(_, p)| p.answers);
-        let ahead = |p: &Progress| p.executed.last().into_iter().chain(&p.ahead).copied().collect();
-        answering.map(|(i, p)| (*i, ahead(p))).collect()
+    pub(super) fn reacting(&self) -> BTreeMap<usize, Vec<State>> {
+        let reacting = self.progress.iter().filter(|(_, p)| p.reacts);
+        let ahead = |p: &AgentProgress| p.executed.last().into_iter().chain(&p.ahead).copied().collect();
+        reacting.map(|(i, p)| (*i, ahead(p))).collect()
     }
 
     /// Those among them that were parked at the start and have not moved.
@@ -102,17 +102,17 @@ impl Ledger {
         &mut self,
         request: &Request,
         base: &Scene,
-        window: &Window<'_>,
+        window: &PlanningWindow<'_>,
         decided: &Decided,
         span: Range<usize>,
     ) {
         let agent = decided.agent;
-        let actor = &window.actors[decided.actor];
+        let actor = &window.actors()[decided.actor];
         let later = span.start > 0;
         let since_s = later.then(|| (request.start_step + span.start) as f64 * STEP_S);
         let reach = report::reach_report(actor, decided.motion(), since_s, decided.blocked_by.as_ref());
         let mut progress = match self.progress.remove(&agent) {
-            Some(known) => Progress { parked: known.parked && decided.rests(), answers: false, ..known },
+            Some(known) => AgentProgress { parked: known.parked && decided.rests(), reacts: false, ..known },
             None => first_of(window, actor, decided, later, before(base, request, agent, span.start), &reach),
         };
         progress.catch_up(request, base, agent, span.start);
@@ -129,41 +129,41 @@ impl Ledger {
     }
 
     /// Writes down where somebody goes in these steps who gave up what it did for others.
-    pub(super) fn answer_of(
+    pub(super) fn react(
         &mut self,
         request: &Request,
         base: &Scene,
-        window: &Window<'_>,
-        answered: &Answered,
+        window: &PlanningWindow<'_>,
+        reacted: &Reacted,
         span: Range<usize>,
     ) {
         // It comes in, or leaves what it did, after these steps: a later window sees to that.
-        let there = span.len().saturating_sub(answered.enters);
-        let agent = answered.index;
-        if there == 0 || there <= answered.own && !self.progress.contains_key(&agent) {
+        let there = span.len().saturating_sub(reacted.enters);
+        let agent = reacted.index;
+        if there == 0 || there <= reacted.own && !self.progress.contains_key(&agent) {
             return;
         }
         let mut progress = self.progress.remove(&agent).unwrap_or_else(|| {
             let executed = before(base, request, agent, span.start);
-            let absent = window.world.step + answered.enters - request.start_step - executed.len();
-            Progress::new(window.answer_of(answered), executed, absent)
+            let absent = window.setting.world.step + reacted.enters - request.start_step - executed.len();
+            AgentProgress::new(window.reaction(reacted), executed, absent)
         });
-        progress.executed.extend(answered.states.iter().take(there));
-        progress.ahead = answered.states.iter().skip(there).copied().collect();
-        progress.answers = true;
+        progress.executed.extend(reacted.states.iter().take(there));
+        progress.ahead = reacted.states.iter().skip(there).copied().collect();
+        progress.reacts = true;
         self.progress.insert(agent, progress);
     }
 
     /// Writes down what the others would answer to futures that are not shown.
-    pub(super) fn would_answer(&mut self, window: &Window<'_>, decisions: &Decisions) {
-        let shown = || decisions.answered.iter().map(|a| a.index);
+    pub(super) fn would_react(&mut self, window: &PlanningWindow<'_>, decisions: &Decisions) {
+        let shown = || decisions.reacted.iter().map(|a| a.index);
         for decided in &decisions.actors {
-            for (k, answers) in decided.answers.iter().enumerate() {
-                let Some(answers) = answers else { continue };
-                let who: BTreeSet<usize> = shown().chain(answers.iter().map(|a| a.index)).collect();
+            for (k, reactions) in decided.reactions.iter().enumerate() {
+                let Some(reactions) = reactions else { continue };
+                let who: BTreeSet<usize> = shown().chain(reactions.iter().map(|a| a.index)).collect();
                 let future = |agent: usize| {
-                    let answered = answers.iter().find(|a| a.index == agent)?;
-                    window.answer_of(answered).modes.into_iter().next()
+                    let reacted = reactions.iter().find(|a| a.index == agent)?;
+                    window.reaction(reacted).modes.into_iter().next()
                 };
                 let instead = who.into_iter().map(|agent| (agent, future(agent))).collect();
                 self.instead.insert((decided.agent, k), instead);
@@ -197,7 +197,7 @@ impl Ledger {
             self.warn_of_guesses(request, &progress, guesses);
         }
         let mut sample = Sample::default();
-        for (i, Progress { mut futures, executed, absent, .. }) in progress {
+        for (i, AgentProgress { mut futures, executed, absent, .. }) in progress {
             if let Some(future) = futures.modes.get_mut(futures.chosen) {
                 let first_step = request.start_step + 1 + absent;
                 *future = Future { first_step, states: executed, ..future.clone() };
@@ -208,7 +208,7 @@ impl Ledger {
     }
 
     /// What became of everybody's conditions.
-    fn resolve(&mut self, request: &Request, world: &World<'_>, progress: &BTreeMap<usize, Progress>) {
+    fn resolve(&mut self, request: &Request, world: &World<'_>, progress: &BTreeMap<usize, AgentProgress>) {
         let agents = &request.scene.agents;
         for (i, progress) in progress {
             let Some(present) = world.present.iter().find(|p| p.index == *i) else { continue };
@@ -239,7 +239,7 @@ impl Ledger {
     fn warn_of_guesses(
         &mut self,
         request: &Request,
-        progress: &BTreeMap<usize, Progress>,
+        progress: &BTreeMap<usize, AgentProgress>,
         guesses: impl Iterator<Item = (usize, Guessed)>,
     ) {
         let end = request.start_step + request.horizon_steps;
@@ -285,22 +285,22 @@ impl Ledger {
 /// A road user's first window: its alternatives are those of the answer. One that comes later has the future that
 /// is shown alone.
 fn first_of(
-    window: &Window<'_>,
+    window: &PlanningWindow<'_>,
     actor: &Actor,
     decided: &Decided,
     later: bool,
     executed: Vec<State>,
     reach: &ReachReport,
-) -> Progress {
+) -> AgentProgress {
     let mut futures = if later {
         window.futures(0, &[Candidate { probability: 1.0, ..decided.shown().clone() }])
     } else {
         window.futures(decided.chosen, &decided.alternatives)
     };
     futures.reaction.clone_from(&decided.reaction);
-    let absent = window.world.step - window.request.start_step - executed.len();
+    let absent = window.setting.world.step - window.setting.request.start_step - executed.len();
     let parked = actor.is_parked() && decided.rests();
-    Progress { parked, reach: reach.clone(), ..Progress::new(futures, executed, absent) }
+    AgentProgress { parked, reach: reach.clone(), ..AgentProgress::new(futures, executed, absent) }
 }
 
 /// What a road user that keeps its motion did before a window in which it first gives it up. The first

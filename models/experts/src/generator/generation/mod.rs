@@ -5,27 +5,34 @@
 //! sees everybody where they are by then: those with futures where these led, the rest on their log (or
 //! straight on where it has ended). Nothing of an earlier window is planned again.
 
+mod base_scene;
+mod future_relations;
 mod ledger;
 mod remedies;
 mod roster;
 mod scenes;
-mod standing;
+mod spans;
 mod targets;
 mod verdicts;
+mod window;
 
 use super::drafting::steps;
-use super::window::Window;
-use super::{Generator, KnownMap, report, rounds};
+use super::resources::Resources;
+use super::window_setting::WindowSetting;
+use super::{report, rounds};
 use crate::clock::milliseconds;
+use crate::maps::{KnownMap, Maps};
+use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::request::{Accepted, Answer, Cancel, Event, GenerateError, Request, Warning};
 use ledger::Ledger;
 use roster::{Part, Roster};
-use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS, Sample, Scene};
-use std::ops::Range;
+use scene::{MAX_HORIZON_STEPS, Sample, Scene};
+use spans::Spans;
 use std::sync::Arc;
 use std::time::Duration;
 use targets::{Targets, due};
+use window::PlanningWindow;
 
 /// What comes next of a call.
 #[derive(Clone, Copy)]
@@ -39,31 +46,6 @@ enum Stage {
     Done,
 }
 
-/// Steps after the call's start that each window executes.
-struct Spans(Vec<Range<usize>>);
-
-impl Spans {
-    fn of(request: &Request) -> Self {
-        let horizon = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
-        let interval = request.replan_steps.unwrap_or(HORIZON_STEPS).clamp(1, HORIZON_STEPS);
-        Self((0..horizon).step_by(interval).map(|from| from..horizon.min(from + interval)).collect())
-    }
-
-    /// Windows; at least one.
-    fn count(&self) -> usize {
-        self.0.len()
-    }
-
-    fn window(&self, number: usize) -> Range<usize> {
-        self.0[number].clone()
-    }
-
-    /// Where the last one begins.
-    fn last_start(&self) -> usize {
-        self.0.last().map_or(0, |span| span.start)
-    }
-}
-
 /// The windows of a call that are planned at present.
 struct Windows<'g> {
     spans: Spans,
@@ -72,23 +54,23 @@ struct Windows<'g> {
     /// The moment at which the first begins, until it is planned.
     start: Option<World<'g>>,
     /// The first serves all samples, a later one the present sample alone.
-    first: Option<Window<'g>>,
-    later: Option<Window<'g>>,
+    first: Option<PlanningWindow<'g>>,
+    later: Option<PlanningWindow<'g>>,
 }
 
 impl<'g> Windows<'g> {
-    fn present(&self) -> Result<&Window<'g>, GenerateError> {
-        self.later.as_ref().or(self.first.as_ref()).ok_or_else(no_window)
+    fn present(&self) -> Result<&PlanningWindow<'g>, GenerateError> {
+        self.later.as_ref().or(self.first.as_ref()).ok_or(GenerateError::NoWindow)
     }
 
-    fn present_mut(&mut self) -> Result<&mut Window<'g>, GenerateError> {
-        self.later.as_mut().or(self.first.as_mut()).ok_or_else(no_window)
+    fn present_mut(&mut self) -> Result<&mut PlanningWindow<'g>, GenerateError> {
+        self.later.as_mut().or(self.first.as_mut()).ok_or(GenerateError::NoWindow)
     }
 }
 
 /// A call under way: yields events until the final one.
 pub struct Generation<'g> {
-    generator: &'g Generator,
+    resources: &'g Resources,
     request: Arc<Request>,
     cancel: Cancel,
     map: Arc<KnownMap>,
@@ -100,23 +82,24 @@ pub struct Generation<'g> {
 
 impl<'g> Generation<'g> {
     pub(super) fn new(
-        generator: &'g Generator,
+        resources: &'g Resources,
+        maps: &Maps,
         mut request: Request,
         cancel: Cancel,
     ) -> Result<Self, GenerateError> {
-        let started = (generator.clock)();
+        let started = (resources.clock)();
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
         let request = Arc::new(request);
-        let map = generator.maps.known(&request.scene.map);
-        let start = world(generator, &map, &request, request.scene.clone(), request.start_step);
+        let map = maps.known(&request.scene.map);
+        let start = world(resources, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
         let (roster, base) = Roster::of(&request, &start, &spans)?;
         // All who are there at the start are there in both scenes alike.
         let start = World { scene: base.clone().into(), ..start };
         let windows = Windows { spans, base, start: Some(start), first: None, later: None };
         let mut ledger = Ledger::default();
-        ledger.timings.encode_ms = milliseconds(generator.clock, started);
-        Ok(Self { generator, request, cancel, map, stage: Stage::Accept, roster, windows, ledger })
+        ledger.timings.encode_ms = milliseconds(resources.clock, started);
+        Ok(Self { resources, request, cancel, map, stage: Stage::Accept, roster, windows, ledger })
     }
 
     fn accept(&self) -> Accepted {
@@ -139,14 +122,14 @@ impl<'g> Generation<'g> {
             self.windows.later = None;
             return Ok(());
         }
-        let started = (self.generator.clock)();
+        let started = (self.resources.clock)();
         let span = self.windows.spans.window(number);
         let mut world = match self.windows.start.take() {
             Some(start) if number == 0 => start,
             _ => {
                 let step = self.request.start_step + span.start;
                 let scene = scenes::reached(&self.windows.base, &self.roster, &self.ledger, step);
-                world(self.generator, &self.map, &self.request, Arc::new(scene), step)
+                world(self.resources, &self.map, &self.request, Arc::new(scene), step)
             }
         };
         let executed = |i| self.ledger.progress(i).map_or(&[][..], |p| &p.executed);
@@ -161,7 +144,9 @@ impl<'g> Generation<'g> {
         let mut cast = self.roster.in_window(number, &world, end, &self.ledger);
         cast.parked = self.ledger.parked();
         let (request, map) = (self.request.clone(), self.map.clone());
-        let mut window = Window::plan(self.generator, request, map, world, number, &cast)?;
+        let (resources, pullback) = (self.resources, Pullback::default());
+        let setting = WindowSetting { resources, request, map, world, number, pullback };
+        let mut window = PlanningWindow::plan(setting, &cast)?;
         window.subgoals = targets.subgoals;
         if number == 0 {
             self.ledger.warnings = self.first_warnings(&window);
@@ -175,8 +160,8 @@ impl<'g> Generation<'g> {
         Ok(())
     }
 
-    fn first_warnings(&self, window: &Window<'_>) -> Vec<Warning> {
-        report::warnings(&window.world, &window.actors, |i| {
+    fn first_warnings(&self, window: &PlanningWindow<'_>) -> Vec<Warning> {
+        report::warnings(&window.setting.world, window.actors(), |i| {
             let due = due(&self.request, i).clamp(1, MAX_HORIZON_STEPS as isize);
             (&self.request.scene.agents[i].conditions, due as usize)
         })
@@ -184,7 +169,7 @@ impl<'g> Generation<'g> {
 
     /// Milliseconds since the clock showed this.
     fn since(&self, started: Duration) -> f64 {
-        milliseconds(self.generator.clock, started)
+        milliseconds(self.resources.clock, started)
     }
 
     fn begin(&mut self, number: usize) -> Result<(), GenerateError> {
@@ -194,7 +179,7 @@ impl<'g> Generation<'g> {
     }
 
     fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
-        let started = (self.generator.clock)();
+        let started = (self.resources.clock)();
         self.windows.present_mut()?.refine(step)?;
         if self.ledger.sample() == 0 {
             let took_ms = self.since(started);
@@ -205,16 +190,16 @@ impl<'g> Generation<'g> {
 
     /// Chooses one future each and goes along them to where the next window starts.
     fn execute(&mut self, number: usize) -> Result<(), GenerateError> {
-        let started = (self.generator.clock)();
+        let started = (self.resources.clock)();
         let span = self.windows.spans.window(number);
         let window = self.windows.present()?;
         let (decisions, base) = (window.decide(), &self.windows.base);
         for decided in &decisions.actors {
             self.ledger.follow(&self.request, base, window, decided, span.clone());
         }
-        self.ledger.would_answer(window, &decisions);
-        for answered in &decisions.answered {
-            self.ledger.answer_of(&self.request, base, window, answered, span.clone());
+        self.ledger.would_react(window, &decisions);
+        for reacted in &decisions.reacted {
+            self.ledger.react(&self.request, base, window, reacted, span.clone());
         }
         self.ledger.timings.choice_ms += self.since(started);
         Ok(())
@@ -226,11 +211,11 @@ impl<'g> Generation<'g> {
             let ends = self.roster.pick_ends(agent).map_or(last, |step| step - 1 - self.request.start_step);
             self.ledger.followed(&self.request, &self.windows.base, agent, last.min(ends));
         }
-        let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
+        let world = &self.windows.first.as_ref().ok_or(GenerateError::NoWindow)?.setting.world;
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         let instead = self.ledger.take_instead();
         if self.request.stages.judged {
-            verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample, &instead);
+            verdicts::judge(&self.request, &self.map, &self.resources.workers, &mut sample, &instead);
             if self.ledger.samples.is_empty() {
                 let ways = remedies::by_road(&self.request, world, &self.map, &sample);
                 self.ledger.remedy(ways);
@@ -328,16 +313,12 @@ impl Iterator for Generation<'_> {
 
 /// A scene at one step, to be planned as the request says.
 fn world<'g>(
-    generator: &'g Generator,
+    resources: &'g Resources,
     map: &KnownMap,
     request: &Request,
     scene: Arc<Scene>,
     step: usize,
 ) -> World<'g> {
     let world = World::new(scene, map.graph.clone(), step);
-    World { planning: request.stages.planning, tuning: &generator.tuning, ..world }
-}
-
-fn no_window() -> GenerateError {
-    GenerateError::Expert("no window is planned".into())
+    World { planning: request.stages.planning, tuning: &resources.tuning, ..world }
 }

@@ -2,26 +2,16 @@
 //! in the same time.
 
 use super::targets::due;
-use crate::generator::KnownMap;
+use crate::maps::KnownMap;
 use crate::planning::profile::Caps;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{ByRoad, Request};
+use crate::tuning::fixed::remedies::{BENDS, LEAST_MOVE_M, PACE_MPS, SPEEDING_UP_MPS2, STOPPING_MPS2};
 use scene::judge::FaultKind;
 use scene::routes::speed::speed_caps;
-use scene::routes::{Route, SpeedRules, routes_ahead};
+use scene::routes::{Route, routes_ahead};
 use scene::{AgentId, AgentType, STEP_S, Sample};
 use std::collections::BTreeMap;
-
-/// What a driver makes of the time without hurry: speeding up, m/s2, to a pace, m/s, and slowing down for bends, m/s2
-/// sideways.
-const SPEEDING_UP_MPS2: f64 = 1.5;
-const PACE_MPS: f64 = 13.9;
-const BENDS: SpeedRules = SpeedRules { lateral_mps2: 3.0, brake_mps2: 2.2 };
-/// Who brakes harder than this does not stop gently, m/s2.
-const STOPPING_MPS2: f64 = 3.0;
-
-/// A place nearer to the goal than this is the goal, metres.
-const LEAST_MOVE_M: f64 = 1.0;
 
 /// By road user whose shown future leaves the road or drives against the traffic to meet its goal.
 pub(super) fn by_road(

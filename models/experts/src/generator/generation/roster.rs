@@ -1,11 +1,11 @@
 //! The roster of a call: one part for every road user of the scene, and who acts in each window.
 
-use super::Spans;
+use super::base_scene::known_to_the_end;
 use super::ledger::Ledger;
-use super::scenes::known_to_the_end;
+use super::spans::Spans;
+use crate::generator::cast::{Cast, MOST_ACTORS};
 use crate::generator::extrapolation::Guessed;
-use crate::generator::reacting::carry_on;
-use crate::generator::window::{Cast, MOST_ACTORS};
+use crate::generator::others::extend_along_road;
 use crate::planning::world::World;
 use crate::request::{GenerateError, React, Request};
 use scene::{AgentId, AgentType, Scene};
@@ -160,7 +160,7 @@ impl Roster {
         let asked = self.with(Part::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
         let mut acting: BTreeSet<usize> = asked.collect();
         // Who drives its own way at another pace does so as long as there is one.
-        let mut resumed = ledger.answering();
+        let mut resumed = ledger.reacting();
         resumed.retain(|i, _| !self.known_until(*i, end));
         for (i, ahead) in &mut resumed {
             let agent = &self.base.agents[*i];
@@ -169,7 +169,7 @@ impl Roster {
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];
-            carry_on(ahead, way, &world.graph, agent_type);
+            extend_along_road(ahead, way, &world.graph, agent_type);
         }
         acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
         let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));

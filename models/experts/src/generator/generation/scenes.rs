@@ -1,14 +1,10 @@
-//! The scenes that windows are planned from: who is where at their start.
+//! The scene at the start of a later window, made of the states that the windows before it reached.
 
-use super::Spans;
+use super::base_scene::bare;
 use super::ledger::Ledger;
 use super::roster::{Part, Roster};
-use crate::generator::extrapolation::{Guessed, extrapolated};
-use crate::request::Request;
 use scene::geometry::direction;
-use scene::{AgentType, HORIZON_STEPS, Meta, Scene, Start, State, Track};
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use scene::{AgentType, HORIZON_STEPS, Scene, Start, State, Track};
 
 /// The scene as it stands where a later window starts, at `step`: each road user's track is what it has reached (or,
 /// kept, what it does in the window), and what was fixed about starts is behind.
@@ -39,45 +35,6 @@ pub(super) fn reached(base: &Scene, roster: &Roster, ledger: &Ledger, step: usiz
         }
     });
     bare(base, agents.collect())
-}
-
-/// The call's scene with the motion of those that keep theirs known to the end of the last window, and from where
-/// on that is a guess, one entry an agent. `replaced` are those that do not keep theirs.
-pub(super) fn known_to_the_end(
-    request: &Request,
-    replaced: impl Fn(usize) -> bool,
-    spans: &Spans,
-) -> (Arc<Scene>, Vec<Option<Guessed>>) {
-    let scene = &request.scene;
-    let start = request.start_step;
-    let last = start + spans.last_start() + HORIZON_STEPS;
-    let mut guessed = vec![None; scene.agents.len()];
-    let agents = scene.agents.iter().enumerate().map(|(i, agent)| {
-        if replaced(i) {
-            return agent.clone();
-        }
-        let pinned = request.pinned.get(&agent.id).map(Vec::as_slice);
-        let (track, since) = extrapolated(scene, agent, pinned, start, last);
-        guessed[i] = since;
-        scene::Agent { track: track.into(), ..agent.clone() }
-    });
-    let agents = agents.collect();
-    (Arc::new(bare(scene, agents)), guessed)
-}
-
-/// A scene of these road users, with what planning needs of the rest.
-fn bare(scene: &Scene, agents: Vec<scene::Agent>) -> Scene {
-    Scene {
-        id: None,
-        name: String::new(),
-        meta: Meta::default(),
-        time: scene.time,
-        map: scene.map.clone(),
-        signals: scene.signals.clone(),
-        agents,
-        generated: None,
-        extra: BTreeMap::new(),
-    }
 }
 
 /// A reached state as the start of the next window. The box centre of what drives swings out in a bend;

@@ -1,11 +1,11 @@
 //! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
 //! what the others are shown to do, or would do if it were taken.
 
+use super::future_relations::ShownAgents;
 use super::ledger::Instead;
-use super::standing::Standing;
 use super::targets::due;
-use crate::generator::KnownMap;
 use crate::generator::workers::Workers;
+use crate::maps::KnownMap;
 use crate::planning::MODES;
 use crate::request::Request;
 use scene::judge::{About, Judge, Other, by_weight};
@@ -40,7 +40,7 @@ pub(super) fn judge(
         .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
         .flat_map(|(i, futures)| futures.modes.iter().enumerate().map(move |(k, future)| (i, k, future)))
         .collect();
-    let standing = Standing::new(request, map, sample, &shown, futures.len());
+    let standing = ShownAgents::new(request, map, sample, &shown, futures.len());
     let ground = Ground::of(sample);
     let others: Vec<Other<'_>> = shown
         .into_iter()

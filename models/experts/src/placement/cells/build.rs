@@ -3,6 +3,7 @@
 use super::{Cell, CellKind, Cells, FEATURES, LaneCells, class};
 use crate::placement::region::Region;
 use crate::placement::stop_lines::Ahead;
+use crate::tuning::placing::cells::{EDGE_REACH_M, KERB_LOOK_M, NEXT_LANE_M};
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::geometry::{cross, direction};
 use scene::map::LaneType;
@@ -10,13 +11,6 @@ use scene::routes::LaneHit;
 use scene::routes::graph::{GraphLane, LaneGraph, LaneSource};
 use scene::{AgentType, Vec2};
 use std::collections::HashSet;
-
-/// Longest look from a lane to the kerb, metres.
-const KERB_LOOK_M: f64 = 12.0;
-/// A road edge farther from any lane borders nothing that people walk along, metres.
-const EDGE_REACH_M: f64 = 15.0;
-/// A look to the side that ends on another lane's band meets no kerb, metres beyond the own border.
-const NEXT_LANE_M: f64 = 1.2;
 
 /// A stretch of a lane, or of a road edge, that people walk along.
 struct WalkStretch {

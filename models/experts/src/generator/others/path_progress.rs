@@ -1,102 +1,19 @@
-//! The motion that a road user has without this call: a path, and how far along it it is at each step.
+//! The motion that an agent has without this call, as a path and the progress along it at each step.
 
-use crate::planning::STAYS_WITHIN_M;
-use scene::geometry::obb::{OrientedBox, overlaps};
+pub(super) use crate::tuning::fixed::path_progress::BEYOND_M;
+use crate::tuning::fixed::path_progress::{HURRIED, LOOK_AHEAD_M, SETTING_OFF_MPS, TAKES_UP_MPS2};
+use scene::geometry::obb::OrientedBox;
 use scene::geometry::{direction, wrap_angle};
-use scene::motion::Trajectory;
 use scene::routes::{LaneGraph, Pose, base_path, best_route_ahead};
-use scene::score::{SweptBoxes, overlap};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 
 /// States nearer to each other than this are one place of the path, metres: what stands and trembles stays.
 const GRAIN_M: f64 = 0.3;
 /// A gap in a recording that is bridged, steps.
 const MOST_BRIDGED: usize = 10;
-/// How far ahead the speed at a place is looked up where the road user stood or set off, metres.
-const LOOK_AHEAD_M: f64 = 6.0;
-/// Slower than this it stood or set off, m/s.
-const SETTING_OFF_MPS: f64 = 2.0;
-/// How far beyond its course somebody may get who goes no faster, metres.
-pub(super) const BEYOND_M: f64 = 15.0;
-/// How much further somebody gets who hurries: a share of its way.
-const HURRIED: f64 = 0.3;
-/// Every third step is looked at for meetings, as in the choice.
-pub(super) const STRIDE: usize = 3;
-
-/// Boxes of a motion at each step of a window, and what the choice looks at of them.
-#[derive(Clone, Debug)]
-pub(in crate::generator) struct Moving {
-    /// One entry a step from the window's start on.
-    pub(in crate::generator) boxes: Vec<Option<OrientedBox>>,
-    pub(in crate::generator) swept: SweptBoxes,
-}
-
-impl Moving {
-    /// Of a box a step, the window's start first.
-    pub(super) fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
-        let swept = SweptBoxes::new(boxes.iter().skip(STRIDE).step_by(STRIDE).copied().collect());
-        Self { boxes, swept }
-    }
-
-    /// Of states, one a step from `first` steps after the window's start on; nobody is there before and after.
-    pub(super) fn of_states<'a>(
-        first: usize,
-        states: impl IntoIterator<Item = &'a State>,
-        size: &Size,
-    ) -> Self {
-        let boxes = std::iter::repeat_n(None, first);
-        let boxes = boxes.chain(states.into_iter().map(|s| Some(OrientedBox::of_state(s, size))));
-        Self::new(boxes.take(HORIZON_STEPS + 1).collect())
-    }
-
-    /// Of a rollout.
-    pub(in crate::generator) fn of_rollout(states: &Trajectory, size: &Size) -> Self {
-        let states: Vec<State> = states.iter().map(State::from).collect();
-        Self::of_states(0, &states, size)
-    }
-
-    /// The boxes of two do not overlap from the start on.
-    pub(in crate::generator) fn starts_apart(&self, other: &Self) -> bool {
-        match (self.at(0), other.at(0)) {
-            (Some(a), Some(b)) => !overlaps(a, b, 0.0),
-            _ => true,
-        }
-    }
-
-    /// The boxes overlap at some step.
-    pub(in crate::generator) fn meets(&self, other: &Self) -> bool {
-        let touch = |(a, b): (&Option<OrientedBox>, &Option<OrientedBox>)| match (a, b) {
-            (Some(a), Some(b)) => overlaps(a, b, 0.0),
-            _ => false,
-        };
-        let found = overlap(&self.swept, &other.swept);
-        found.overlaps || found.close && self.boxes.iter().zip(&other.boxes).any(touch)
-    }
-
-    /// It is there and stays where it is.
-    pub(in crate::generator) fn stands(&self) -> bool {
-        let mut places = self.boxes.iter().flatten().map(OrientedBox::center);
-        let first = places.next();
-        first.is_some_and(|first| places.all(|place| (place - first).norm() < STAYS_WITHIN_M))
-    }
-
-    /// Box at a step.
-    pub(super) fn at(&self, step: usize) -> Option<&OrientedBox> {
-        self.boxes.get(step)?.as_ref()
-    }
-
-    /// Speed between a step and the one before, m/s as a vector.
-    pub(super) fn velocity(&self, step: usize) -> Vec2 {
-        match (step.checked_sub(1).and_then(|before| self.at(before)), self.at(step)) {
-            (Some(a), Some(b)) => (b.center() - a.center()) / STEP_S,
-            _ => Vec2::zeros(),
-        }
-    }
-}
-
 /// A place of the path.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct PathPlace {
     along_m: f64,
     position: Vec2,
     /// Unwrapped along the path.
@@ -106,7 +23,7 @@ struct Place {
 
 /// A motion as a path with a progress.
 #[derive(Clone, Debug)]
-pub(super) struct Course {
+pub(super) struct PathProgress {
     /// Steps after the window's start at which it is there first: 0 unless it comes in later.
     pub(super) enters: usize,
     /// From then on, one a step.
@@ -114,19 +31,19 @@ pub(super) struct Course {
     /// Metres along the path, one a state.
     pub(super) along_m: Vec<f64>,
     /// Those of the motion, and how the road goes on from them where that is known.
-    places: Vec<Place>,
+    places: Vec<PathPlace>,
     /// How many of them are the motion's own.
     own: usize,
 }
 
-impl Course {
+impl PathProgress {
     /// Of what is known of a road user at each step of a window, its start included; `None` for one that
     /// never comes or hardly moves.
     pub(super) fn of(known: &[Option<State>], shortest_m: f64) -> Option<Self> {
         let enters = known.iter().position(Option::is_some)?;
         let states = bridged(&known[enters..]);
         let first = states.first()?;
-        let place = |s: &State, along_m: f64, heading_rad: f64| Place {
+        let place = |s: &State, along_m: f64, heading_rad: f64| PathPlace {
             along_m,
             position: s.position(),
             heading_rad,
@@ -155,7 +72,7 @@ impl Course {
     }
 
     /// The same, with the likeliest way that the road goes on beyond it: whoever hurries gets there.
-    pub(super) fn led_on(mut self, graph: &LaneGraph, agent_type: AgentType) -> Self {
+    pub(super) fn extended(mut self, graph: &LaneGraph, agent_type: AgentType) -> Self {
         let (Some(end), Some(last)) = (self.states.last().copied(), self.places.last().copied()) else {
             return self;
         };
@@ -172,7 +89,7 @@ impl Course {
         self.places.extend((1..=path.length_m() as usize).map(|at| {
             let pose = path.sample(at as f64);
             heading_rad += wrap_angle(pose.heading_rad - heading_rad);
-            Place { along_m: end_m + at as f64, position: pose.position, heading_rad, speed_mps }
+            PathPlace { along_m: end_m + at as f64, position: pose.position, heading_rad, speed_mps }
         }));
         self
     }
@@ -252,29 +169,26 @@ impl Course {
     }
 }
 
-/// How somebody who is later than it was takes up its own speed again, m/s2.
-const TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
-
 /// Carries a plan on for a window: along the way that these states have and the road goes on, as fast as they are at
 /// each place.
-pub(in crate::generator) fn carry_on(
+pub(in crate::generator) fn extend_along_road(
     plan: &mut Vec<State>,
     way: &[Option<State>],
     graph: &LaneGraph,
     agent_type: AgentType,
 ) {
-    let (Some(course), Some(last)) = (Course::of(way, 0.0), plan.last().copied()) else { return };
-    let course = course.led_on(graph, agent_type);
-    let apart = |p: &Place| (p.position - last.position()).norm();
-    let Some(nearest) = course.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
+    let (Some(path), Some(last)) = (PathProgress::of(way, 0.0), plan.last().copied()) else { return };
+    let path = path.extended(graph, agent_type);
+    let apart = |p: &PathPlace| (p.position - last.position()).norm();
+    let Some(nearest) = path.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
     let ahead = direction(nearest.heading_rad).dot(&(last.position() - nearest.position));
     let (mut along, mut speed) = (nearest.along_m + ahead, last.speed_mps());
     while plan.len() <= HORIZON_STEPS {
-        let rate = (course.speed_at_mps(along) - speed) / STEP_S;
+        let rate = (path.speed_at_mps(along) - speed) / STEP_S;
         let then = (speed + rate.clamp(TAKES_UP_MPS2.0, TAKES_UP_MPS2.1) * STEP_S).max(0.0);
         along += 0.5 * (speed + then) * STEP_S;
         speed = then;
-        plan.push(course.state(along, speed));
+        plan.push(path.state(along, speed));
     }
 }
 
@@ -324,13 +238,13 @@ mod tests {
     }
 
     #[test]
-    fn a_course_is_its_motion() {
-        let course = Course::of(&going(8.0, 91), 0.5).unwrap();
-        assert!((course.length_m() - 72.0).abs() < 1e-9 && !course.leaves());
-        assert!((course.along_at(30) - 24.0).abs() < 1e-9);
-        let state = course.state(24.0, 3.0);
+    fn a_path_is_its_motion() {
+        let path = PathProgress::of(&going(8.0, 91), 0.5).unwrap();
+        assert!((path.length_m() - 72.0).abs() < 1e-9 && !path.leaves());
+        assert!((path.along_at(30) - 24.0).abs() < 1e-9);
+        let state = path.state(24.0, 3.0);
         assert!((state.x_m - 24.0).abs() < 1e-9 && (state.vx_mps - 3.0).abs() < 1e-9);
-        assert_eq!(course.step_at(40.0), Some(50));
+        assert_eq!(path.step_at(40.0), Some(50));
     }
 
     #[test]
@@ -338,24 +252,24 @@ mod tests {
         let mut known = going(8.0, 91);
         known[..20].fill(None);
         known[50..55].fill(None);
-        let course = Course::of(&known, 0.5).unwrap();
-        assert_eq!((course.enters, course.last_step()), (20, 90));
+        let path = PathProgress::of(&known, 0.5).unwrap();
+        assert_eq!((path.enters, path.last_step()), (20, 90));
         known[70..85].fill(None);
-        let course = Course::of(&known, 0.5).unwrap();
-        assert!(course.leaves() && course.last_step() == 69);
+        let path = PathProgress::of(&known, 0.5).unwrap();
+        assert!(path.leaves() && path.last_step() == 69);
     }
 
     #[test]
     fn a_plan_is_carried_on_along_the_way_it_is_on() {
         let way = going(8.0, 120);
         let mut plan = vec![State { x_m: 20.0, vx_mps: 2.0, ..State::default() }];
-        carry_on(&mut plan, &way, &LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
+        extend_along_road(&mut plan, &way, &LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
         assert_eq!(plan.len(), 91);
         assert!((plan[1].x_m - 20.2).abs() < 0.05 && (plan[90].vx_mps - 8.0).abs() < 1e-6);
     }
 
     #[test]
-    fn beyond_a_course_the_road_goes_on() {
+    fn beyond_a_path_the_road_goes_on() {
         // Along x up to 72 m, then to the left about a circle of 20 m.
         let bend = |i: i32| (f64::from(i) * 0.05 - 0.05).max(0.0);
         let point = |i: i32| Vec2::new(72.0 + 20.0 * bend(i).sin(), 20.0 * (1.0 - bend(i).cos()));
@@ -363,16 +277,16 @@ mod tests {
         let map = LaneMap { lanes: vec![Lane::street("1", points)], ..LaneMap::default() };
         let graph = LaneGraph::new(&map);
         let centre = Vec2::new(72.0, 20.0);
-        let course = Course::of(&going(8.0, 91), 0.5).unwrap();
-        assert!((course.place(92.0).0.y).abs() < 1e-6);
-        let led = course.clone().led_on(&graph, AgentType::Vehicle);
-        assert_eq!((led.length_m(), &led.states), (course.length_m(), &course.states));
+        let path = PathProgress::of(&going(8.0, 91), 0.5).unwrap();
+        assert!((path.place(92.0).0.y).abs() < 1e-6);
+        let led = path.clone().extended(&graph, AgentType::Vehicle);
+        assert_eq!((led.length_m(), &led.states), (path.length_m(), &path.states));
         let off_m = |along_m: f64| ((led.place(along_m).0 - centre).norm() - 20.0).abs();
         assert!([75.0, 80.0, 85.0, 90.0].into_iter().all(|along_m| off_m(along_m) < 0.8));
         assert!((led.place(92.0).1 - 1.0).abs() < 0.15);
         // People on foot go straight on, as does everybody where there is no road.
-        let walks = course.clone().led_on(&graph, AgentType::Pedestrian);
-        let nowhere = course.clone().led_on(&LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
+        let walks = path.clone().extended(&graph, AgentType::Pedestrian);
+        let nowhere = path.clone().extended(&LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
         assert!([walks, nowhere].iter().all(|c| c.place(92.0).0.y.abs() < 1e-6));
     }
 
@@ -382,6 +296,6 @@ mod tests {
         for (i, state) in known.iter_mut().flatten().enumerate() {
             state.x_m = 0.1 * (i % 2) as f64;
         }
-        assert!(Course::of(&known, 0.5).is_none());
+        assert!(PathProgress::of(&known, 0.5).is_none());
     }
 }

@@ -2,14 +2,16 @@
 //! asked of it is kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
 
 use super::actor::Actor;
+use super::draft_traces::trace_of;
 use super::slot::Slot;
-use super::standing::trace_of;
 use super::trajectory::{BASIS, route_coordinates};
 use crate::features::agent::AgentPlan;
 use crate::planning::profile::Caps;
 use crate::planning::{
     ACROSS_SCALE, ALONG_SCALE, INSTANT_S, INSTANTS, RESIDUAL, Residual, integrated_hat, twice_integrated_hat,
 };
+pub(super) use crate::tuning::fixed::variations::HURRY;
+use crate::tuning::fixed::variations::{CLEAR_M, GAPS_S, OVER_KERB_M};
 use nalgebra::{DMatrix, DVector};
 use scene::judge::{Trace, crossing};
 use scene::motion::Kind;
@@ -18,18 +20,11 @@ use std::cell::OnceCell;
 
 /// The end of a window, seconds.
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
-/// Time kept from the other at shared ground: what is tried, seconds.
-const GAPS_S: [f64; 3] = [0.9, 0.5, 0.2];
-/// Over the caps of a path by so much is usual.
-pub(super) const HURRY: f64 = 1.1;
 /// Times at which a draft that waits is where it should be, seconds, and how far over the kerb it may lean, metres.
 const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
-const OVER_KERB_M: f64 = 0.4;
-/// Way kept from shared ground, metres.
-const CLEAR_M: f64 = 0.4;
 
 /// A draft with its progress, as ideas are made from and measured.
-pub(super) struct Sketch<'a> {
+pub(super) struct DraftView<'a> {
     actor: &'a Actor,
     pub(super) slot: Slot,
     pub(super) residual: Residual,
@@ -39,7 +34,7 @@ pub(super) struct Sketch<'a> {
     trace: OnceCell<Trace>,
 }
 
-impl<'a> Sketch<'a> {
+impl<'a> DraftView<'a> {
     pub(super) fn of(actor: &'a Actor, slot: Slot, residual: &Residual) -> Self {
         let route = route_coordinates(&actor.plan, slot, residual);
         let anchor = &actor.plan.anchors[slot.index()];
@@ -243,7 +238,7 @@ pub(super) fn moves_m(offset: &Residual) -> (f64, f64) {
 }
 
 /// Other paces and lines to try, the most telling first: metres ahead, when, and metres aside.
-pub(super) fn ladder(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
+pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let agent_type = plan.present.agent_type;
     let (paces, aside_m): (&[f64], f64) = match (agent_type, plan.target.position.is_some()) {

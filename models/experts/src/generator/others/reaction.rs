@@ -1,26 +1,25 @@
 //! How somebody answers another, in the figures that words are made of.
 
-use super::Answerer;
 use super::giving_way::Way;
+use super::other::Reactor;
+use crate::tuning::fixed::reaction::{ASIDE_M, SAME_PLACE_M};
 use scene::judge::{Reaction, ReactionKind};
 use scene::motion::Trajectory;
 use scene::{AgentId, STANDING_MPS, STEP_S, State};
 
 /// Standing so many steps longer than it does anyway is waiting.
 const WAITS_STEPS: usize = 5;
-/// A place where it stood anyway, within this, metres.
-const SAME_PLACE_M: f64 = 1.0;
 
 /// What somebody does for `cause`; the window begins at `start_step`.
-pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: usize) -> Reaction {
+pub(super) fn reaction(own: &Reactor, way: &Way, cause: AgentId, start_step: usize) -> Reaction {
     let paced = &way.paced;
     let (along, speed) = (&paced.along_m, &paced.speed_mps);
     let from = paced.own.min(along.len() - 1);
     let stood: Vec<f64> = own
-        .course
+        .path
         .states
         .iter()
-        .zip(&own.course.along_m)
+        .zip(&own.path.along_m)
         .filter(|(s, _)| s.speed_mps() < STANDING_MPS)
         .map(|(_, along)| *along)
         .collect();
@@ -30,7 +29,7 @@ pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: us
         || standing.clone().filter(elsewhere).count() >= WAITS_STEPS;
     let delay_s = own.late_s(paced);
     // By how much it is slower than it would be at the same place.
-    let less = |i: usize| own.course.speed_at_mps(along[i]) - speed[i];
+    let less = |i: usize| own.path.speed_at_mps(along[i]) - speed[i];
     let greatest = |sign: f64| {
         (from..along.len()).max_by(|a, b| (sign * less(*a)).total_cmp(&(sign * less(*b)))).unwrap_or(from)
     };
@@ -47,16 +46,13 @@ pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: us
         kind,
         cause,
         delay_s,
-        time_s: (start_step + own.course.enters + at) as f64 * STEP_S,
+        time_s: (start_step + own.path.enters + at) as f64 * STEP_S,
         x_m: state.x_m,
         y_m: state.y_m,
         speed_mps: speed[at],
     }
     .rounded()
 }
-
-/// Off the way that it had by more than this, somebody keeps clear, metres.
-const ASIDE_M: f64 = 1.0;
 
 /// What somebody does for `cause` who was planned anew: `kept` is what it did, from the first step after
 /// `start_s` on.

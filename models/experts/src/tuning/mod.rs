@@ -3,7 +3,11 @@
 //! Each says what it is, in which unit, and what it was fitted on: data, metric, date. "The 71 scenes" are the
 //! recorded scenes of the weights' card that are neither in the training data nor in its tables. All were
 //! fitted, or set by hand, between 2026-11-21 and 2026-11-26. [`Tuning::hash`] stands beside the weights' hashes
-//! in every answer; `dragtraffic eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`].
+//! in every answer; `dragtraffic eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
+//! and no call varies stands in [`fixed`], and for placement in [`placing`].
+
+pub(crate) mod fixed;
+pub(crate) mod placing;
 
 use scene::ContentHash;
 use std::fmt::Write;
@@ -61,6 +65,29 @@ macro_rules! tuning {
     (@off) => { None };
     (@off $off:expr) => { Some($off) };
 }
+
+/// Constants by group, and the table of their names with their values as text.
+macro_rules! numbers {
+    ($($(#[$group_doc:meta])* $group:ident {
+        $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)*
+    })*) => {
+        $(
+            $(#[$group_doc])*
+            pub(crate) mod $group {
+                #[allow(unused_imports, reason = "few groups need what the values are made of")]
+                use super::*;
+                $($(#[$doc])* pub(crate) const $name: $type = $value;)*
+            }
+        )*
+
+        /// All numbers by name.
+        #[allow(dead_code, reason = "the hash of generation leaves placement out")]
+        pub(super) const ALL: &[(&str, fn() -> String)] = &[$($(
+            (concat!(stringify!($group), ".", stringify!($name)), || format!("{:?}", $group::$name)),
+        )*)*];
+    };
+}
+pub(crate) use numbers;
 
 tuning! {
     /// Where anchors lead and how fast.
@@ -214,12 +241,12 @@ tuning! {
         harsh_second = 0.4, off 0.0;
         /// A walker who steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
         stepping_out = 1.5, off 0.0;
-        /// Leaving the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
+        /// Switching from the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
         /// modes apart. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7 % at 3, 2.3 % at 4.
         /// 2026-11-23.
-        leaving = 4.0, off 0.0;
-        /// Mean distance from it at which it is left altogether, metres.
-        leaving_m = 1.0;
+        switching = 4.0, off 0.0;
+        /// Mean distance from it from which on a motion is another one, metres.
+        switching_m = 1.0;
         /// Another mode than the one shown last, however near. Set by hand. 2026-11-22.
         other_mode = 0.1, off 0.0;
         /// A reacting road user that gives up the motion it has. Set by hand. 2026-11-21.
@@ -227,6 +254,15 @@ tuning! {
         /// Mean distance from the motion that it has which costs as much as 1, metres. Set by hand.
         /// 2026-11-21.
         deviation_m = 4.0;
+        /// A motion that breaks rules by [`ChoiceTuning::lawful_by`] less than the future shown last pays this share of
+        /// `switching` alone. Set by hand. 2026-11-24.
+        unlawful_binds = 0.4, off 1.0;
+        /// How much less that is, in costs of this choice. Set by hand. 2026-11-24.
+        lawful_by = 0.6;
+        /// Most that a motion that swerves costs for being another than what was meant. Set by hand. 2026-11-24.
+        most_swerving = 3.0, off 1e9;
+        /// A motion that stops before what is in the way, besides a goal that it misses. Set by hand. 2026-11-24.
+        stopping = 1.0, off 0.0;
         /// What the mode that a scene is built around counts more than the others, whose probabilities sum
         /// to 1. Errors and overlaps of further samples on the 71 scenes. 2026-11-22.
         around = 2.0, off 0.0;
@@ -252,7 +288,28 @@ tuning! {
         /// Weight of a square metre that a corner is past the road's edge.
         kerb = 0.3, off 0.0;
     }
-    /// Who may answer those that were asked for.
+    /// What each half second of a swerving motion costs in the search for the cheapest one.
+    replan: ReplanTuning {
+        /// A box that meets another agent's. Set by hand. 2026-11-24.
+        met = 8.0, off 0.0;
+        /// A box that comes close to another agent's. Set by hand. 2026-11-24.
+        close = 0.7, off 0.0;
+        /// A corner off the road. Set by hand. 2026-11-24.
+        off_road = 2.0, off 0.0;
+        /// A lane against the traffic. Set by hand. 2026-11-25.
+        against = 1.0, off 0.0;
+        /// A place off the lanes. Set by hand. 2026-11-24.
+        off_lanes = 0.5, off 0.0;
+        /// A square metre aside. Set by hand. 2026-11-24.
+        aside = 0.01, off 0.0;
+        /// A square metre along the path. Set by hand. 2026-11-24.
+        ahead = 0.004, off 0.0;
+        /// A square metre of change aside. Set by hand. 2026-11-24.
+        drift = 0.25, off 0.0;
+        /// A square metre of change along the path. Set by hand. 2026-11-24.
+        pace = 0.12, off 0.0;
+    }
+    /// Which agents may react to those that a call regenerates, and at what cost.
     reacting: ReactingTuning {
         /// Of those that were asked something before: motions closer than this between their boxes, within three
         /// seconds, are looked at, metres. Set by hand. 2026-11-21.
@@ -289,14 +346,22 @@ impl Tuning {
         Ok(self)
     }
 
-    /// Hash of all numbers with their names.
+    /// Hash of all numbers of planning and generation with their names.
     pub fn hash(&self) -> ContentHash {
+        ContentHash::of_bytes(self.text().as_bytes())
+    }
+
+    /// One line a number: its name and its value.
+    fn text(&self) -> String {
         let mut text = String::new();
         for number in NUMBERS {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{}={:?}", number.name, (number.of)(self));
         }
-        ContentHash::of_bytes(text.as_bytes())
+        for (name, value) in fixed::ALL {
+            let _ = writeln!(text, "{name}={}", value());
+        }
+        text
     }
 }
 
@@ -314,6 +379,19 @@ mod tests {
             let others = NUMBERS.iter().filter(|other| other.name != number.name);
             assert!(others.into_iter().all(|other| (other.of)(&changed) == (other.of)(&SHIPPED)));
         }
+    }
+
+    #[test]
+    fn constants_are_part_of_the_hash_by_their_own_names() {
+        let text = SHIPPED.text();
+        let mut names: Vec<&str> = text.lines().filter_map(|line| line.split('=').next()).collect();
+        assert_eq!(names.len(), NUMBERS.len() + fixed::ALL.len());
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), NUMBERS.len() + fixed::ALL.len());
+        assert!(
+            text.contains("\ngiving_way.MITIGATED=0.4\n") && text.contains("\nlights.ROLLING_MPS=[0.0, 2.0,")
+        );
     }
 
     #[test]

@@ -7,9 +7,9 @@
 
 use super::actor::Actor;
 use super::candidates::middle;
-use super::ideas::{HURRY, Sketch, ladder};
 use super::slot::Slot;
 use super::stepping_out::steps_out;
+use super::variations::{DraftView, HURRY, pace_steps};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DuplicateTuning;
 use scene::judge::{Trace, crossing};
@@ -21,7 +21,7 @@ const MOST_GIVEN_UP: usize = 2;
 
 /// What is done to the modes of an actor so that they are six.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cover {
+pub(super) struct DiverseModes {
     /// Added to each mode.
     pub(super) offset: Modes,
     /// By mode, summing to one.
@@ -30,7 +30,7 @@ pub(super) struct Cover {
     pub(super) steady: [bool; MODES],
 }
 
-impl Cover {
+impl DiverseModes {
     /// Nothing is done.
     pub(super) fn none(actor: &Actor) -> Self {
         let mut steady = [false; MODES];
@@ -40,21 +40,21 @@ impl Cover {
 
     /// Of an actor among others. `share` is what counts of the residual of the mode in the middle.
     pub(super) fn of(actor: &Actor, others: &[&Trace], share: f32, tuning: &DuplicateTuning) -> Self {
-        let sketches: Vec<Sketch<'_>> = Slot::all()
+        let views: Vec<DraftView<'_>> = Slot::all()
             .map(|slot| {
                 let share = if middle(actor) == Some(slot) { share } else { 1.0 };
-                Sketch::of(actor, slot, &slot.of(&actor.modes).map(|r| share * r))
+                DraftView::of(actor, slot, &slot.of(&actor.modes).map(|r| share * r))
             })
             .collect();
         let near: Vec<&Trace> = others
             .iter()
             .copied()
-            .filter(|o| o.id() != actor.id && sketches.iter().any(|s| s.trace().may_meet(o)))
+            .filter(|o| o.id() != actor.id && views.iter().any(|s| s.trace().may_meet(o)))
             .collect();
         let mut found =
-            Covering { cover: Self::none(actor), actor, near, sketches, accepted: Vec::new(), tuning };
+            Diversifying { diverse: Self::none(actor), actor, near, views, accepted: Vec::new(), tuning };
         found.run();
-        found.cover
+        found.diverse
     }
 }
 
@@ -68,18 +68,18 @@ pub(super) fn copy_m(actor: &Actor, tuning: &DuplicateTuning) -> f64 {
     if actor.plan.target.position.is_some() { tuning.copy_with_goal_m } else { tuning.copy_m }
 }
 
-struct Covering<'a> {
-    cover: Cover,
+struct Diversifying<'a> {
+    diverse: DiverseModes,
     actor: &'a Actor,
     near: Vec<&'a Trace>,
     /// By slot, as they are shown.
-    sketches: Vec<Sketch<'a>>,
+    views: Vec<DraftView<'a>>,
     /// Slots that are no copies.
     accepted: Vec<usize>,
     tuning: &'a DuplicateTuning,
 }
 
-impl<'a> Covering<'a> {
+impl<'a> Diversifying<'a> {
     fn run(&mut self) {
         let copy_m = copy_m(self.actor, self.tuning);
         let first = best(self.actor).index();
@@ -87,7 +87,7 @@ impl<'a> Covering<'a> {
         let order = std::iter::once(first).chain((0..MODES).filter(|i| *i != first));
         let mut copies: Vec<(usize, usize)> = Vec::new();
         for i in order {
-            let twin = self.accepted.iter().find(|j| self.sketches[i].apart_m(&self.sketches[**j]) < copy_m);
+            let twin = self.accepted.iter().find(|j| self.views[i].apart_m(&self.views[**j]) < copy_m);
             match twin {
                 Some(j) => copies.push((i, *j)),
                 None => self.accepted.push(i),
@@ -102,17 +102,17 @@ impl<'a> Covering<'a> {
         free.sort_unstable();
         if let Some(passed_s) = waits {
             let path = self.actor.plan.anchors[first].path_identity();
-            let make = |covering: &Self, i: usize| {
-                let same = covering.actor.plan.anchors[i].path_identity() == path;
-                let like = &covering.sketches[first];
-                same.then(|| covering.sketches[i].waiting_at_kerb(like, passed_s)).flatten()
+            let make = |diversifying: &Self, i: usize| {
+                let same = diversifying.actor.plan.anchors[i].path_identity() == path;
+                let like = &diversifying.views[first];
+                same.then(|| diversifying.views[i].waiting_at_kerb(like, passed_s)).flatten()
             };
             self.give(&make, first, &mut free);
         }
         for (stream, before) in missing {
-            let make = |covering: &Self, i: usize| {
-                let made = covering.sketches[i].ordered(stream, before)?;
-                covering.is_free(&covering.sketches[i], &made).then_some(made)
+            let make = |diversifying: &Self, i: usize| {
+                let made = diversifying.views[i].ordered(stream, before)?;
+                diversifying.is_free(&diversifying.views[i], &made).then_some(made)
             };
             self.give(&make, first, &mut free);
         }
@@ -126,7 +126,7 @@ impl<'a> Covering<'a> {
 
     /// Orders that no accepted mode has, with those whose path the best guess crosses.
     fn missing_orders(&self, first: usize) -> Vec<(&'a Trace, bool)> {
-        let me = self.sketches[first].trace();
+        let me = self.views[first].trace();
         let mut streams: Vec<(i64, &'a Trace)> =
             self.near.iter().filter_map(|other| Some((crossing(me, other)?.least_shift(), *other))).collect();
         streams.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| a.1.id().cmp(b.1.id())));
@@ -134,7 +134,7 @@ impl<'a> Covering<'a> {
         let has = |other: &Trace, wanted: i64| {
             self.accepted
                 .iter()
-                .any(|i| crossing(self.sketches[*i].trace(), other).is_some_and(|g| g.order() == wanted))
+                .any(|i| crossing(self.views[*i].trace(), other).is_some_and(|g| g.order() == wanted))
         };
         let each = |(_, other): (i64, &'a Trace)| [(other, true), (other, false)];
         let wants = streams.into_iter().flat_map(each);
@@ -146,10 +146,10 @@ impl<'a> Covering<'a> {
     fn waits_until(&self, first: usize) -> Option<f64> {
         let plan = &self.actor.plan;
         let kerb = plan.kerbs[first].as_ref().filter(|_| plan.target.position.is_none())?;
-        let me = self.sketches[first].trace();
+        let me = self.views[first].trace();
         let passed_s = self.near.iter().filter_map(|other| steps_out(me, other)).reduce(f64::max)?;
         let waits = |i: &usize| {
-            let at_m = self.sketches[*i].along_at(passed_s);
+            let at_m = self.views[*i].along_at(passed_s);
             plan.kerbs[*i].is_some() && (kerb.line_m - 2.0..=kerb.line_m).contains(&at_m)
         };
         (!self.accepted.iter().any(waits)).then_some(passed_s)
@@ -158,62 +158,62 @@ impl<'a> Covering<'a> {
     /// Gives an idea to a copy, or to an unlikely mode on a path that another one has too.
     fn give(
         &mut self,
-        made: &dyn Fn(&Self, usize) -> Option<Sketch<'a>>,
+        made: &dyn Fn(&Self, usize) -> Option<DraftView<'a>>,
         first: usize,
         free: &mut Vec<usize>,
     ) {
         if let Some((at, found)) = free.iter().enumerate().find_map(|(at, i)| Some((at, made(self, *i)?))) {
             let i = free.remove(at);
-            self.cover.steady[i] = true;
+            self.diverse.steady[i] = true;
             self.take(i, found);
             return;
         }
-        let given_up = (0..MODES).filter(|i| self.cover.steady[*i] && *i != first).count();
+        let given_up = (0..MODES).filter(|i| self.diverse.steady[*i] && *i != first).count();
         if !free.is_empty() || given_up >= MOST_GIVEN_UP {
             return;
         }
         let path = |i: usize| self.actor.plan.anchors[i].path_identity();
         let mut unlikely: Vec<usize> = (0..MODES)
-            .filter(|i| *i != first && !self.cover.steady[*i])
+            .filter(|i| *i != first && !self.diverse.steady[*i])
             .filter(|i| (0..MODES).any(|j| j != *i && path(j) == path(*i)))
             .collect();
         unlikely.sort_by(|a, b| self.actor.probability[*a].total_cmp(&self.actor.probability[*b]));
         if let Some((i, found)) = unlikely.into_iter().find_map(|i| Some((i, made(self, i)?))) {
             self.accepted.retain(|j| *j != i);
-            self.cover.steady[i] = true;
+            self.diverse.steady[i] = true;
             self.take(i, found);
         }
     }
 
     /// Another pace or line for a copy, apart from all that there is.
-    fn another(&self, i: usize, copy_m: f64) -> Option<Sketch<'a>> {
-        let from = &self.sketches[i];
+    fn another(&self, i: usize, copy_m: f64) -> Option<DraftView<'a>> {
+        let from = &self.views[i];
         let free_target = self.actor.plan.target.position.is_none();
         // Who waits without being asked to go on has a reason to.
         let waits = free_target && from.ends_at_rest();
-        let tries = ladder(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
+        let tries = pace_steps(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
         tries
             .filter(|made| !waits || made.way_m() <= from.way_m())
-            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.sketches[*j]) > 1.05 * copy_m))
+            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.views[*j]) > 1.05 * copy_m))
             .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
     }
 
     /// It meets nobody that the draft it was made from does not meet.
-    fn is_free(&self, from: &Sketch<'_>, made: &Sketch<'_>) -> bool {
+    fn is_free(&self, from: &DraftView<'_>, made: &DraftView<'_>) -> bool {
         self.near.iter().all(|other| !made.trace().meets(other) || from.trace().meets(other))
     }
 
-    fn take(&mut self, i: usize, made: Sketch<'a>) {
-        let before: &Residual = &self.sketches[i].residual;
-        self.cover.offset[i] = std::array::from_fn(|k| made.residual[k] - before[k]);
-        self.sketches[i] = made;
+    fn take(&mut self, i: usize, made: DraftView<'a>) {
+        let before: &Residual = &self.views[i].residual;
+        self.diverse.offset[i] = std::array::from_fn(|k| made.residual[k] - before[k]);
+        self.views[i] = made;
         self.accepted.push(i);
     }
 
     /// A copy's probability is that of the mode it is a copy of; what was made of it is unlikely.
     fn share_out(&mut self, copies: &[(usize, usize)]) {
-        let made = |i: usize| self.cover.offset[i] != [0.0; RESIDUAL];
-        let mut probability = self.cover.probability;
+        let made = |i: usize| self.diverse.offset[i] != [0.0; RESIDUAL];
+        let mut probability = self.diverse.probability;
         for (i, twin) in copies.iter().filter(|(i, _)| made(*i)) {
             probability[*twin] += probability[*i];
             probability[*i] = 0.0;
@@ -224,7 +224,7 @@ impl<'a> Covering<'a> {
         for (i, p) in probability.iter_mut().enumerate() {
             *p = if made(i) { self.tuning.probability } else { *p * left / rest.max(1e-12) };
         }
-        self.cover.probability = probability;
+        self.diverse.probability = probability;
     }
 }
 
@@ -259,12 +259,12 @@ mod tests {
         Trace::new("7", AgentType::Vehicle, &size, 90, at)
     }
 
-    fn shown<'a>(actor: &'a Actor, cover: &Cover) -> Vec<Sketch<'a>> {
-        let offset = |slot: Slot| *slot.of(&cover.offset);
-        Slot::all().map(|slot| Sketch::of(actor, slot, &offset(slot))).collect()
+    fn shown<'a>(actor: &'a Actor, diverse: &DiverseModes) -> Vec<DraftView<'a>> {
+        let offset = |slot: Slot| *slot.of(&diverse.offset);
+        Slot::all().map(|slot| DraftView::of(actor, slot, &offset(slot))).collect()
     }
 
-    fn nearest_m(all: &[Sketch<'_>]) -> f64 {
+    fn nearest_m(all: &[DraftView<'_>]) -> f64 {
         let pairs = (0..all.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
         pairs.map(|(a, b)| all[a].apart_m(&all[b])).fold(f64::INFINITY, f64::min)
     }
@@ -272,15 +272,15 @@ mod tests {
     #[test]
     fn six_alike_become_six_that_keep_the_goal() {
         let actor = driver(9.0, Some(80.0));
-        let cover = Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates);
-        let all = shown(&actor, &cover);
+        let diverse = DiverseModes::of(&actor, &[], 1.0, &SHIPPED.duplicates);
+        let all = shown(&actor, &diverse);
         assert!(nearest_m(&all) > SHIPPED.duplicates.copy_with_goal_m, "{}", nearest_m(&all));
-        assert_eq!(cover.offset[0], [0.0; RESIDUAL], "the best guess stays");
-        for sketch in &all {
-            assert!((sketch.way_m() - all[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        assert_eq!(diverse.offset[0], [0.0; RESIDUAL], "the best guess stays");
+        for view in &all {
+            assert!((view.way_m() - all[0].way_m()).abs() < 0.05, "{}", view.way_m());
         }
-        assert!((cover.probability.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{:?}", cover.probability);
-        assert!(cover.probability[0] > 0.85, "what is made up is unlikely: {:?}", cover.probability);
+        assert!((diverse.probability.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{:?}", diverse.probability);
+        assert!(diverse.probability[0] > 0.85, "what is made up is unlikely: {:?}", diverse.probability);
     }
 
     #[test]
@@ -288,8 +288,8 @@ mod tests {
         let actor = driver(9.0, Some(80.0));
         for passes_s in [4.4, 4.6] {
             let other = crossing_at(passes_s);
-            let cover = Cover::of(&actor, &[&other], 1.0, &SHIPPED.duplicates);
-            let all = shown(&actor, &cover);
+            let diverse = DiverseModes::of(&actor, &[&other], 1.0, &SHIPPED.duplicates);
+            let all = shown(&actor, &diverse);
             let orders: Vec<i64> =
                 all.iter().filter_map(|s| Some(crossing(s.trace(), &other)?.order())).collect();
             assert!(orders.contains(&1) && orders.contains(&-1), "{passes_s}: {orders:?}");
@@ -311,34 +311,34 @@ mod tests {
         };
         let line_m = actor.plan.kerbs[0].as_ref().unwrap().line_m;
         assert!((3.0..4.25).contains(&line_m), "before the lane: {line_m}");
-        let waiting = |cover: &Cover, passes_s: f64| {
-            let all = shown(&actor, cover);
-            let at_kerb = |s: &&Sketch<'_>| {
+        let waiting = |diverse: &DiverseModes, passes_s: f64| {
+            let all = shown(&actor, diverse);
+            let at_kerb = |s: &&DraftView<'_>| {
                 let stands_m = s.along_at(passes_s + 0.3);
                 (line_m - 1.0..line_m + 0.3).contains(&stands_m)
             };
             all.iter().filter(at_kerb).map(|s| s.slot.index()).collect::<Vec<_>>()
         };
         let comes = car(4.6);
-        let cover = Cover::of(&actor, &[&comes], 1.0, &SHIPPED.duplicates);
-        let found = waiting(&cover, 4.6);
-        assert!(found.iter().any(|i| cover.steady[*i] && *i != 0), "{found:?}");
-        assert!(found.iter().all(|i| !shown(&actor, &cover)[*i].trace().meets(&comes)));
-        assert_eq!(cover.offset[0], [0.0; RESIDUAL], "the best guess stays");
+        let diverse = DiverseModes::of(&actor, &[&comes], 1.0, &SHIPPED.duplicates);
+        let found = waiting(&diverse, 4.6);
+        assert!(found.iter().any(|i| diverse.steady[*i] && *i != 0), "{found:?}");
+        assert!(found.iter().all(|i| !shown(&actor, &diverse)[*i].trace().meets(&comes)));
+        assert_eq!(diverse.offset[0], [0.0; RESIDUAL], "the best guess stays");
         // Nobody comes who would have to brake.
-        let alone = Cover::of(&actor, &[&car(60.0)], 1.0, &SHIPPED.duplicates);
+        let alone = DiverseModes::of(&actor, &[&car(60.0)], 1.0, &SHIPPED.duplicates);
         assert!(!alone.steady[1..].contains(&true));
     }
 
     #[test]
     fn without_a_goal_copies_part_and_who_waits_waits() {
         let actor = driver(9.0, None);
-        let all = shown(&actor, &Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates));
+        let all = shown(&actor, &DiverseModes::of(&actor, &[], 1.0, &SHIPPED.duplicates));
         assert!(nearest_m(&all) > SHIPPED.duplicates.copy_m, "{}", nearest_m(&all));
         let mut waiting = driver(0.0, None);
         waiting.plan.anchors.iter_mut().for_each(|anchor| anchor.base.fill(0.0));
-        let cover = Cover::of(&waiting, &[], 1.0, &SHIPPED.duplicates);
-        assert!(shown(&waiting, &cover).iter().all(|s| s.way_m() < 1e-6));
+        let diverse = DiverseModes::of(&waiting, &[], 1.0, &SHIPPED.duplicates);
+        assert!(shown(&waiting, &diverse).iter().all(|s| s.way_m() < 1e-6));
     }
 
     #[test]
@@ -349,6 +349,6 @@ mod tests {
                 anchor.base[step] += 0.5 * i as f64 * (step as f64 / 30.0).min(1.0) * INSTANTS as f64 / 6.0;
             }
         }
-        assert_eq!(Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates), Cover::none(&actor));
+        assert_eq!(DiverseModes::of(&actor, &[], 1.0, &SHIPPED.duplicates), DiverseModes::none(&actor));
     }
 }

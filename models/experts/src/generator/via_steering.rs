@@ -2,27 +2,19 @@
 //! make of it is projected through them.
 
 use super::slot::Slot;
-use super::trajectory::PER_INSTANT;
 use crate::features::agent::AgentPlan;
-use crate::planning::INSTANTS;
+use crate::planning::{INSTANTS, PER_INSTANT};
+use crate::tuning::fixed::via_steering::{KEEPS, NARROWS, PAST_M, SURE};
 use scene::motion::{GoalError, Knots, Pass, Projection, Target, project, project_through};
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
-/// Share of a tolerance that a motion may use up before it is brought nearer, and that it keeps then: futures
-/// stay apart where they may.
-const SURE: f64 = 0.8;
-const KEEPS: f64 = 0.5;
-/// An offset from the path shrinks towards a via point by so much a metre.
-const NARROWS: f64 = 0.15;
-/// Who has no goal is past its last via point by so much at the end, metres.
-const PAST_M: f64 = 1.0;
 /// Places on the way change when one of them is asked for; this often they are looked for anew.
 const ROUNDS: usize = 4;
 
 /// Progress and offset at the instants, led to the via points: at a fixed time the progress is that of the place,
 /// and beside each the offset is no more than its tolerance lets.
-pub(super) fn led(
+pub(super) fn steer_to_vias(
     plan: &AgentPlan,
     slot: Slot,
     mut coordinates: [(f64, f64); INSTANTS],
@@ -146,7 +138,7 @@ impl Tried {
             let step = waypoint.step.unwrap_or(nearest).clamp(1, last.max(1));
             let state = &motion.trajectory[step];
             let ahead = Vec2::new(state.heading_rad.cos(), state.heading_rad.sin());
-            // Whoever comes to it may come when it likes; whoever does not get there has to be brought there.
+            // A motion that comes to the via point may pass it at any time; another one is brought there.
             let comes = (via.position - passing.place).dot(&ahead).abs() < KEEPS * via.tolerance_m;
             let free = waypoint.step.is_none() && comes;
             let here = if free { passing.place } else { state.position };

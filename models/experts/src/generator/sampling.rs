@@ -1,10 +1,10 @@
-//! Diversity: drafts that are drawn wider about what they do, and of those the ones that cover most.
+//! Diversity: drafts that are drawn wider about what they do, and of those the ones that diverse most.
 
 use super::actor::Actor;
-use super::covering::{Cover, best};
-use super::ideas::{HURRY, Sketch, moves_m, tangent};
+use super::diversity::{DiverseModes, best};
 use super::noise::Key;
 use super::slot::Slot;
+use super::variations::{DraftView, HURRY, moves_m, tangent};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DiversityTuning;
 use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
@@ -19,33 +19,33 @@ const WAVES: usize = 3;
 /// What a draw adds to the modes of an actor, and how likely they are after it.
 pub(super) fn widen(
     actor: &Actor,
-    cover: &Cover,
+    diverse: &DiverseModes,
     diversity: f64,
     key: Key<'_>,
     tuning: &DiversityTuning,
 ) -> (Modes, [f64; MODES]) {
-    let (mut added, mut probability) = ([[0.0; RESIDUAL]; MODES], cover.probability);
+    let (mut added, mut probability) = ([[0.0; RESIDUAL]; MODES], diverse.probability);
     let share = 0.5 * diversity;
-    let reach = Reach::of(actor, share, tuning);
-    if reach.along_m < 1e-3 && reach.across_m < 1e-3 {
+    let spread = DrawSpread::of(actor, share, tuning);
+    if spread.along_m < 1e-3 && spread.across_m < 1e-3 {
         return (added, probability);
     }
     let shown = |slot: Slot| -> Residual {
-        std::array::from_fn(|k| slot.of(&actor.modes)[k] + slot.of(&cover.offset)[k])
+        std::array::from_fn(|k| slot.of(&actor.modes)[k] + slot.of(&diverse.offset)[k])
     };
     let best = best(actor);
-    let steady = |slot: &Slot| cover.steady[slot.index()];
-    let mut taken: Vec<Sketch<'_>> =
-        Slot::all().filter(steady).map(|slot| Sketch::of(actor, slot, &shown(slot))).collect();
+    let steady = |slot: &Slot| diverse.steady[slot.index()];
+    let mut taken: Vec<DraftView<'_>> =
+        Slot::all().filter(steady).map(|slot| DraftView::of(actor, slot, &shown(slot))).collect();
     let draws: [Modes; DRAWS] =
         std::array::from_fn(|draw| Key { step: FIRST_KEY + draw as u64, ..key }.normals(1.0));
     let drawn: Vec<Slot> = Slot::all().filter(|slot| !steady(slot) && *slot != best).collect();
-    let mut waiting: Vec<Sketch<'_>> =
-        drawn.iter().rev().map(|slot| Sketch::of(actor, *slot, &shown(*slot))).collect();
+    let mut waiting: Vec<DraftView<'_>> =
+        drawn.iter().rev().map(|slot| DraftView::of(actor, *slot, &shown(*slot))).collect();
     while let Some(from) = waiting.pop() {
         let slot = from.slot;
         let drawn = draws.iter().map(|normals| {
-            let (offset, far, made) = reach.offset(actor, &from, slot.of(normals));
+            let (offset, far, made) = spread.offset(actor, &from, slot.of(normals));
             // Away from all others; of those that are as far, what is not near any one.
             let apart = taken.iter().chain(&waiting).map(|t| t.apart_m(&made));
             let (sum, least) = apart.fold((0.0, f64::INFINITY), |(sum, least), m| (sum + m, m.min(least)));
@@ -61,7 +61,7 @@ pub(super) fn widen(
 }
 
 /// How far a draw reaches, mean metres in a window.
-struct Reach {
+struct DrawSpread {
     along_m: f64,
     across_m: f64,
     /// The way over which it reaches so far: who hardly moves is hardly moved.
@@ -70,7 +70,7 @@ struct Reach {
     hurry: f64,
 }
 
-impl Reach {
+impl DrawSpread {
     fn of(actor: &Actor, share: f64, t: &DiversityTuning) -> Self {
         let goal = actor.plan.target.position.is_some();
         // A small setting stays near what is likely; the ends part with its square.
@@ -101,9 +101,9 @@ impl Reach {
     fn offset<'a>(
         &self,
         actor: &Actor,
-        from: &Sketch<'a>,
+        from: &DraftView<'a>,
         normals: &Residual,
-    ) -> (Residual, f64, Sketch<'a>) {
+    ) -> (Residual, f64, DraftView<'a>) {
         let waits = actor.plan.target.position.is_none() && from.ends_at_rest();
         let moving = if waits { 0.0 } else { (from.way_m() / self.way_m).min(1.0) };
         let mut waves = [0.0; RESIDUAL];
@@ -117,7 +117,7 @@ impl Reach {
         }
         let shape = tangent(&actor.plan, &waves);
         let (along, across) = moves_m(&shape);
-        // Between half of the reach and one and a half of it.
+        // Between half of the spread and one and a half of it.
         let far = |z: f32| 0.5 + 1.0 / (1.0 + f64::from(-z).exp());
         let far_along = far(normals[2 * WAVES]);
         let scale = [
@@ -154,16 +154,16 @@ mod tests {
         Actor::new("1".into(), car_on_a_street(9.0, Goal { position, ..Goal::default() }), None)
     }
 
-    fn drawn(actor: &Actor, diversity: f64, seed: u64) -> Vec<Sketch<'_>> {
-        let cover = Cover::of(actor, &[], 1.0, &SHIPPED.duplicates);
+    fn drawn(actor: &Actor, diversity: f64, seed: u64) -> Vec<DraftView<'_>> {
+        let diverse = DiverseModes::of(actor, &[], 1.0, &SHIPPED.duplicates);
         let key = Key { seed, sample: 0, agent: "1", window: 0, step: 0 };
-        let (added, probability) = widen(actor, &cover, diversity, key, &SHIPPED.diversity);
+        let (added, probability) = widen(actor, &diverse, diversity, key, &SHIPPED.diversity);
         assert!((probability.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-        let offset = |i: usize| std::array::from_fn(|k| cover.offset[i][k] + added[i][k]);
-        (0..MODES).map(|i| Sketch::of(actor, Slot::new(i), &offset(i))).collect()
+        let offset = |i: usize| std::array::from_fn(|k| diverse.offset[i][k] + added[i][k]);
+        (0..MODES).map(|i| DraftView::of(actor, Slot::new(i), &offset(i))).collect()
     }
 
-    fn spread_m(all: &[Sketch<'_>]) -> f64 {
+    fn spread_m(all: &[DraftView<'_>]) -> f64 {
         let pairs = (0..MODES).flat_map(|a| (0..a).map(move |b| (a, b)));
         pairs.map(|(a, b)| all[a].apart_m(&all[b])).sum::<f64>()
     }
@@ -173,14 +173,14 @@ mod tests {
         for goal_m in [None, Some(80.0)] {
             let actor = driver(goal_m);
             let of = |diversity: f64, seed: u64| drawn(&actor, diversity, seed);
-            let moved = |a: &[Sketch<'_>], b: &[Sketch<'_>]| -> f64 {
+            let moved = |a: &[DraftView<'_>], b: &[DraftView<'_>]| -> f64 {
                 a.iter().zip(b).map(|(a, b)| a.apart_m(b)).sum()
             };
             assert_eq!(moved(&of(0.0, 1), &of(0.0, 2)), 0.0);
             let apart = [0.5, 1.0, 2.0].map(|d| moved(&of(d, 1), &of(d, 2)));
             assert!(0.0 < apart[0] && apart[0] < apart[1] && apart[1] < apart[2], "{apart:?}");
             let mean = |d: f64| (0..8).map(|seed| spread_m(&of(d, seed))).sum::<f64>();
-            // Without a goal the paces of one road reach from standing to its limit anyway.
+            // Without a goal the paces of one road spread from standing to its limit anyway.
             if goal_m.is_some() {
                 assert!(mean(2.0) > 1.15 * mean(0.5), "{} {}", mean(2.0), mean(0.5));
             }
@@ -192,8 +192,8 @@ mod tests {
         let actor = driver(Some(80.0));
         let (zero, wide) = (drawn(&actor, 0.0, 3), drawn(&actor, 2.0, 3));
         assert_eq!(zero[0].apart_m(&wide[0]), 0.0);
-        for sketch in &wide {
-            assert!((sketch.way_m() - zero[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        for view in &wide {
+            assert!((view.way_m() - zero[0].way_m()).abs() < 0.05, "{}", view.way_m());
         }
     }
 }

@@ -1,44 +1,37 @@
-//! What is in the way along a course, and when.
+//! What is in the way along a path, and when.
 
-use super::course::{BEYOND_M, Course, Moving};
+use super::path_progress::{BEYOND_M, PathProgress};
+use crate::generator::motion::Sweep;
+use crate::tuning::fixed::blocks::{CLEAR_M, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
-use scene::score::CLOSE_M;
 use scene::{HORIZON_STEPS, Size, Vec2};
 
-/// Places of a course are looked at this far apart, metres.
+/// Places of a path are looked at this far apart, metres.
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
-/// Boxes come no nearer than this, metres: a little more than what the choice calls close.
-const CLEAR_M: f64 = CLOSE_M + 0.05;
 /// Somebody who is out of the way for less than this, steps, has not left.
 const FLICKER: usize = 3;
-/// A stop line belongs to a course that passes it nearer than this, metres, in its lane's direction within this,
-/// radians.
-const LINE_BESIDE_M: f64 = 2.0;
-const LINE_TURNED_RAD: f64 = 0.6;
-/// Front bumper to stop line, metres.
-const LINE_GAP_M: f64 = 0.5;
 
-/// Somebody or something in the way for a while. Progress is that of the course's box centre.
+/// Somebody or something in the way for a while. Progress is that of the path's box centre.
 #[derive(Clone, Debug)]
-pub(super) struct Block {
+pub(super) struct PathBlock {
     /// Step of the window at which it begins.
     pub(super) from: usize,
     /// First and last progress that is taken, one entry a step.
     pub(super) taken: Vec<(f64, f64)>,
 }
 
-impl Block {
-    /// Who follows the course is past it when it begins.
+impl PathBlock {
+    /// Who follows the path is past it when it begins.
     pub(super) fn comes_behind(&self, along_m: f64) -> bool {
         self.taken.first().is_some_and(|(_, last)| along_m > *last)
     }
 }
 
-/// A course with its boxes.
+/// A path with its boxes.
 pub(super) struct Corridor {
     enters: usize,
     outlines: Vec<OrientedBox>,
@@ -47,16 +40,16 @@ pub(super) struct Corridor {
 }
 
 impl Corridor {
-    pub(super) fn of(course: &Course, size: &Size) -> Self {
-        let length = course.length_m() + if course.leaves() { 0.0 } else { BEYOND_M };
+    pub(super) fn of(path: &PathProgress, size: &Size) -> Self {
+        let length = path.length_m() + if path.leaves() { 0.0 } else { BEYOND_M };
         let count = (length / SPACING_M).ceil() as usize + 1;
-        let outlines: Vec<_> = (0..count).map(|i| course.outline(i as f64 * SPACING_M, size)).collect();
+        let outlines: Vec<_> = (0..count).map(|i| path.outline(i as f64 * SPACING_M, size)).collect();
         let circle = |boxes: &[OrientedBox]| {
             let middle = boxes[boxes.len() / 2].center();
             (middle, boxes.iter().map(|b| (b.center() - middle).norm()).fold(0.0, f64::max))
         };
         let chunks = outlines.chunks(CHUNK).map(circle).collect();
-        Self { enters: course.enters, outlines, chunks }
+        Self { enters: path.enters, outlines, chunks }
     }
 
     /// First and last progress, of the places in a row that this box takes first.
@@ -92,8 +85,8 @@ impl Corridor {
     }
 
     /// When and where somebody is in the way.
-    pub(super) fn blocks(&self, other: &Moving) -> Vec<Block> {
-        let mut out: Vec<Block> = Vec::new();
+    pub(super) fn blocks(&self, other: &Sweep) -> Vec<PathBlock> {
+        let mut out: Vec<PathBlock> = Vec::new();
         let mut away = FLICKER;
         for step in self.enters..=HORIZON_STEPS {
             let Some(taken) = other.at(step).and_then(|other| self.taken(other)) else {
@@ -106,14 +99,14 @@ impl Corridor {
                     block.taken.extend(std::iter::repeat_n(last, away));
                     block.taken.push(taken);
                 }
-                None => out.push(Block { from: step, taken: vec![taken] }),
+                None => out.push(PathBlock { from: step, taken: vec![taken] }),
             }
             away = 0;
         }
         out
     }
 
-    /// Where the course passes a stop line of a lane: progress at which its front is there.
+    /// Where the path passes a stop line of a lane: progress at which its front is there.
     pub(super) fn line(&self, at: Pose) -> Option<f64> {
         let distance = |b: &OrientedBox| (b.center() - at.position).norm();
         let nearest = (0..self.outlines.len())
@@ -131,13 +124,13 @@ impl Corridor {
 }
 
 /// Stretches of time in which a line is closed, as blocks.
-pub(super) fn closed(line_m: f64, is_closed: impl Fn(usize) -> bool) -> Vec<Block> {
-    let mut out: Vec<Block> = Vec::new();
+pub(super) fn closed(line_m: f64, is_closed: impl Fn(usize) -> bool) -> Vec<PathBlock> {
+    let mut out: Vec<PathBlock> = Vec::new();
     let mut open = true;
     for step in 0..=HORIZON_STEPS {
         let closed = is_closed(step);
         if closed && open {
-            out.push(Block { from: step, taken: Vec::new() });
+            out.push(PathBlock { from: step, taken: Vec::new() });
         }
         if let Some(block) = out.last_mut().filter(|_| closed) {
             block.taken.push((line_m, line_m));
@@ -154,15 +147,15 @@ mod tests {
 
     const CAR: Size = Size { length_m: 4.0, width_m: 2.0, height_m: None };
 
-    fn course(speed_mps: f64) -> Course {
+    fn path(speed_mps: f64) -> PathProgress {
         let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
         let known: Vec<_> = (0..=HORIZON_STEPS).map(|i| Some(at(i))).collect();
-        Course::of(&known, 0.5).unwrap()
+        PathProgress::of(&known, 0.5).unwrap()
     }
 
     #[test]
     fn who_crosses_takes_the_places_of_its_width_for_a_while() {
-        let corridor = Corridor::of(&course(8.0), &CAR);
+        let corridor = Corridor::of(&path(8.0), &CAR);
         let north = |i: usize| State {
             x_m: 40.0,
             y_m: -20.0 + 0.5 * i as f64,
@@ -170,7 +163,7 @@ mod tests {
             ..State::default()
         };
         let crossing: Vec<State> = (0..=HORIZON_STEPS).map(north).collect();
-        let blocks = corridor.blocks(&Moving::of_states(0, &crossing, &CAR));
+        let blocks = corridor.blocks(&Sweep::entering(0, &crossing, &CAR));
         assert_eq!(blocks.len(), 1);
         let (from, until) = (blocks[0].from, blocks[0].from + blocks[0].taken.len());
         assert!((33..=34).contains(&from) && (47..=48).contains(&until), "{from} to {until}");
@@ -181,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_line_is_closed_while_its_light_says_so() {
-        let corridor = Corridor::of(&course(8.0), &CAR);
+        let corridor = Corridor::of(&path(8.0), &CAR);
         let line = corridor.line(Pose::xyh(30.2, 0.5, 0.1)).unwrap();
         assert!((27.0..=28.0).contains(&line), "{line}");
         assert!(corridor.line(Pose::xyh(30.2, 3.5, 0.1)).is_none());

@@ -1,13 +1,14 @@
-//! A way round what is in the way. Where a chosen motion still meets somebody, or leaves the road on its way to a
-//! goal on it, the same motion is tried beside its path and earlier or later on it: the cheapest row of shifts, one an
-//! instant, by dynamic programming. It starts and meets its goal as before. Where that does not help either, it halts
-//! before whoever is in the way.
+//! Replanning a motion that still meets another agent, or leaves the road on its way to a goal on it. The same motion is
+//! tried beside its path and earlier or later on it: the cheapest row of shifts, one an instant, by dynamic programming.
+//! It starts and meets its goal as before. Where that does not help either, it stops before what is in the way.
 
-use super::reacting::Moving;
+use super::motion::Sweep;
 use super::slot::Slot;
-use super::trajectory::{Motion, PER_INSTANT, along_places, short_along};
+use super::trajectory::{Rollout, along_places, short_along};
 use crate::features::agent::{AgentPlan, BEYOND_M};
-use crate::planning::INSTANTS;
+use crate::planning::{INSTANTS, PER_INSTANT};
+use crate::tuning::ReplanTuning;
+use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::motion::{Gear, Kind, Trajectory};
@@ -29,37 +30,10 @@ const SHIFTS: usize = ACROSS * ALONG;
 /// Most shifts that are changed at once, aside and ahead.
 const MOST_ASIDE: i32 = 2;
 const MOST_AHEAD: i32 = 1;
-/// Metres aside that a metre on wheels allows.
-const SLOPE: f64 = 0.35;
 /// Steps about an instant at which boxes are looked at.
 const ABOUT: [isize; 3] = [-2, 0, 2];
-/// A motion comes this near to the places that it is made from, metres.
-const SPARE_M: f64 = 0.2;
-/// Room that is kept beside others when halting, metres.
-const ROOM_M: f64 = 0.3;
-/// Room that is kept before others, metres: ten knots cannot follow every halt.
-const SHORT_M: f64 = 1.0;
 /// Goes on beyond the last place, metres.
 const TAIL_M: f64 = 20.0;
-/// Shorter ways have no sides, metres.
-const LEAST_WAY_M: f64 = 2.0;
-
-/// How hard one brakes who halts before somebody: shares of what is possible. Harder must bring so much, metres.
-const BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
-const HARDER_M: f64 = 2.0;
-
-/// What an instant costs: somebody met or close, ground off the road, a lane against the traffic.
-const MET: f64 = 8.0;
-const CLOSE: f64 = 0.7;
-const OFF_ROAD: f64 = 2.0;
-const AGAINST: f64 = 1.0;
-/// A place off the lanes.
-const AWAY: f64 = 0.5;
-/// What a shift costs at each instant, and its change: for a square metre.
-const ASIDE_COST: f64 = 0.01;
-const AHEAD_COST: f64 = 0.004;
-const DRIFT_COST: f64 = 0.25;
-const PACE_COST: f64 = 0.12;
 
 /// Some shift: along the path and to the left, metres.
 #[derive(Clone, Copy, PartialEq)]
@@ -87,23 +61,24 @@ impl Shift {
         f64::from(self.aside) * ASIDE_M
     }
 
-    fn cost(self) -> f64 {
-        ASIDE_COST * self.aside_m().powi(2) + AHEAD_COST * self.ahead_m().powi(2)
+    fn cost(self, weights: &ReplanTuning) -> f64 {
+        weights.aside * self.aside_m().powi(2) + weights.ahead * self.ahead_m().powi(2)
     }
 }
 
 /// What a motion is led through.
 #[derive(Clone, Copy)]
-pub(super) struct Field<'a> {
+pub(super) struct ReplanField<'a> {
     pub(super) graph: &'a LaneGraph,
     /// How far from every lane a place is off the lanes, metres.
     pub(super) off_lanes_m: f64,
+    pub(super) weights: &'a ReplanTuning,
     /// Those who are there.
-    pub(super) others: &'a [&'a Moving],
+    pub(super) others: &'a [&'a Sweep],
 }
 
 /// A step at which boxes are looked at, with somebody near.
-struct Moment<'a> {
+struct ReplanMoment<'a> {
     /// The boxes of those who are within reach of the shifts.
     near: Vec<&'a OrientedBox>,
     /// One for each shift along the path.
@@ -119,7 +94,7 @@ struct Unshifted {
     close: OrientedBox,
 }
 
-impl Moment<'_> {
+impl ReplanMoment<'_> {
     /// Somebody is in one of the boxes of a shift.
     fn is_in(&self, shift: Shift, of: impl Fn(&Unshifted) -> &OrientedBox) -> bool {
         let on = &self.unshifted[(shift.ahead + AHEADS) as usize];
@@ -138,44 +113,44 @@ fn meets(b: &OrientedBox, outline: &OrientedBox) -> bool {
 const SHIFTED_M: f64 = AHEADS as f64 * AHEAD_M + ASIDES as f64 * ASIDE_M;
 
 /// A motion to be shifted.
-struct Course<'a> {
+struct ShiftSearch<'a> {
     plan: &'a AgentPlan,
-    field: Field<'a>,
+    field: ReplanField<'a>,
     /// Vehicles that start on a lane keep near lanes.
     keeps_to_lanes: bool,
     path: Polyline,
     /// Metres along it, one a step.
     along_m: Vec<f64>,
     /// Those of the field that its shifts may meet.
-    near: Vec<&'a Moving>,
+    near: Vec<&'a Sweep>,
 }
 
 /// The motion on the path of `slot` beside, before or behind which nobody is met; `None` where the motion
 /// as it is serves as well.
-pub(super) fn way_round(
+pub(super) fn swerve(
     plan: &AgentPlan,
-    field: Field<'_>,
+    field: ReplanField<'_>,
     slot: Slot,
     motion: &Trajectory,
-) -> Option<Motion> {
-    let course = Course::new(plan, field, motion)?;
-    let shifts = course.least()?;
+) -> Option<Rollout> {
+    let search = ShiftSearch::new(plan, field, motion)?;
+    let shifts = search.least()?;
     let centres: [Vec2; INSTANTS] =
-        std::array::from_fn(|i| course.pose((i + 1) * PER_INSTANT, shifts[i]).position);
+        std::array::from_fn(|i| search.pose((i + 1) * PER_INSTANT, shifts[i]).position);
     Some(along_places(plan, slot, &centres))
 }
 
 /// The motion on the same path that halts before whoever would be met; `None` where no braking is
 /// enough. The goal is missed, unless nothing was asked.
-pub(super) fn short_of(plan: &AgentPlan, field: Field<'_>, motion: &Trajectory) -> Option<Motion> {
-    let course = Course::new(plan, field, motion)?;
+pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Trajectory) -> Option<Rollout> {
+    let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
         // The later, the farther.
         let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
         let along_m = halts
-            .map(|from| course.halting(from, share * plan.model.limits.brake_mps2))
-            .find(|along_m| course.is_free(along_m));
+            .map(|from| search.halting(from, share * plan.model.limits.brake_mps2))
+            .find(|along_m| search.is_free(along_m));
         let farther =
             |best: &Vec<f64>, now: &Vec<f64>| now.last() > best.last().map(|m| m + HARDER_M).as_ref();
         if let Some(now) = along_m
@@ -186,14 +161,14 @@ pub(super) fn short_of(plan: &AgentPlan, field: Field<'_>, motion: &Trajectory) 
     }
     let along_m = best?;
     let centres: [Vec2; INSTANTS] =
-        std::array::from_fn(|i| course.path.extrapolate(along_m[(i + 1) * PER_INSTANT]).position);
-    let gets_there = along_m[plan.target.step] >= course.along_m[plan.target.step] - 0.1;
+        std::array::from_fn(|i| search.path.extrapolate(along_m[(i + 1) * PER_INSTANT]).position);
+    let gets_there = along_m[plan.target.step] >= search.along_m[plan.target.step] - 0.1;
     Some(short_along(plan, &centres, gets_there))
 }
 
-impl<'a> Course<'a> {
+impl<'a> ShiftSearch<'a> {
     /// `None` for what rolls backwards or hardly goes anywhere.
-    fn new(plan: &'a AgentPlan, field: Field<'a>, motion: &Trajectory) -> Option<Self> {
+    fn new(plan: &'a AgentPlan, field: ReplanField<'a>, motion: &Trajectory) -> Option<Self> {
         let mut along_m = Vec::with_capacity(motion.len());
         let mut way_m = 0.0;
         for (i, state) in motion.iter().enumerate() {
@@ -208,24 +183,22 @@ impl<'a> Course<'a> {
         let tail = last.position + direction(last.heading_rad) * TAIL_M;
         let path = Polyline::new(motion.iter().map(|s| s.position).chain([tail]));
         let vehicle = plan.present.agent_type == AgentType::Vehicle;
-        let mut course = Self { plan, field, keeps_to_lanes: false, path, along_m, near: Vec::new() };
-        course.keeps_to_lanes = vehicle && !course.is_off_lanes(plan.present.start.position());
-        course.near = course.who_may_be_met();
-        Some(course)
+        let mut search = Self { plan, field, keeps_to_lanes: false, path, along_m, near: Vec::new() };
+        search.keeps_to_lanes = vehicle && !search.is_off_lanes(plan.present.start.position());
+        search.near = search.may_be_met();
+        Some(search)
     }
 
     /// Those who are within reach of the shifts at some instant, and were not met at the start.
-    fn who_may_be_met(&self) -> Vec<&'a Moving> {
+    fn may_be_met(&self) -> Vec<&'a Sweep> {
         let own = self.outline(self.pose(0, Shift::NONE));
         let looked_at = (1..=HORIZON_STEPS).step_by(2);
         let places: Vec<(usize, Vec2)> =
             looked_at.map(|step| (step, self.path.extrapolate(self.along_m[step]).position)).collect();
-        let starts_in = |other: &Moving| {
-            other.boxes.first().is_some_and(|b| b.as_ref().is_some_and(|b| overlaps(&own, b, 0.0)))
-        };
-        let comes_near = |other: &Moving| {
+        let starts_in = |other: &Sweep| other.at(0).is_some_and(|b| overlaps(&own, b, 0.0));
+        let comes_near = |other: &Sweep| {
             places.iter().any(|(step, place)| {
-                let Some(Some(outline)) = other.boxes.get(*step) else { return false };
+                let Some(outline) = other.at(*step) else { return false };
                 let reach = SHIFTED_M + outline.radius_m() + own.radius_m();
                 (place - outline.center()).norm() < reach
             })
@@ -255,30 +228,31 @@ impl<'a> Course<'a> {
 
     /// What each shift of an instant costs by itself.
     fn costs(&self, instant: usize) -> Vec<f64> {
+        let weights = self.field.weights;
         let mut costs = vec![f64::INFINITY; SHIFTS];
         let step = instant * PER_INSTANT;
         let steps = ABOUT.map(|about| step.saturating_add_signed(about).min(HORIZON_STEPS));
-        let moments: Vec<Moment<'_>> = steps.into_iter().filter_map(|step| self.moment(step)).collect();
+        let moments: Vec<ReplanMoment<'_>> = steps.into_iter().filter_map(|step| self.moment(step)).collect();
         let ground: Vec<f64> = (-ASIDES..=ASIDES).map(|aside| self.on_ground(step, aside)).collect();
         for shift in Shift::all().filter(|s| self.allows(instant, *s)) {
             let met = if !moments.iter().any(|m| m.is_in(shift, |u| &u.close)) {
                 0.0
             } else if moments.iter().any(|m| m.is_in(shift, |u| &u.met)) {
-                MET
+                weights.met
             } else {
-                CLOSE
+                weights.close
             };
-            costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
+            costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost(weights);
         }
         costs
     }
 
     /// What may be met at a step; `None` where nobody is near.
-    fn moment(&self, step: usize) -> Option<Moment<'a>> {
+    fn moment(&self, step: usize) -> Option<ReplanMoment<'a>> {
         let own = self.outline(self.pose(step, Shift::NONE));
         let reach_m = SHIFTED_M + own.grown(CLOSE_M + SPARE_M).radius_m();
         let within = |b: &OrientedBox| (b.center() - own.center()).norm() < reach_m + b.radius_m();
-        let boxes = self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref());
+        let boxes = self.near.iter().filter_map(|o| o.at(step));
         let near: Vec<&OrientedBox> = boxes.filter(|b| within(b)).collect();
         if near.is_empty() {
             return None;
@@ -290,18 +264,19 @@ impl<'a> Course<'a> {
             let (met, close) = (outline.grown(SPARE_M), outline.grown(CLOSE_M + SPARE_M));
             Unshifted { position: pose.position, left, met, close }
         };
-        Some(Moment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
+        Some(ReplanMoment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
     }
 
     /// What the ground so far aside costs.
     fn on_ground(&self, step: usize, aside: i32) -> f64 {
         let pose = self.pose(step, Shift { ahead: 0, aside });
         let away = self.keeps_to_lanes && self.is_off_lanes(pose.position);
-        let away = f64::from(u8::from(away)) * AWAY;
+        let weights = self.field.weights;
+        let away = f64::from(u8::from(away)) * weights.off_lanes;
         let Some(ground) = &self.plan.ground else { return away };
         let off = ground.box_outside_m(&self.outline(pose)).is_some_and(|m| m > BEYOND_M);
         let against = ground.is_wrong_way(pose.position, pose.direction()) == Some(true);
-        away + f64::from(u8::from(off)) * OFF_ROAD + f64::from(u8::from(against)) * AGAINST
+        away + f64::from(u8::from(off)) * weights.off_road + f64::from(u8::from(against)) * weights.against
     }
 
     fn is_off_lanes(&self, place: Vec2) -> bool {
@@ -336,11 +311,12 @@ impl<'a> Course<'a> {
 
     /// Somebody is in a box at a step.
     fn is_met(&self, step: usize, outline: &OrientedBox) -> bool {
-        self.near.iter().filter_map(|o| o.boxes.get(step)?.as_ref()).any(|b| meets(b, outline))
+        self.near.iter().filter_map(|o| o.at(step)).any(|b| meets(b, outline))
     }
 
     /// The cheapest shifts, one an instant; `None` where none at all are.
     fn least(&self) -> Option<[Shift; INSTANTS]> {
+        let weights = self.field.weights;
         let mut total = vec![f64::INFINITY; SHIFTS];
         total[Shift::NONE.index()] = 0.0;
         let mut before: Vec<Vec<usize>> = Vec::with_capacity(INSTANTS);
@@ -360,8 +336,8 @@ impl<'a> Course<'a> {
                         if !known || !self.can_drift(way_m, ahead, aside) {
                             continue;
                         }
-                        let drift = DRIFT_COST * (f64::from(aside) * ASIDE_M).powi(2)
-                            + PACE_COST * (f64::from(ahead) * AHEAD_M).powi(2);
+                        let drift = weights.drift * (f64::from(aside) * ASIDE_M).powi(2)
+                            + weights.pace * (f64::from(ahead) * AHEAD_M).powi(2);
                         let cost = total[last.index()] + drift + costs[shift.index()];
                         if cost < next[shift.index()] {
                             next[shift.index()] = cost;
@@ -375,7 +351,7 @@ impl<'a> Course<'a> {
         }
         let mut at = (0..SHIFTS).min_by(|a, b| total[*a].total_cmp(&total[*b]))?;
         // What is spared must be worth another motion.
-        if !total[at].is_finite() || total[at] > unshifted - 0.5 * OFF_ROAD {
+        if !total[at].is_finite() || total[at] > unshifted - 0.5 * weights.off_road {
             return None;
         }
         let mut shifts = [Shift::NONE; INSTANTS];

@@ -1,7 +1,7 @@
 //! How the futures of a finished sample stand to what the others are shown to do, or would do if they were taken, and
 //! what they do.
 
-use crate::generator::KnownMap;
+use crate::maps::KnownMap;
 use crate::request::Request;
 use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
 use scene::score::Actor;
@@ -11,7 +11,7 @@ use scene::{AgentType, Future, Sample};
 const FEW: usize = 60;
 
 /// Everybody as they are shown, to hold futures against.
-pub(super) struct Standing<'a> {
+pub(super) struct ShownAgents<'a> {
     request: &'a Request,
     map: &'a KnownMap,
     sample: &'a Sample,
@@ -20,7 +20,7 @@ pub(super) struct Standing<'a> {
     few: bool,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> ShownAgents<'a> {
     /// `shown` are the scene's road users in their order; the sample has so many futures in all.
     pub(super) fn new(
         request: &'a Request,

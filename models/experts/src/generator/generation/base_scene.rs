@@ -1,0 +1,47 @@
+//! The scene that the windows of a call are cut from.
+
+use super::spans::Spans;
+use crate::generator::extrapolation::{Guessed, extrapolated};
+use crate::request::Request;
+use scene::{HORIZON_STEPS, Meta, Scene};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The call's scene with the motion of those that keep theirs known to the end of the last window, and from where
+/// on that is a guess, one entry an agent. `replaced` are those that do not keep theirs.
+pub(super) fn known_to_the_end(
+    request: &Request,
+    replaced: impl Fn(usize) -> bool,
+    spans: &Spans,
+) -> (Arc<Scene>, Vec<Option<Guessed>>) {
+    let scene = &request.scene;
+    let start = request.start_step;
+    let last = start + spans.last_start() + HORIZON_STEPS;
+    let mut guessed = vec![None; scene.agents.len()];
+    let agents = scene.agents.iter().enumerate().map(|(i, agent)| {
+        if replaced(i) {
+            return agent.clone();
+        }
+        let pinned = request.pinned.get(&agent.id).map(Vec::as_slice);
+        let (track, since) = extrapolated(scene, agent, pinned, start, last);
+        guessed[i] = since;
+        scene::Agent { track: track.into(), ..agent.clone() }
+    });
+    let agents = agents.collect();
+    (Arc::new(bare(scene, agents)), guessed)
+}
+
+/// A scene of these road users, with what planning needs of the rest.
+pub(super) fn bare(scene: &Scene, agents: Vec<scene::Agent>) -> Scene {
+    Scene {
+        id: None,
+        name: String::new(),
+        meta: Meta::default(),
+        time: scene.time,
+        map: scene.map.clone(),
+        signals: scene.signals.clone(),
+        agents,
+        generated: None,
+        extra: BTreeMap::new(),
+    }
+}

@@ -1,0 +1,46 @@
+//! The drafts of all actors in one sample.
+
+use super::actor::Actor;
+use super::candidates::Material;
+use super::drafts::Drafts;
+use super::others::Others;
+use super::repulsion::SceneEnergy;
+use super::window_setting::WindowSetting;
+use crate::request::ShownLast;
+
+/// The drafts of one sample, with the agents that they are compared with.
+#[derive(Clone, Copy)]
+pub(super) struct JointDrafts<'a> {
+    pub(super) setting: &'a WindowSetting<'a>,
+    pub(super) actors: &'a [Actor],
+    /// One entry an actor.
+    pub(super) drafts: &'a [Drafts],
+    pub(super) others: &'a Others<'a>,
+    /// The sample, from 0.
+    pub(super) sample: usize,
+}
+
+impl<'a> JointDrafts<'a> {
+    /// Indices of the actors.
+    pub(super) fn indices(&self) -> Vec<usize> {
+        (0..self.actors.len()).collect()
+    }
+
+    /// The scene's energy.
+    pub(super) fn energy(&self) -> SceneEnergy<'a> {
+        SceneEnergy { pullback: &self.setting.pullback, tuning: &self.setting.tuning().overlaps }
+    }
+
+    /// The future that a person has seen last of an actor: it binds the first sample of the first window.
+    pub(super) fn shown_last(&self, actor: &Actor) -> Option<&'a ShownLast> {
+        let first = self.sample == 0 && self.setting.number == 0;
+        self.setting.request.shown.get(&actor.id).filter(|_| first)
+    }
+
+    /// What the candidates of an actor are made from.
+    pub(super) fn material(&self, i: usize) -> Material<'a> {
+        let (actor, drafts) = (&self.actors[i], &self.drafts[i]);
+        let (window, tuning) = (self.setting.number, &self.setting.tuning().middle);
+        Material { actor, drafts, window, tuning, shown: self.shown_last(actor) }
+    }
+}

@@ -1,0 +1,141 @@
+//! One motion at the steps of a window, with the forms that the stages compare it in.
+
+use crate::planning::{INSTANTS, PER_INSTANT, STAYS_WITHIN_M};
+use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::judge::Trace;
+use scene::motion::Trajectory;
+use scene::score::{CLOSE_M, SweptBoxes, overlap};
+use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
+use std::sync::OnceLock;
+
+/// The choice compares every third step. It leaves the start out: an overlap there cannot be helped.
+const STRIDE: usize = 3;
+
+/// Box centre and heading at each instant; `None` at an instant at which the agent is absent.
+pub(in crate::generator) type Places = [Option<(Vec2, f64)>; INSTANTS];
+
+/// The states of an agent, one a step from the window's start on, and its box. Boxes, swept boxes and trace are
+/// worked out when they are first asked for.
+#[derive(Clone, Debug)]
+pub(in crate::generator) struct Sweep {
+    states: Vec<Option<State>>,
+    size: Size,
+    boxes: OnceLock<Vec<Option<OrientedBox>>>,
+    swept: OnceLock<SweptBoxes>,
+    trace: OnceLock<Trace>,
+}
+
+impl Sweep {
+    /// From a state a step; `None` at a step at which the agent is absent.
+    pub(in crate::generator) fn new(states: Vec<Option<State>>, size: &Size) -> Self {
+        let (boxes, swept, trace) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Self { states, size: *size, boxes, swept, trace }
+    }
+
+    /// From a rollout, which begins at the window's start.
+    pub(in crate::generator) fn of_rollout(states: &Trajectory, size: &Size) -> Self {
+        Self::new(states.iter().map(|state| Some(State::from(state))).collect(), size)
+    }
+
+    /// From states that begin `first` steps after the window's start; those after the window's end are left out.
+    pub(in crate::generator) fn entering<'a>(
+        first: usize,
+        states: impl IntoIterator<Item = &'a State>,
+        size: &Size,
+    ) -> Self {
+        let absent = std::iter::repeat_n(None, first);
+        let states = absent.chain(states.into_iter().copied().map(Some));
+        Self::new(states.take(HORIZON_STEPS + 1).collect(), size)
+    }
+
+    /// The size of its box.
+    pub(in crate::generator) fn size(&self) -> &Size {
+        &self.size
+    }
+
+    /// State at a step.
+    pub(in crate::generator) fn state(&self, step: usize) -> Option<&State> {
+        self.states.get(step)?.as_ref()
+    }
+
+    /// One box a step.
+    pub(in crate::generator) fn boxes(&self) -> &[Option<OrientedBox>] {
+        self.boxes.get_or_init(|| {
+            let outline = |state: &State| OrientedBox::of_state(state, &self.size);
+            self.states.iter().map(|state| state.as_ref().map(outline)).collect()
+        })
+    }
+
+    /// Box at a step.
+    pub(in crate::generator) fn at(&self, step: usize) -> Option<&OrientedBox> {
+        self.boxes().get(step)?.as_ref()
+    }
+
+    /// The boxes that the choice compares.
+    pub(in crate::generator) fn swept(&self) -> &SweptBoxes {
+        self.swept.get_or_init(|| {
+            let compared = self.states.iter().skip(STRIDE).step_by(STRIDE);
+            SweptBoxes::of_states(compared.map(Option::as_ref), &self.size)
+        })
+    }
+
+    /// The motion from the step after the start on, as relations and manoeuvres are read from it.
+    pub(in crate::generator) fn trace(&self, id: &AgentId, agent_type: AgentType) -> &Trace {
+        self.trace.get_or_init(|| {
+            Trace::new(id, agent_type, &self.size, HORIZON_STEPS, |step| self.state(step + 1).copied())
+        })
+    }
+
+    /// Box centres and headings at the instants.
+    pub(in crate::generator) fn places(&self) -> Places {
+        let place = |state: &State| (state.position(), state.heading_rad);
+        std::array::from_fn(|i| self.state((i + 1) * PER_INSTANT).map(place))
+    }
+
+    /// The boxes of two motions do not overlap at the start.
+    pub(in crate::generator) fn starts_apart(&self, other: &Self) -> bool {
+        match (self.at(0), other.at(0)) {
+            (Some(a), Some(b)) => !overlaps(a, b, 0.0),
+            _ => true,
+        }
+    }
+
+    /// The boxes of two motions overlap at some step.
+    pub(in crate::generator) fn meets(&self, other: &Self) -> bool {
+        let touch = |(a, b): (&Option<OrientedBox>, &Option<OrientedBox>)| match (a, b) {
+            (Some(a), Some(b)) => overlaps(a, b, 0.0),
+            _ => false,
+        };
+        let found = overlap(self.swept(), other.swept());
+        found.overlaps || found.close && self.boxes().iter().zip(other.boxes()).any(touch)
+    }
+
+    /// The first compared step at which two motions come close.
+    pub(in crate::generator) fn first_meeting(&self, other: &Self) -> Option<usize> {
+        let (a, b) = (self.swept(), other.swept());
+        if !overlap(a, b).close {
+            return None;
+        }
+        let near = |i: usize| match (a.at(i), b.at(i)) {
+            (Some(p), Some(q)) => overlaps(p, q, CLOSE_M),
+            _ => false,
+        };
+        let moment = (0..a.len()).find(|i| near(*i))?;
+        Some(STRIDE * (moment + 1))
+    }
+
+    /// The agent is present and stays within [`STAYS_WITHIN_M`] of its first place.
+    pub(in crate::generator) fn stands(&self) -> bool {
+        let mut places = self.states.iter().flatten().map(State::position);
+        let first = places.next();
+        first.is_some_and(|first| places.all(|place| (place - first).norm() < STAYS_WITHIN_M))
+    }
+
+    /// Velocity between a step and the step before, m/s; zero where the agent is absent at one of them.
+    pub(in crate::generator) fn velocity(&self, step: usize) -> Vec2 {
+        match (step.checked_sub(1).and_then(|before| self.state(before)), self.state(step)) {
+            (Some(a), Some(b)) => (b.position() - a.position()) / STEP_S,
+            _ => Vec2::zeros(),
+        }
+    }
+}

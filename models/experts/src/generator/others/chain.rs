@@ -1,0 +1,186 @@
+//! The chain of reactions: from the agents that a call regenerates to those in whose way they are, and on from there.
+
+use super::giving_way::{Seen, Way};
+use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
+use super::reaction::reaction;
+use crate::generator::motion::Sweep;
+use scene::judge::Reaction;
+use scene::{AgentId, State};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// How often one agent decides again in a window.
+const MOST_DECISIONS: usize = 4;
+
+/// A motion of this answer that other agents may have to yield to.
+pub(in crate::generator) struct Changed {
+    pub(in crate::generator) id: AgentId,
+    pub(in crate::generator) sweep: Arc<Sweep>,
+    /// The agent had it before: agents that keep an earlier answer too do not yield to it.
+    pub(in crate::generator) kept: bool,
+}
+
+/// An agent that changed its motion because of others.
+#[derive(Clone, Debug)]
+pub(in crate::generator) struct Reacted {
+    /// Index into the scene's agents.
+    pub(in crate::generator) index: usize,
+    /// Steps after the window's start at which the agent is present first.
+    pub(in crate::generator) enters: usize,
+    /// From the step after that on.
+    pub(in crate::generator) states: Vec<State>,
+    /// So many of them belong to the kept motion.
+    pub(in crate::generator) own: usize,
+    /// `None` for an agent that goes on with its reaction of an earlier window.
+    pub(in crate::generator) reaction: Option<Reaction>,
+}
+
+impl Others<'_> {
+    /// Cost of a motion to the agents that would have to yield to it.
+    pub(in crate::generator) fn burden(&self, sweep: &Sweep) -> f64 {
+        let cost = |who: ReactingAgent<'_>| {
+            let price = self.price(&who.other.sweep, sweep);
+            (price > 0.0).then(|| {
+                let way = self.way(who, &[Seen { reactor: None, kept: false, sweep }]);
+                way.map_or(price, |way| way.cost.min(price))
+            })
+        };
+        self.reactors().into_iter().filter_map(cost).sum()
+    }
+
+    /// The agents that change their motion because of these changed ones. An agent that is left out keeps its motion to
+    /// the last byte.
+    pub(in crate::generator) fn reactions(&self, changed: &[&Changed]) -> Vec<Reacted> {
+        let reactors = self.reactors();
+        let ways = self.ways(&reactors, changed);
+        let causes = self.causes(&reactors, changed, &ways);
+        let each = reactors.into_iter().zip(ways).zip(causes);
+        let reacted = each.filter_map(|((ReactingAgent { own, .. }, way), cause)| {
+            let path = &own.path;
+            let of = |states: &[State], own_steps: usize, reaction: Option<Reaction>| Reacted {
+                index: own.index,
+                enters: path.enters,
+                states: states.iter().skip(1).copied().collect(),
+                own: own_steps,
+                reaction,
+            };
+            match way.zip(cause) {
+                Some((way, cause)) => {
+                    let reaction = reaction(own, &way, cause, self.start_step);
+                    Some(of(&way.states, way.paced.own - 1, Some(reaction)))
+                }
+                None => own.resumed.then(|| of(&path.states, path.states.len() - 1, None)),
+            }
+        });
+        reacted.collect()
+    }
+
+    /// Every agent's motion by id: the new motion of those that react, the kept motion of the rest.
+    pub(in crate::generator) fn with(&self, reacted: &[Reacted]) -> Vec<(&AgentId, Cow<'_, Sweep>)> {
+        let changed = |other: &OtherAgent| {
+            let Response::Reacts(own) = &other.response else { return None };
+            let new = reacted.iter().find(|r| r.index == own.index && r.reaction.is_some())?;
+            // A reaction begins at the step after the agent is first present.
+            let states = own.path.states.first().into_iter().chain(&new.states);
+            Some(Sweep::entering(new.enters, states, &own.size))
+        };
+        let motion = |other| changed(other).map_or(Cow::Borrowed(&other.sweep), Cow::Owned);
+        self.each.iter().map(|other| (&other.id, motion(other))).collect()
+    }
+
+    /// Resolves the earliest conflict until no agent can improve on one.
+    fn ways(&self, reactors: &[ReactingAgent<'_>], changed: &[&Changed]) -> Vec<Option<Way>> {
+        let mut ways: Vec<Option<Way>> = vec![None; reactors.len()];
+        let mut decisions = vec![0; reactors.len()];
+        loop {
+            let seen = self.seen(reactors, changed, &ways);
+            let first = reactors
+                .iter()
+                .filter(|who| decisions[who.at] < MOST_DECISIONS)
+                .filter_map(|who| Some((first_conflict(*who, ways[who.at].as_ref(), &seen)?, who.at)))
+                .min();
+            let Some((_, at)) = first else { return ways };
+            decisions[at] += 1;
+            let others: Vec<Seen<'_>> = seen.into_iter().filter(|s| s.reactor != Some(at)).collect();
+            let now = ways[at].as_ref().map_or(&reactors[at].other.sweep, |w| &w.sweep);
+            let stays: f64 = others.iter().map(|s| self.price(now, s.sweep)).sum();
+            let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
+            match self.way(reactors[at], &others) {
+                Some(way) if way.cost < stays - 1e-9 => ways[at] = Some(way),
+                // Nothing helps now; the change of another agent may.
+                _ => decisions[at] = MOST_DECISIONS,
+            }
+        }
+    }
+
+    /// All changed motions as they are by now.
+    fn seen<'a>(
+        &'a self,
+        reactors: &[ReactingAgent<'a>],
+        changed: &[&'a Changed],
+        ways: &'a [Option<Way>],
+    ) -> Vec<Seen<'a>> {
+        let asked = changed.iter().map(|c| Seen { reactor: None, kept: c.kept, sweep: &c.sweep });
+        let reacting = reactors.iter().zip(ways).filter_map(|(who, way)| {
+            let earlier = (who.other.kept_from == KeptFrom::Future).then_some(&who.other.sweep);
+            let sweep = way.as_ref().map(|w| &w.sweep).or(earlier)?;
+            Some(Seen { reactor: Some(who.at), kept: way.is_none(), sweep })
+        });
+        let keeping = self.each[self.reacting..].iter().filter(|o| o.kept_from == KeptFrom::Future);
+        let keeping = keeping.map(|o| Seen { reactor: None, kept: true, sweep: &o.sweep });
+        asked.chain(reacting).chain(keeping).collect()
+    }
+
+    /// The agent whose changed motion each kept motion meets; `None` for an agent without a cause or without a change.
+    fn causes(
+        &self,
+        reactors: &[ReactingAgent<'_>],
+        changed: &[&Changed],
+        ways: &[Option<Way>],
+    ) -> Vec<Option<AgentId>> {
+        let mut sources: Vec<(&AgentId, &Sweep)> = changed.iter().map(|c| (&c.id, &*c.sweep)).collect();
+        // The agents that keep an earlier answer are sources too.
+        let keeps = |at: usize| ways.get(at).is_none_or(Option::is_none);
+        let earlier = self.each.iter().enumerate();
+        let earlier = earlier.filter(|(at, o)| o.kept_from == KeptFrom::Future && keeps(*at));
+        sources.extend(earlier.map(|(_, o)| (&o.id, &o.sweep)));
+        let kept: Vec<&Sweep> = reactors.iter().map(|who| &who.other.sweep).collect();
+        let changes: Vec<_> =
+            ways.iter().zip(reactors).map(|(w, who)| Some((&who.other.id, &w.as_ref()?.sweep))).collect();
+        caused(sources, &kept, &changes)
+    }
+}
+
+/// The first step at which an agent meets a changed motion.
+fn first_conflict(who: ReactingAgent<'_>, way: Option<&Way>, seen: &[Seen<'_>]) -> Option<usize> {
+    let own = way.map_or(&who.other.sweep, |w| &w.sweep);
+    // Two earlier answers do not avoid each other as long as both are kept.
+    let avoids = |s: &Seen<'_>| way.is_some() || !s.kept || who.other.kept_from == KeptFrom::Log;
+    let others = seen.iter().filter(|s| s.reactor != Some(who.at) && avoids(s));
+    others.filter_map(|s| own.first_meeting(s.sweep)).min()
+}
+
+/// The direct cause of each change, if it has one: the motion that the kept motion meets first, among the sources and
+/// the changes that have a cause themselves.
+pub(in crate::generator) fn caused<'a>(
+    mut sources: Vec<(&'a AgentId, &'a Sweep)>,
+    kept: &[&Sweep],
+    changes: &[Option<(&'a AgentId, &'a Sweep)>],
+) -> Vec<Option<AgentId>> {
+    let mut causes: Vec<Option<AgentId>> = vec![None; changes.len()];
+    loop {
+        let mut found = Vec::new();
+        for (i, change) in changes.iter().enumerate() {
+            let (Some(change), None) = (change, &causes[i]) else { continue };
+            let first = sources.iter().filter_map(|(id, m)| Some((kept[i].first_meeting(m)?, *id))).min();
+            if let Some((_, cause)) = first {
+                causes[i] = Some(cause.clone());
+                found.push(*change);
+            }
+        }
+        if found.is_empty() {
+            return causes;
+        }
+        sources.extend(found);
+    }
+}

@@ -1,0 +1,216 @@
+//! What somebody could do instead of the motion that it keeps, and what that costs.
+
+use super::blocks::PathBlock;
+use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Reactor};
+use super::path_progress::PathProgress;
+use super::yielding::{Paced, YieldManner};
+use crate::generator::motion::Sweep;
+use crate::tuning::fixed::giving_way::{
+    FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M, PASSED_ON, VEHICLE_BRAKES,
+    VEHICLE_GAPS_M,
+};
+use scene::score::overlap;
+use scene::{AgentType, STEP_S, State, wrap_angle};
+
+/// How often it is looked again who is in front of whom.
+const MOST_TURNS: usize = 3;
+
+/// A motion with what it costs.
+#[derive(Clone, Debug)]
+pub(super) struct Way {
+    pub(super) paced: Paced,
+    pub(super) states: Vec<State>,
+    pub(super) sweep: Sweep,
+    pub(super) cost: f64,
+}
+
+/// Somebody with a changed motion, as others see it.
+#[derive(Clone, Copy)]
+pub(super) struct Seen<'a> {
+    /// Place among those who may answer, for one of them.
+    pub(super) reactor: Option<usize>,
+    /// It is an earlier answer that is kept.
+    pub(super) kept: bool,
+    pub(super) sweep: &'a Sweep,
+}
+
+impl Others<'_> {
+    /// What it costs that two motions meet.
+    pub(super) fn price(&self, a: &Sweep, b: &Sweep) -> f64 {
+        let tuning = &self.tuning.choice;
+        match overlap(a.swept(), b.swept()) {
+            found if found.overlaps => tuning.overlap + tuning.close,
+            found if found.close => tuning.close,
+            _ => 0.0,
+        }
+    }
+
+    /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
+    /// are.
+    pub(super) fn way(&self, who: ReactingAgent<'_>, changed: &[Seen<'_>]) -> Option<Way> {
+        let (own, road) = (who.own, self.road(who.own));
+        let ahead: Vec<Vec<PathBlock>> = changed.iter().map(|c| road.corridor.blocks(c.sweep)).collect();
+        let around = own.around.get_or_init(|| self.around(who));
+        let is_changed = |at: usize| changed.iter().any(|c| c.reactor == Some(at));
+        let kept = around.iter().enumerate().filter(|(at, _)| !is_changed(*at)).flat_map(|(_, b)| b);
+        let kept: Vec<&PathBlock> = kept.chain(&road.lights).collect();
+        let mut all = kept.clone();
+        all.extend(ahead.iter().flatten());
+        let mut best: Option<Way> = None;
+        for manner in manners(own) {
+            let way = self.weighed(who, own.behind(&road.path, &all, manner), manner, changed);
+            let Some(way) = way else { continue };
+            let free = way.1 == 0.0;
+            if best.as_ref().is_none_or(|b| way.0.cost < b.cost - 1e-9) {
+                best = Some(way.0);
+            }
+            if free {
+                return best;
+            }
+        }
+        for pace in FASTER {
+            let manner = YieldManner { pace, accelerate_mps2: HURRIES_MPS2, ..manners(own)[1] };
+            let paced = own.behind(&road.path, &kept, manner);
+            if !own.hurries_safely(&road.path, &paced) {
+                continue;
+            }
+            if let Some((way, _)) = self.weighed(who, paced, manner, changed)
+                && best.as_ref().is_none_or(|b| way.cost < b.cost - 1e-9)
+            {
+                best = Some(way);
+            }
+        }
+        best
+    }
+
+    /// A pace with its cost, and the part of the cost for meetings; `None` for the kept motion itself.
+    fn weighed(
+        &self,
+        who: ReactingAgent<'_>,
+        paced: Paced,
+        manner: YieldManner,
+        changed: &[Seen<'_>],
+    ) -> Option<(Way, f64)> {
+        let (own, path) = (who.own, &self.road(who.own).path);
+        if paced.is_own(path) {
+            return None;
+        }
+        let states = paced.states(path);
+        let sweep = Sweep::entering(own.path.enters, &states, &own.size);
+        let mut meets: f64 = changed.iter().map(|c| self.mitigated(who, &sweep, c.sweep)).sum();
+        let is_changed = |at: usize| changed.iter().any(|c| c.reactor == Some(at));
+        for (at, other) in self.each.iter().enumerate().filter(|(at, _)| *at != who.at && !is_changed(*at)) {
+            if !self.were_near(who, &other.sweep, other.kept_from) {
+                let share = if at < self.reacting { PASSED_ON } else { 1.0 };
+                meets += share * self.price(&sweep, &other.sweep);
+            }
+        }
+        let tuning = &self.tuning.reacting;
+        let hard = (manner.brake_mps2 - tuning.easily_mps2).max(0.0);
+        let late_s = own.late_s(&paced).abs();
+        let cost = self.tuning.choice.deviating + tuning.late * late_s + tuning.hard * hard + meets;
+        Some((Way { paced, states, sweep, cost }, meets))
+    }
+
+    /// The price of a meeting, less for an agent that is slower than it would be without giving way.
+    fn mitigated(&self, who: ReactingAgent<'_>, sweep: &Sweep, other: &Sweep) -> f64 {
+        let price = self.price(sweep, other);
+        if price <= self.tuning.choice.close {
+            return price;
+        }
+        let closing = |m: &Sweep| {
+            let step = m.first_meeting(other)?;
+            Some((m.velocity(step) - other.velocity(step)).norm())
+        };
+        match (closing(sweep), closing(&who.other.sweep)) {
+            (Some(now), Some(then)) if then > 1e-3 => {
+                price * (MITIGATED + (1.0 - MITIGATED) * (now / then).min(1.0))
+            }
+            _ => price,
+        }
+    }
+
+    /// Two motions kept from one source that come near each other: their distance is as it was.
+    fn were_near(&self, who: ReactingAgent<'_>, other: &Sweep, kept_from: KeptFrom) -> bool {
+        who.other.kept_from == kept_from && self.price(&who.other.sweep, other) > 0.0
+    }
+
+    /// Where the kept motion of every other agent is in the way.
+    fn around(&self, who: ReactingAgent<'_>) -> Vec<Vec<PathBlock>> {
+        let road = self.road(who.own);
+        let blocks = |(at, other): (usize, &OtherAgent)| {
+            let ignored = at == who.at || self.were_near(who, &other.sweep, other.kept_from);
+            if ignored { Vec::new() } else { road.corridor.blocks(&other.sweep) }
+        };
+        self.each.iter().enumerate().map(blocks).collect()
+    }
+}
+
+impl Reactor {
+    /// A path of its behind those of these blocks that it is behind by now, or comes to be by waiting.
+    fn behind(&self, path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
+        // Who comes up from behind does not count.
+        let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
+        let mut yields: Vec<bool> =
+            blocks.iter().map(|b| counts(b) && !b.comes_behind(path.along_at(b.from))).collect();
+        for _ in 0..MOST_TURNS {
+            let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
+            let paced = Paced::behind(path, &waited.collect::<Vec<_>>(), manner);
+            let mut turned = false;
+            for (block, yields) in blocks.iter().zip(&mut yields).filter(|(b, y)| !**y && counts(b)) {
+                let at = block.from.saturating_sub(path.enters);
+                let along = paced.along_m.get(at).copied().unwrap_or(f64::INFINITY);
+                if !block.comes_behind(along) {
+                    *yields = true;
+                    turned = true;
+                }
+            }
+            if !turned {
+                return paced;
+            }
+        }
+        let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
+        Paced::behind(path, &waited.collect::<Vec<_>>(), manner)
+    }
+
+    /// How much later it is where it has come to; negative for earlier.
+    pub(super) fn late_s(&self, paced: &Paced) -> f64 {
+        let last = paced.along_m.len() - 1;
+        let (end, own_end) = (paced.along_m[last], self.path.length_m());
+        let steps = |from: usize, to: usize| (to as f64 - from as f64) * STEP_S;
+        if end <= own_end {
+            let there = self.path.step_at(end).map_or(last, |s| s - self.path.enters);
+            return steps(there, last);
+        }
+        let there = paced.along_m.iter().position(|a| *a >= own_end).unwrap_or(last);
+        steps(self.path.states.len() - 1, there)
+    }
+
+    /// Going faster than it does breaks no limit in its bends.
+    fn hurries_safely(&self, path: &PathProgress, paced: &Paced) -> bool {
+        let states = paced.states(path);
+        states.windows(2).all(|w| {
+            let turn = wrap_angle(w[1].heading_rad - w[0].heading_rad).abs() / STEP_S;
+            let speed = w[1].speed_mps();
+            speed <= self.limits.speed_mps && speed * turn <= HURRIED_LATERAL * self.limits.lateral_mps2
+        })
+    }
+}
+
+/// How somebody may brake, from easily to hard.
+fn manners(own: &Reactor) -> Vec<YieldManner> {
+    let manner = |share: &f64, gap_m: &f64, accelerate_mps2: f64| YieldManner {
+        brake_mps2: share * own.limits.brake_mps2,
+        accelerate_mps2,
+        gap_m: *gap_m,
+        pace: 1.0,
+    };
+    let of = |shares: &[f64], gaps_m: &[f64], accelerate_mps2: f64| {
+        shares.iter().zip(gaps_m).map(|(s, g)| manner(s, g, accelerate_mps2)).collect()
+    };
+    match own.agent_type {
+        AgentType::Pedestrian => of(&OTHER_BRAKES, &OTHER_GAPS_M, 0.8),
+        AgentType::Cyclist => of(&OTHER_BRAKES, &OTHER_GAPS_M, 1.0),
+        _ => of(&VEHICLE_BRAKES, &VEHICLE_GAPS_M, 1.5),
+    }
+}

@@ -1,0 +1,232 @@
+//! Every agent that does not act in a window, once: its motion, and whether it may change it.
+
+use super::blocks::{Corridor, PathBlock, closed};
+use super::path_progress::PathProgress;
+use crate::generator::cast::Cast;
+use crate::generator::motion::{KeptMotion, Sweep};
+use crate::generator::workers::Workers;
+use crate::planning::STAYS_WITHIN_M;
+use crate::planning::stop_line::StopLine;
+use crate::planning::world::World;
+use crate::request::Request;
+use crate::tuning::Tuning;
+use scene::judge::Trace;
+use scene::limits::Limits;
+use scene::routes::LaneGraph;
+use scene::score::overlap;
+use scene::{AgentId, AgentType, HORIZON_STEPS, Size, Start, State};
+use std::collections::BTreeSet;
+use std::sync::{Arc, OnceLock};
+
+/// From so many agents on several threads work them out.
+const MANY: usize = 96;
+
+/// What a kept motion was taken from. Two motions of one source do not avoid each other: their distance is as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum KeptFrom {
+    /// The recording.
+    Log,
+    /// An earlier answer.
+    Future,
+}
+
+/// An agent that does not act in a window.
+pub(in crate::generator) struct OtherAgent {
+    pub(in crate::generator) id: AgentId,
+    /// The motion that it keeps.
+    pub(in crate::generator) sweep: Sweep,
+    pub(super) kept_from: KeptFrom,
+    agent_type: AgentType,
+    /// Its motion may be used to name the relations of drafts.
+    visible: bool,
+    /// Names relations in place of `sweep`.
+    recorded: Option<Sweep>,
+    pub(super) response: Response,
+}
+
+/// Whether an agent may change its motion.
+pub(super) enum Response {
+    /// It keeps its motion whatever the others do.
+    Keeps,
+    /// It may yield.
+    Reacts(Box<Reactor>),
+}
+
+/// What it takes an agent to yield on its own path.
+pub(super) struct Reactor {
+    /// Index into the scene's agents.
+    pub(super) index: usize,
+    pub(super) agent_type: AgentType,
+    pub(super) size: Size,
+    pub(super) limits: Limits,
+    pub(super) path: PathProgress,
+    /// It changed its motion in an earlier window and goes on with that.
+    pub(super) resumed: bool,
+    /// Worked out when an agent is in its way: few are met.
+    road: OnceLock<Road>,
+    /// Where and when each other agent is in its way by the motion that it keeps.
+    pub(super) around: OnceLock<Vec<Vec<PathBlock>>>,
+}
+
+/// What an agent follows its path through.
+pub(super) struct Road {
+    /// Its path, and how the road goes on from there.
+    pub(super) path: PathProgress,
+    pub(super) corridor: Corridor,
+    /// Red lights on its way.
+    pub(super) lights: Vec<PathBlock>,
+}
+
+/// An agent that may react, with its place among [`Others`].
+#[derive(Clone, Copy)]
+pub(super) struct ReactingAgent<'a> {
+    pub(super) at: usize,
+    pub(super) other: &'a OtherAgent,
+    pub(super) own: &'a Reactor,
+}
+
+/// All agents that are present in a window, or enter in it, and do not act.
+pub(in crate::generator) struct Others<'g> {
+    /// The agents that may react first, both parts by id: sums over them run in this order.
+    pub(super) each: Vec<OtherAgent>,
+    /// How many of them may react.
+    pub(super) reacting: usize,
+    stop_lines: Vec<StopLine>,
+    graph: Option<Arc<LaneGraph>>,
+    pub(super) tuning: &'g Tuning,
+    /// Scene step at which the window starts.
+    pub(super) start_step: usize,
+}
+
+impl<'g> Others<'g> {
+    /// No agents.
+    pub(in crate::generator) fn none(tuning: &'g Tuning) -> Self {
+        let (each, stop_lines) = (Vec::new(), Vec::new());
+        Self { each, reacting: 0, stop_lines, graph: None, tuning, start_step: 0 }
+    }
+
+    /// All agents but those in `acting`, by index into the scene's agents.
+    pub(in crate::generator) fn of(
+        world: &World<'_>,
+        workers: &Workers,
+        request: &Request,
+        acting: &BTreeSet<usize>,
+        cast: &Cast,
+        tuning: &'g Tuning,
+    ) -> Self {
+        let mut order: Vec<usize> = (0..world.scene.agents.len()).filter(|i| !acting.contains(i)).collect();
+        // The order of the agents in the scene must not change the answer.
+        order.sort_by(|a, b| world.scene.agents[*a].id.cmp(&world.scene.agents[*b].id));
+        let all = workers.map_many(MANY, &order, |&index| OtherAgent::of(world, request, cast, index));
+        let may_react = |other: &OtherAgent| matches!(other.response, Response::Reacts(_));
+        let (mut each, keeping): (Vec<_>, Vec<_>) = all.into_iter().flatten().partition(may_react);
+        let reacting = each.len();
+        each.extend(keeping);
+        let stop_lines = world.stop_lines.clone();
+        let graph = Some(Arc::clone(&world.graph));
+        Self { each, reacting, stop_lines, graph, tuning, start_step: world.step }
+    }
+
+    /// Every agent's kept motion.
+    pub(in crate::generator) fn sweeps(&self) -> impl Iterator<Item = &Sweep> {
+        self.each.iter().map(|other| &other.sweep)
+    }
+
+    /// The motions that stay as they are whatever the actors do.
+    pub(in crate::generator) fn kept(&self) -> impl Iterator<Item = &Sweep> {
+        self.each[self.reacting..].iter().map(|other| &other.sweep)
+    }
+
+    /// The motions that drafts are compared with by name.
+    pub(in crate::generator) fn traces(&self) -> impl Iterator<Item = &Trace> {
+        let named = self.each.iter().filter(|other| other.visible);
+        named.map(|other| other.recorded.as_ref().unwrap_or(&other.sweep).trace(&other.id, other.agent_type))
+    }
+
+    /// An agent that may react would meet this motion.
+    pub(in crate::generator) fn would_react_to(&self, motion: &Sweep) -> bool {
+        self.each[..self.reacting].iter().any(|other| overlap(other.sweep.swept(), motion.swept()).close)
+    }
+
+    /// The agents that may react.
+    pub(super) fn reactors(&self) -> Vec<ReactingAgent<'_>> {
+        let found = self.each.iter().enumerate().filter_map(|(at, other)| match &other.response {
+            Response::Reacts(own) => Some(ReactingAgent { at, other, own }),
+            Response::Keeps => None,
+        });
+        found.collect()
+    }
+
+    /// What an agent that may react follows its path through.
+    pub(super) fn road<'a>(&self, own: &'a Reactor) -> &'a Road {
+        own.road.get_or_init(|| {
+            let path = match &self.graph {
+                Some(graph) if !own.path.leaves() => own.path.clone().extended(graph, own.agent_type),
+                _ => own.path.clone(),
+            };
+            let corridor = Corridor::of(&path, &own.size);
+            let on_foot = own.agent_type == AgentType::Pedestrian;
+            let lines = self.stop_lines.iter().filter(|_| !on_foot);
+            let red = lines.filter_map(|line| {
+                let at_m = corridor.line(line.at())?;
+                Some(closed(at_m, |step| line.red() >> step & 1 == 1))
+            });
+            let lights = red.flatten().collect();
+            Road { path, corridor, lights }
+        })
+    }
+}
+
+impl OtherAgent {
+    /// An agent of the scene; `None` where it is absent in the whole window.
+    fn of(world: &World<'_>, request: &Request, cast: &Cast, index: usize) -> Option<Self> {
+        let agent = &world.scene.agents[index];
+        let conditions = &world.conditions[index];
+        let size = conditions.size_of(agent.size);
+        let agent_type = conditions.kind_of(agent);
+        let kept = KeptMotion::of(&world.scene, agent, world.step);
+        let recorded: Vec<Option<State>> = (0..=HORIZON_STEPS).map(|step| kept.at(step)).collect();
+        let resumed = cast.resumed.get(&index);
+        let (mut states, recorded) = match resumed {
+            Some(states) => {
+                let states = (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect();
+                // Relations are named by what the scene knows, also where the agent goes on with a reaction.
+                (states, Some(Sweep::new(recorded, &size)))
+            }
+            None => (recorded, None),
+        };
+        if let Some(present) = world.present.iter().find(|p| p.index == index) {
+            states[0] = Some(present.start);
+        }
+        if states.iter().all(Option::is_none) {
+            return None;
+        }
+        let chosen = request.scene.generated.as_ref().and_then(|g| g.chosen_future(&agent.id));
+        let made = chosen.is_some() || request.pinned.contains_key(&agent.id) || resumed.is_some();
+        let kept_from = if made { KeptFrom::Future } else { KeptFrom::Log };
+        let may_react = (resumed.is_some() || cast.may_react.contains(&index))
+            && agent_type != AgentType::Other
+            && (conditions.start == Start::default() || kept_from == KeptFrom::Future);
+        // An agent that stands all the time stays; one that changed its motion goes on, even standing.
+        let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
+        let path = may_react.then(|| PathProgress::of(&states, shortest_m)).flatten();
+        let response = path.map_or(Response::Keeps, |path| {
+            Response::Reacts(Box::new(Reactor {
+                index,
+                agent_type,
+                size,
+                limits: Limits::of(agent_type, agent.subtype, size.length_m),
+                path,
+                resumed: resumed.is_some(),
+                road: OnceLock::new(),
+                around: OnceLock::new(),
+            }))
+        });
+        // A call that regenerates all agents knows no recording after the start.
+        let visible = request.agents.is_some()
+            || agent.state_at(world.step).is_some()
+            || conditions.start.position.is_some();
+        let sweep = Sweep::new(states, &size);
+        Some(Self { id: agent.id.clone(), sweep, kept_from, agent_type, visible, recorded, response })
+    }
+}

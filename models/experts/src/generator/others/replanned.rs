@@ -1,0 +1,79 @@
+//! The agents that react by planning again, as the regenerated agents do.
+
+use crate::generator::actor::Actor;
+use crate::generator::motion::KeptMotion;
+use crate::generator::trajectory::{rest, to_trajectory};
+use crate::generator::workers::Workers;
+use crate::planning::STAYS_WITHIN_M;
+use crate::planning::world::{AgentAtStart, World};
+use crate::request::React;
+use scene::{Start, State, Vec2};
+use std::collections::BTreeSet;
+
+/// The agents of `may_react` that an earlier call gave a goal, a via point or a start: they plan again and keep their
+/// motion unless a changed one is in the way.
+pub(in crate::generator) fn replanned(
+    world: &World<'_>,
+    workers: &Workers,
+    actors: &[Actor],
+    may_react: &BTreeSet<usize>,
+    react: &React,
+    near_m: f64,
+) -> Vec<Actor> {
+    let asked = |who: &AgentAtStart| {
+        let conditions = &world.conditions[who.index];
+        !conditions.goal.is_free() || !conditions.via.is_empty() || conditions.start != Start::default()
+    };
+    let candidates: Vec<_> =
+        world.present.iter().filter(|p| may_react.contains(&p.index) && asked(p)).collect();
+    if candidates.is_empty() {
+        return Vec::new();
+    }
+    let paths: Vec<(Vec<Vec2>, f64)> =
+        actors.iter().map(|a| (path(a), a.plan.present.size.length_m)).collect();
+    let found = workers.map(&candidates, |who| {
+        let kept = KeptMotion::states(world, who);
+        let named = matches!(react, React::Only(_));
+        let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
+        let reach = |length: f64| near_m + 0.5 * (length + who.size.length_m);
+        let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
+        let unmoved = world.conditions[who.index].start == Start::default();
+        let leaves_it = !named && unmoved && (parked || !near);
+        (!leaves_it).then(|| Actor::reacting(world, who, kept))
+    });
+    found.into_iter().flatten().collect()
+}
+
+/// Places of an actor's likeliest draft, one a step.
+fn path(actor: &Actor) -> Vec<Vec2> {
+    let slot = actor.likeliest();
+    let motion =
+        if actor.rests { rest(&actor.plan) } else { to_trajectory(&actor.plan, slot, slot.of(&actor.modes)) };
+    motion.states.iter().skip(1).map(|s| s.position).collect()
+}
+
+/// Two motions come within this of each other within three seconds. One state a step each.
+fn come_near(a: &[Vec2], b: &[State], reach_m: f64) -> bool {
+    (4..a.len()).step_by(5).any(|i| {
+        let from = i.saturating_sub(30);
+        let to = (i + 30).min(b.len());
+        (from..to).step_by(5).any(|j| (a[i] - b[j].position()).norm() < reach_m)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_is_near_in_time_too() {
+        let east: Vec<Vec2> = (1..=90).map(|i| Vec2::new(i as f64, 0.0)).collect();
+        // Northwards through x = 60, there after so many steps.
+        let north = |passes: f64| -> Vec<State> {
+            (1..=90).map(|i| State { x_m: 60.0, y_m: i as f64 - passes, ..State::default() }).collect()
+        };
+        assert!(come_near(&east, &north(60.0), 5.0));
+        assert!(come_near(&east, &north(45.0), 5.0));
+        assert!(!come_near(&east, &north(15.0), 5.0));
+    }
+}

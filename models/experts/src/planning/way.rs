@@ -1,0 +1,266 @@
+//! Ways: paths that an agent may take, before and after they have a timing.
+
+use super::coordinates::MODES;
+use super::profile::Progress;
+use super::world::{AgentAtStart, World};
+use crate::tuning::AnchorTuning;
+use scene::geometry::direction;
+use scene::motion::{Kind, MotionModel};
+use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
+use scene::{AgentType, HORIZON_STEPS, Vec2};
+
+/// What kind of path an anchor follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathKind {
+    /// Lanes all the way.
+    Route,
+    /// By a curve onto or off the lanes.
+    Joined,
+    /// The motion of least effort to the goal: projected for vehicles, a spline under tension for people and riders.
+    LeastEffort,
+    /// Straight on: no lane is known.
+    Straight,
+}
+
+/// A path with a base progress along it.
+#[derive(Clone, Debug)]
+pub struct Anchor {
+    /// Path of the box centre, scene frame; begins at the start position.
+    pub path: Polyline,
+    /// Base progress along it.
+    pub base: Progress,
+    /// Speed caps at the path's points, m/s.
+    pub caps_mps: Vec<f64>,
+    /// Where the path came from.
+    pub kind: PathKind,
+    /// Route behind it, if any.
+    pub route: Option<Route>,
+    /// Names the path across small changes of the goal, so that modes keep their place while dragging.
+    pub identity: u64,
+    /// Which timing of its path this is, and of how many.
+    pub timing: (usize, usize),
+    /// Metres along the path at which it passes each via point of the window.
+    pub passes_m: Vec<f64>,
+}
+
+/// Names of timings on one path; more than there are modes.
+const TIMINGS: u64 = 8;
+
+/// Slots of each path when there are 1 to 6 of them.
+pub(super) const SLOTS: [[usize; MODES]; MODES] = [
+    [6, 0, 0, 0, 0, 0],
+    [3, 3, 0, 0, 0, 0],
+    [2, 2, 2, 0, 0, 0],
+    [2, 2, 1, 1, 0, 0],
+    [2, 1, 1, 1, 1, 0],
+    [1, 1, 1, 1, 1, 1],
+];
+
+/// A path before it has timings.
+pub(super) struct Way {
+    pub(super) path: Polyline,
+    pub(super) caps_mps: Vec<f64>,
+    pub(super) limit_mps: f64,
+    pub(super) kind: PathKind,
+    pub(super) route: Option<Route>,
+    pub(super) identity: u64,
+    /// Base progress that comes with the path.
+    pub(super) pace: Option<Progress>,
+}
+
+pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<Way> {
+    let v0 = model.start_speed_mps();
+    let graph = &world.graph;
+    let walking = model.kind == Kind::Walk;
+    let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
+    let routes = if world.planning.routes {
+        routes_ahead(graph, who.pose(), who.agent_type, length)
+    } else {
+        Vec::new()
+    };
+    let mut out: Vec<Way> = Vec::with_capacity(MODES);
+    if walking || routes.is_empty() {
+        out.push(straight_on(who, model, length, &world.tuning.anchors));
+    }
+    let most = if walking { 3 } else { MODES };
+    for route in routes {
+        if out.len() == most {
+            break;
+        }
+        let path = base_path(&route.path, who.pose(), v0, who.agent_type, None);
+        let limit = route.limits_mps.first().copied().unwrap_or(model.limits.speed_mps);
+        let identity = identity_of(&route);
+        let comfort = model.limits.comfort_lateral_mps2;
+        out.push(Way::new(
+            path,
+            comfort,
+            limit.min(model.limits.speed_mps),
+            PathKind::Route,
+            Some(route),
+            identity,
+            &world.tuning.anchors,
+        ));
+    }
+    if out.len() == 1 && !walking && out[0].kind == PathKind::Straight {
+        out.extend([0.6, -0.6].map(|bend| bent(who, model, length, bend, &world.tuning.anchors)));
+    }
+    out
+}
+
+fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &AnchorTuning) -> Way {
+    let start = who.start.position();
+    let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
+    // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
+    let aside =
+        model.kind == Kind::Walk && velocity.norm() > 0.3 && velocity.dot(&faces) < 0.5 * velocity.norm();
+    let ahead = if aside { velocity.normalize() } else { faces };
+    let n = length.ceil().max(2.0) as usize;
+    let path = Polyline::new((0..=n).map(|i| start + ahead * i as f64));
+    Way::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3, tuning)
+}
+
+/// An arc that turns by `bend` radians over the length.
+fn bent(who: &AgentAtStart, model: &MotionModel, length: f64, bend: f64, tuning: &AnchorTuning) -> Way {
+    let n = length.ceil().max(2.0) as usize;
+    let mut at = who.start.position();
+    let points: Vec<Vec2> = (0..=n)
+        .map(|i| {
+            let here = at;
+            at += direction(who.start.heading_rad + bend * i as f64 / n as f64);
+            here
+        })
+        .collect();
+    let comfort = model.limits.comfort_lateral_mps2;
+    let identity = if bend > 0.0 { 4 } else { 5 };
+    Way::new(
+        Polyline::new(points),
+        comfort,
+        assumed_speed(who.agent_type),
+        PathKind::Straight,
+        None,
+        identity,
+        tuning,
+    )
+}
+
+/// Speed off every lane, m/s.
+pub(super) fn assumed_speed(agent_type: AgentType) -> f64 {
+    match agent_type {
+        AgentType::Pedestrian => 1.6,
+        AgentType::Cyclist => 5.0,
+        _ => 8.0,
+    }
+}
+
+impl Way {
+    pub(super) fn new(
+        path: Polyline,
+        lateral_mps2: f64,
+        limit_mps: f64,
+        kind: PathKind,
+        route: Option<Route>,
+        identity: u64,
+        tuning: &AnchorTuning,
+    ) -> Self {
+        let over_limit = tuning.over_limit;
+        let limits: Vec<f64> = match (&route, limit_mps.is_finite()) {
+            (Some(route), true) => path
+                .arc_m()
+                .iter()
+                .map(|s| {
+                    let i = (*s as usize).min(route.limits_mps.len().saturating_sub(1));
+                    // Many drive faster than the sign says.
+                    route.limits_mps.get(i).map_or(limit_mps, |l| over_limit * l)
+                })
+                .collect(),
+            _ => vec![if limit_mps.is_finite() { over_limit * limit_mps } else { 60.0 }; path.points().len()],
+        };
+        let rules = SpeedRules { lateral_mps2, ..SpeedRules::default() };
+        let caps_mps = speed::speed_caps(&path, &limits, rules);
+        let limit_mps = if limit_mps.is_finite() { limit_mps } else { 15.0 };
+        Self { path, caps_mps, limit_mps, kind, route, identity, pace: None }
+    }
+
+    /// Goes on along another path, which begins where this one ends, at ease and no faster than `limit_mps`.
+    pub(super) fn extend(&mut self, onward: &Polyline, limit_mps: f64) {
+        let caps = speed::speed_caps(onward, &[limit_mps], SpeedRules::default());
+        self.caps_mps.extend(caps.into_iter().skip(1));
+        let points = self.path.points().iter().chain(onward.points().iter().skip(1));
+        self.path = Polyline::new(points.copied());
+    }
+
+    /// This way and a further one, which begins where this one ends.
+    pub(super) fn followed_by(&self, leg: &Self) -> Self {
+        let points = self.path.points().iter().chain(leg.path.points().iter().skip(1));
+        let kind = if self.kind == leg.kind { self.kind } else { PathKind::Joined };
+        Self {
+            path: Polyline::new(points.copied()),
+            caps_mps: self.caps_mps.iter().chain(leg.caps_mps.iter().skip(1)).copied().collect(),
+            limit_mps: leg.limit_mps,
+            kind,
+            route: self.route.clone(),
+            identity: self.identity.wrapping_mul(1_000_003).wrapping_add(leg.identity),
+            pace: None,
+        }
+    }
+
+    pub(super) fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
+        Anchor {
+            path: self.path.clone(),
+            base,
+            caps_mps: self.caps_mps.clone(),
+            kind: self.kind,
+            route: self.route.clone(),
+            identity: self.identity.wrapping_mul(TIMINGS).wrapping_add(timing.0 as u64),
+            timing,
+            passes_m: Vec::new(),
+        }
+    }
+}
+
+/// Lanes of a route folded into one number.
+pub(super) fn identity_of(route: &Route) -> u64 {
+    route.legs.iter().fold(17, |h: u64, leg| h.wrapping_mul(1_000_003).wrapping_add(leg.lane as u64 + 11))
+}
+
+impl Anchor {
+    /// Position of the box centre at progress `along` and offset `across`, and the path's heading there.
+    pub fn place(&self, along: f64, across: f64) -> (Vec2, f64) {
+        let pose = self.path.extrapolate(along);
+        let left = direction(pose.heading_rad + std::f64::consts::FRAC_PI_2);
+        (pose.position + left * across, pose.heading_rad)
+    }
+
+    /// Route coordinates (along, across) of a point, searched near the progress `near`.
+    pub fn coordinates(&self, point: Vec2, near: f64) -> (f64, f64) {
+        let length = self.path.length_m();
+        let foot = self.path.project_between(
+            point,
+            (near - 6.0).clamp(0.0, length),
+            (near + 12.0).clamp(0.0, length),
+        );
+        if foot.s_m >= length - 1e-6 {
+            let end = self.path.last();
+            let beyond = (point - end.position).dot(&end.direction());
+            let across = scene::geometry::cross(end.direction(), point - end.position);
+            return (length + beyond.max(0.0), across);
+        }
+        if foot.s_m <= 1e-6 {
+            let first = self.path.first();
+            let behind = (point - first.position).dot(&first.direction());
+            let across = scene::geometry::cross(first.direction(), point - first.position);
+            return (behind.min(0.0), across);
+        }
+        (foot.s_m, foot.lateral_m)
+    }
+
+    /// Names the path alone, whatever the timing on it.
+    pub fn path_identity(&self) -> u64 {
+        self.identity / TIMINGS
+    }
+
+    /// Progress, base speed and the like at a step.
+    pub fn base_at(&self, step: usize) -> f64 {
+        self.base[step.min(HORIZON_STEPS)]
+    }
+}

@@ -1,0 +1,253 @@
+//! Numbers of planning and generation that are set and not learned, and that no call varies: thresholds, room, pace.
+//!
+//! All were set by hand between 2026-11-21 and 2026-11-26, on recorded and made scenes that showed what was wrong
+//! without them. They are part of [`Tuning::hash`](super::Tuning::hash).
+
+use super::numbers;
+use scene::routes::SpeedRules;
+use scene::score::CLOSE_M;
+
+numbers! {
+    /// Of actors.
+    actor {
+        /// A vehicle farther from its lane's middle than this is beside the lane, metres.
+        BESIDE_LANE_M: f64 = 1.4;
+    }
+    /// Of first drafts.
+    drafting {
+        /// An agent stays where it is above this probability of it.
+        STAYS_ABOVE: f64 = 0.5;
+    }
+    /// Of swerving and stopping for what is in the way.
+    replan {
+        /// Metres aside that a vehicle gets on a metre of way.
+        SLOPE: f64 = 0.35;
+        /// A motion follows the places that it is made from within this, metres.
+        SPARE_M: f64 = 0.2;
+        /// Room to the sides of an agent that stops, metres.
+        ROOM_M: f64 = 0.3;
+        /// Room to what an agent stops before, metres: ten knots cannot follow every halt.
+        SHORT_M: f64 = 1.0;
+        /// Shorter ways have no sides, metres.
+        LEAST_WAY_M: f64 = 2.0;
+        /// Braking before what is in the way that is tried: shares of the hardest.
+        BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
+        /// Harder braking must lead so much farther, metres.
+        HARDER_M: f64 = 2.0;
+    }
+    /// Of rounds with feedback.
+    rounds {
+        /// A round's draw is at least this diverse: a person must see what there is.
+        ROUND_DIVERSITY: f64 = 1.5;
+    }
+    /// Of variations of a draft.
+    variations {
+        /// Time kept from another agent at shared ground, in the order of trying, seconds.
+        GAPS_S: [f64; 3] = [0.9, 0.5, 0.2];
+        /// Share of the speed caps of a path that is usual.
+        HURRY: f64 = 1.1;
+        /// A walker that waits may lean over the kerb by this, metres.
+        OVER_KERB_M: f64 = 0.4;
+        /// Way kept from shared ground, metres.
+        CLEAR_M: f64 = 0.4;
+    }
+    /// Of motions through via points.
+    via_steering {
+        /// Share of a via point's tolerance that a motion may use before it is brought nearer.
+        SURE: f64 = 0.8;
+        /// Share of the tolerance that it keeps then: futures stay apart where they may.
+        KEEPS: f64 = 0.5;
+        /// An offset from the path shrinks towards a via point by this, metres for each metre of way.
+        NARROWS: f64 = 0.15;
+        /// An agent without a goal ends so far past its last via point, metres.
+        PAST_M: f64 = 1.0;
+    }
+    /// Of walkers that step out before a vehicle.
+    stepping_out {
+        /// Slower vehicles let people cross, m/s.
+        FAST_MPS: f64 = 4.0;
+        /// A walker steps out before a vehicle that would have to brake harder than this, m/s2.
+        HARD_MPS2: f64 = 3.0;
+        /// Time kept from a vehicle that has passed, seconds.
+        AFTER_S: f64 = 0.3;
+    }
+    /// Of the way from a draft to its motion.
+    trajectory {
+        /// A front nearer to a red line than this is over it, metres.
+        AT_LINE_M: f64 = 0.25;
+        /// The next try stops so much farther from the line, metres.
+        SHORT_OF_LINE_M: f64 = 1.2;
+        /// Shares of an offset that are tried where the whole of it leaves the road.
+        OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
+        /// Ending along a lane may change a motion by this, metres.
+        ALONG_LANE_M: f64 = 1.5;
+        /// Braking of a vehicle that rolls backwards without a reason, m/s2.
+        BACKING_BRAKE_MPS2: f64 = 1.5;
+    }
+    /// Of the place on the road that is offered instead of a goal off it.
+    remedies {
+        /// A driver without hurry speeds up at this rate, m/s2.
+        SPEEDING_UP_MPS2: f64 = 1.5;
+        /// The pace of a driver without hurry, m/s.
+        PACE_MPS: f64 = 13.9;
+        /// Sideways acceleration in bends and braking ahead of them.
+        BENDS: SpeedRules = SpeedRules { lateral_mps2: 3.0, brake_mps2: 2.2 };
+        /// A gentle stop brakes no harder, m/s2.
+        STOPPING_MPS2: f64 = 3.0;
+        /// A place nearer to the goal than this is the goal, metres.
+        LEAST_MOVE_M: f64 = 1.0;
+    }
+    /// Of what is in the way along a path.
+    blocks {
+        /// Boxes come no nearer than this, metres: a little more than what the choice calls close.
+        CLEAR_M: f64 = CLOSE_M + 0.05;
+        /// A stop line belongs to a path that passes it nearer than this, metres.
+        LINE_BESIDE_M: f64 = 2.0;
+        /// The same for the angle between the path and the lane of the line, radians.
+        LINE_TURNED_RAD: f64 = 0.6;
+        /// Front bumper to stop line, metres.
+        LINE_GAP_M: f64 = 0.5;
+    }
+    /// Of the path of an agent that may react.
+    path_progress {
+        /// How far ahead the speed at a place is looked up where the agent stood or set off, metres.
+        LOOK_AHEAD_M: f64 = 6.0;
+        /// A slower agent stood or set off, m/s.
+        SETTING_OFF_MPS: f64 = 2.0;
+        /// An agent that goes no faster gets at most so far beyond its path, metres.
+        BEYOND_M: f64 = 15.0;
+        /// An agent that goes faster gets farther by this share of its way.
+        HURRIED: f64 = 0.3;
+        /// Least and greatest rate at which a late agent takes up its own speed again, m/s2.
+        TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
+    }
+    /// Of giving way.
+    giving_way {
+        /// Braking of vehicles, from easy to what is possible: shares of the hardest.
+        VEHICLE_BRAKES: [f64; 5] = [0.25, 0.375, 0.5, 0.75, 0.94];
+        /// The same of people on foot and riders.
+        OTHER_BRAKES: [f64; 3] = [0.4, 0.65, 0.93];
+        /// The distance that a vehicle keeps with each of them, metres.
+        VEHICLE_GAPS_M: [f64; 5] = [1.5, 1.5, 1.0, 0.5, 0.1];
+        /// The same of people on foot and riders, metres.
+        OTHER_GAPS_M: [f64; 3] = [0.8, 0.4, 0.1];
+        /// Speeds of an agent that goes first: shares of its own.
+        FASTER: [f64; 2] = [1.15, 1.3];
+        /// Rate at which it speeds up to them, m/s2.
+        HURRIES_MPS2: f64 = 1.8;
+        /// Share of the sideways limit that it may use.
+        HURRIED_LATERAL: f64 = 0.7;
+        /// Share of the price of an overlap that is left at no speed.
+        MITIGATED: f64 = 0.4;
+        /// Share of the price of a meeting with an agent that may react too.
+        PASSED_ON: f64 = 0.4;
+    }
+    /// Of naming a reaction.
+    reaction {
+        /// Two places nearer than this are one place, metres.
+        SAME_PLACE_M: f64 = 1.0;
+        /// An agent farther than this from its kept motion keeps clear, metres.
+        ASIDE_M: f64 = 1.0;
+    }
+    /// Of driving a path later.
+    yielding {
+        /// An agent that stands does not set off for less than this, metres.
+        WORTH_GOING_M: f64 = 1.0;
+    }
+    /// Of walkers and carriageways.
+    crossing {
+        /// Lanes farther ahead than this are left out, metres.
+        AHEAD_M: f64 = 40.0;
+        /// A kerb lies at most so far before the first lane, metres: parked cars and gutters lie between.
+        KERB_M: f64 = 5.0;
+        /// Pace of walkers that are due at a time, unless they are faster already, m/s.
+        PACE_MPS: f64 = 1.8;
+        /// Rate at which walkers set off, m/s2.
+        SETTING_OFF_MPS2: f64 = 1.3;
+        /// Walkers stop at a kerb no harder than this, m/s2.
+        STOPPING_MPS2: f64 = 2.0;
+        /// The way by a crosswalk may be so many times the straight one.
+        DETOUR: f64 = 2.0;
+        /// Or so much longer, metres.
+        DETOUR_M: f64 = 15.0;
+        /// A walker nearer to a crosswalk's side than this uses it, metres.
+        BESIDE_M: f64 = 1.5;
+        /// Room kept from the sides of a crosswalk, metres.
+        INSIDE_M: f64 = 0.6;
+        /// A crosswalk may be drawn so far short of the kerb, metres.
+        DRAWN_SHORT_M: f64 = 4.0;
+        /// A crosswalk lies at most so far behind the stop line of its signal, metres.
+        BEHIND_LINE_M: f64 = 12.0;
+        /// A corner of a path is rounded off over this, metres.
+        ROUNDED_M: f64 = 1.0;
+    }
+    /// Of ways that keep the rules of the road.
+    legal {
+        /// Metres that crossing an edge of the road counts as.
+        EDGE_M: f64 = 5.0;
+        /// The box counts as so much narrower than it is, metres: a path is no motion yet.
+        NARROWER_M: f64 = 0.2;
+        /// A path may cut a corner so far beside a lane's assumed width, metres.
+        BESIDE_LANES_M: f64 = 1.0;
+        /// A side of the box may be so far beyond an edge, metres.
+        BEYOND_M: f64 = 0.3;
+    }
+    /// Of stop lines and signals.
+    lights {
+        /// A path takes a lane from whose centre it stays within this on average, metres.
+        ON_LANE_M: f64 = 2.2;
+        /// Lanes whose distances differ by less cannot be told apart, metres.
+        SAME_LANE_M: f64 = 0.3;
+        /// Length of path after or before a line that tells which lane is taken, metres.
+        TELLING_M: f64 = 20.0;
+        /// Lines nearer to each other along a path are of one junction, metres.
+        ONE_JUNCTION_M: f64 = 8.0;
+        /// How far beyond its end a path is looked at, metres: motions go on after their goal.
+        BEYOND_M: f64 = 60.0;
+        /// An agent that stands so little past a line waits there, metres.
+        PASSED_M: f64 = 2.5;
+        /// A slower agent stands at a line, m/s.
+        STOPPED_MPS: f64 = 1.0;
+        /// Front of a waiting agent to the line, metres.
+        BEFORE_LINE_M: f64 = 1.0;
+        /// Other fronts may come so near to the line, metres.
+        NEAR_LINE_M: f64 = 0.5;
+        /// A turn at red takes so far, metres.
+        TURN_M: f64 = 12.0;
+        /// Usual braking for a signal, m/s2.
+        BRAKE_MPS2: f64 = 2.0;
+        /// Hardest braking for a signal, m/s2.
+        HARDEST_MPS2: f64 = 4.0;
+        /// Rate at which a waiting agent sets off, m/s2.
+        SET_OFF_MPS2: f64 = 1.5;
+        /// The least speed to which it sets off, m/s.
+        SET_OFF_TO_MPS: f64 = 6.0;
+        /// A standing agent nearer to a path than this is in the queue on it, metres.
+        IN_QUEUE_M: f64 = 1.6;
+        /// Speeding up and braking on the way to a goal beyond a signal: shares of the limits.
+        PRESSED_SHARE: f64 = 0.85;
+        /// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
+        ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
+    }
+    /// Of speed profiles.
+    profile {
+        /// Braking for a bend beyond the goal, m/s2.
+        EASING_MPS2: f64 = 3.0;
+    }
+    /// Of ways through via points.
+    through {
+        /// A via point is passed at most so many times as fast as its lane suggests.
+        PRESSED: f64 = 1.6;
+    }
+    /// Of ways to a goal.
+    to_goal {
+        /// A way that counts as fast enough may miss the goal by this, metres.
+        ARRIVING_M: f64 = 0.5;
+        /// A way may be driven so many times as fast through its bends as is comfortable, when time presses.
+        PRESSED: f64 = 1.15;
+        /// A way goes on beyond its goal for so much more than it takes, metres.
+        AFTER_GOAL_M: f64 = 10.0;
+        /// Share of the limits of speeding up and braking that a way may need.
+        PRESSED_SHARE: f64 = 0.8;
+    }
+}

@@ -1,0 +1,162 @@
+//! Numbers of placement that are set and not learned.
+//!
+//! All were set by hand between 2026-11-21 and 2026-11-26; what was counted on recorded scenes is a table beside the
+//! weights. No generated future depends on them, so they are no part of [`Tuning::hash`](super::Tuning::hash).
+
+use super::numbers;
+
+numbers! {
+    /// Of `placement::arms`.
+    arms {
+        /// Lanes whose headings differ by more are of different roads, radians.
+        SAME_ROAD_RAD: f64 = 0.6;
+        /// The same of their places across and along the road, metres.
+        SAME_ROAD_M: (f64, f64) = (10.0, 30.0);
+        /// A lane that opens beside another has that one beside it so far behind its beginning, metres.
+        BEHIND_M: f64 = 4.0;
+        /// Lanes of one road that the map's edge cuts may begin so far apart, metres.
+        RAGGED_M: f64 = 15.0;
+        /// A shorter lane is no way in, metres.
+        SHORTEST_M: f64 = 5.0;
+        /// An arm is followed so far, metres.
+        LONGEST_M: f64 = 3_000.0;
+        /// Free traffic drives at this share of what limit and bends allow.
+        FREE_SHARE: f64 = 0.95;
+    }
+    /// Of `placement::arrivals`.
+    arrivals {
+        /// Least time between two vehicles of a lane, seconds: 2,400 an hour at most.
+        LEAST_HEADWAY_S: f64 = 1.5;
+        /// A car and a little, metres: where free traffic is slow the length counts, not the time.
+        CAR_M: f64 = 5.5;
+        /// Drivers alone go at this share of the speed of free traffic.
+        SHARES: (f64, f64) = (0.96, 1.04);
+        /// An agent without room is tried farther back by this, metres.
+        BACK_M: f64 = 1.5;
+        /// An agent that enters later waits outside until there is room, at most so long, seconds.
+        WAIT_S: f64 = 6.0;
+        /// Room to the agent ahead that an entering one needs, metres.
+        ENTRY_GAP_M: f64 = 3.0;
+    }
+    /// Of `placement::assign`.
+    assign {
+        /// A road user farther from a crosswalk's middle line than its half width and this is not on it, metres.
+        CROSSWALK_M: f64 = 0.5;
+        /// Farthest from a road edge that still counts as its pavement, metres.
+        PAVEMENT_M: f64 = 7.0;
+        /// Farthest centre of a parked vehicle from the lane it stands beside, metres.
+        PARKED_M: f64 = 12.0;
+        /// A vehicle that moves less than this in the recording is parked when it stands off the lanes, metres.
+        PARKED_EXTENT_M: f64 = 1.0;
+    }
+    /// Of `placement::checks`.
+    checks {
+        /// Room around every box, metres.
+        MARGIN_M: f64 = 0.1;
+        /// The same to the side between two that drive, metres: lanes keep them farther apart than doors need.
+        SIDE_M: f64 = 0.4;
+        /// A vehicle is at least so far before the end of a lane that leaves the map, metres: it must be seen for a while.
+        END_M: f64 = 8.0;
+        /// Vehicles longer than this stand straight on their lane only where nose and tail are on a lane too, metres.
+        LONG_M: f64 = 6.0;
+        /// Nose and tail of a long vehicle turn from their lane by this at most, radians.
+        LONG_TURN_RAD: f64 = 0.5;
+        /// Share of a lane's half width that stays free of parked and standing agents.
+        BAND: f64 = 0.9;
+    }
+    /// Of `placement::driving`.
+    driving {
+        /// How far ahead bends are braked for, metres.
+        BEND_LOOK_M: f64 = 20.0;
+        /// How far ahead a leader matters, metres.
+        LEADER_LOOK_M: f64 = 45.0;
+        /// Sideways acceleration in bends and braking ahead of them, m/s2 (the figure that routes use).
+        BEND_MPS2: f64 = 2.2;
+        /// Greatest speed that is expected of a cyclist, m/s.
+        CYCLIST_MPS: f64 = 7.0;
+    }
+    /// Of `placement::following`.
+    following {
+        /// Room to a standing leader, metres.
+        STANDING_GAP_M: f64 = 2.0;
+        /// Headway that followers keep, seconds.
+        HEADWAY_S: f64 = 1.2;
+        /// Speeding up, m/s2.
+        SPEEDING_UP_MPS2: f64 = 1.5;
+        /// Comfortable braking, m/s2.
+        BRAKING_MPS2: f64 = 2.0;
+        /// Hardest braking, m/s2.
+        HARDEST_MPS2: f64 = 5.0;
+        /// An agent whose centre lies farther from the own path is not in the way, metres.
+        BESIDE_M: f64 = 1.8;
+        /// Leaders are looked for so far, metres.
+        LOOK_M: f64 = 80.0;
+    }
+    /// Of `placement::parking`.
+    parking {
+        /// Length of a place at the kerb, metres: a car and room to leave.
+        PLACE_M: f64 = 6.0;
+        /// The longest vehicle that parks in one, metres.
+        LONGEST_M: f64 = 5.3;
+        /// The widest vehicle that parks in one, metres.
+        WIDEST_M: f64 = 2.1;
+        /// A parking lane up to this length is one bay, metres.
+        BAY_M: f64 = 7.5;
+        /// Room beside a lane in which cars park along the kerb, metres. More is another road or a square.
+        ROOM_M: (f64, f64) = (2.0, 6.0);
+        /// From the kerb to the car, and how much that varies, metres.
+        KERB_M: (f64, f64) = (0.15, 0.2);
+        /// Cars are not quite parallel to the kerb, radians.
+        ASKEW_RAD: f64 = 0.02;
+        /// Parked cars keep so far from a junction, a stop line or a crosswalk, metres.
+        CLEAR_M: f64 = 5.0;
+        /// A driveway within this of a lane opens to it and stays free of parked cars, metres.
+        DRIVEWAY_M: f64 = 14.0;
+        /// The same to its sides, metres.
+        DRIVEWAY_SIDE_M: f64 = 1.0;
+        /// Driveways farther away have nothing to do with a place, metres.
+        NEAR_M: f64 = 30.0;
+        /// Faster roads have no parked cars along them, m/s.
+        FAST_MPS: f64 = 17.0;
+        /// Share of the cars in bays that stand with the nose in.
+        NOSE_IN: f64 = 0.7;
+    }
+    /// Of `placement::pose`.
+    pose {
+        /// Room between a driveway's end and a car's, metres.
+        DRIVEWAY_END_M: f64 = 0.3;
+        /// In a strip narrower than this parked vehicles keep to the kerb, in a wider one to the lane, metres.
+        NARROW_KERB_M: f64 = 3.5;
+    }
+    /// Of `placement::speeds`.
+    speeds {
+        /// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.
+        BRAKE_MPS2: f64 = 3.0;
+        /// Braking for a leader, m/s2.
+        FOLLOW_MPS2: f64 = 2.0;
+        /// It begins so long after the start, seconds: an agent that must brake at once goes round where it can.
+        FOLLOW_AFTER_S: f64 = 0.5;
+        /// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
+        UNKNOWN_LEADER_MPS: f64 = 5.0;
+    }
+    /// Of `placement::stop_lines`.
+    stop_lines {
+        /// How far drivers look, metres.
+        LOOK_M: f64 = 80.0;
+        /// A stop line so little behind still counts as ahead, metres.
+        PASSED_M: f64 = 0.5;
+        /// Room that a driver keeps to a red light's stop line, metres.
+        STOP_LINE_M: f64 = 0.3;
+        /// Upper bounds of the distance classes, metres.
+        NEAR_M: [f64; 6] = [4.0, 10.0, 18.0, 30.0, 50.0, LOOK_M];
+    }
+    /// Of `placement::cells`.
+    cells {
+        /// Longest look from a lane to the kerb, metres.
+        KERB_LOOK_M: f64 = 12.0;
+        /// A road edge farther from any lane borders nothing that people walk along, metres.
+        EDGE_REACH_M: f64 = 15.0;
+        /// A look to the side that ends on another lane's band meets no kerb, metres beyond the own border.
+        NEXT_LANE_M: f64 = 1.2;
+    }
+}
