@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from numbers import Integral, Real
 from typing import Any, Literal
 
 
@@ -86,7 +87,7 @@ def _document(value: Any) -> dict[str, Any]:
     made: dict[str, Any] = {}
     for field in fields(value):
         fixed = getattr(value, field.name)
-        if fixed is None or fixed == ():
+        if fixed is None or (isinstance(fixed, tuple) and not fixed):
             continue
         made[field.name] = _value(fixed)
     return made
@@ -95,4 +96,9 @@ def _document(value: Any) -> dict[str, Any]:
 def _value(fixed: Any) -> Any:
     if isinstance(fixed, (Goal, Start, Velocity, Via)):
         return _document(fixed)
-    return [_value(part) for part in fixed] if isinstance(fixed, tuple) else fixed
+    if isinstance(fixed, (tuple, list)):
+        return [_value(part) for part in fixed]
+    # A number of numpy or pandas is none of JSON's.
+    if isinstance(fixed, Integral):
+        return int(fixed)
+    return float(fixed) if isinstance(fixed, Real) else fixed

@@ -71,16 +71,21 @@ def _draw_map(of: dict[str, Any], ax: Axes) -> None:
     from matplotlib.patches import Polygon
 
     for area in of.get("drivable", []):
-        ax.add_patch(Polygon(area["polygon_m"], closed=True, facecolor="#eceef1", edgecolor="none", zorder=0))
+        ring = _flat(area["polygon_m"])
+        ax.add_patch(Polygon(ring, closed=True, facecolor="#eceef1", edgecolor="none", zorder=0))
     for crossing in of.get("crosswalks", []):
-        ax.add_patch(
-            Polygon(crossing["polygon_m"], closed=True, facecolor="none", edgecolor="#c9cdd3", hatch="//", zorder=1)
-        )
+        ring = _flat(crossing["polygon_m"])
+        ax.add_patch(Polygon(ring, closed=True, facecolor="none", edgecolor="#c9cdd3", hatch="//", zorder=1))
     lines = [("road_edges", "#5b616b", 1.2), ("road_lines", "#c9cdd3", 0.7), ("lanes", "#dfe2e7", 0.7)]
     for member, colour, width in lines:
         for line in of.get(member, []):
-            points = line["points_m"]
-            ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, lw=width, zorder=1)
+            points = _flat(line["points_m"])
+            ax.plot([x for x, _ in points], [y for _, y in points], color=colour, lw=width, zorder=1)
+
+
+def _flat(points: list[list[float]]) -> list[tuple[float, float]]:
+    """The points without their heights, which recordings have."""
+    return [(point[0], point[1]) for point in points]
 
 
 def _corners(x: float, y: float, heading: float, length: float, width: float) -> list[tuple[float, float]]:

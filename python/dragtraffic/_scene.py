@@ -8,14 +8,23 @@ import os
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 from ._conditions import Condition, Goal
 from ._program import run
 
+#: An id of a road user; numbers are taken as their text.
+AgentId = Union[str, int]
+
 if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
+
+
+def _ids(ids: object) -> list[str]:
+    """Ids as the program takes them: one id, or several, as text or numbers."""
+    several = ids if isinstance(ids, Iterable) and not isinstance(ids, str) else [ids]
+    return [str(id) for id in several]
 
 
 class Scene:
@@ -61,11 +70,11 @@ class Scene:
 
     def generate(
         self,
-        agents: Iterable[str] | None = None,
+        agents: AgentId | Iterable[AgentId] | None = None,
         *,
-        goals: Mapping[str, Goal] | None = None,
-        conditions: Mapping[str, Condition] | None = None,
-        react: bool | Iterable[str] = False,
+        goals: Mapping[AgentId, Goal] | None = None,
+        conditions: Mapping[AgentId, Condition] | None = None,
+        react: bool | AgentId | Iterable[AgentId] = False,
         seed: int = 0,
         samples: int = 1,
         modes: int = 6,
@@ -78,20 +87,25 @@ class Scene:
     ) -> Scene:
         """Futures for road users.
 
-        ``agents``: who is asked for; without it those with a goal or condition, and without any of these
-        everybody. ``react``: the rest answers, all of it or the ids named. ``forget``: futures of earlier
-        calls are dropped; else whoever is not asked for keeps its own. ``horizon_s`` up to 20; above 9, and
-        with ``replan_s`` (3, 6 or 9), everybody plans anew from where they are by then.
+        ``agents``: the road users to generate. Without it: those with a goal or condition, and without any of
+        these all. ``react``: the others react to them, all or the ids named. ``forget``: futures of earlier calls
+        are dropped; else a road user that is not generated keeps its own. ``horizon_s`` up to 20; above 9, and
+        with ``replan_s`` (3, 6 or 9), every road user plans again from the state it has reached. Ids are text or
+        numbers.
 
         Raises:
-            DragTrafficError: where something asked for cannot be.
+            DragTrafficError: the program refused the call.
+            ValueError: ``agents`` is empty, or a condition is given twice.
         """
-        fixed = {id: Condition(goal=goal) for id, goal in (goals or {}).items()}
-        both = sorted(fixed.keys() & (conditions or {}).keys())
+        fixed = {str(id): Condition(goal=goal) for id, goal in (goals or {}).items()}
+        whole = {str(id): condition for id, condition in (conditions or {}).items()}
+        both = sorted(fixed.keys() & whole.keys())
         if both:
-            raise ValueError(f"goals and conditions both speak of {', '.join(both)}")
-        fixed.update(conditions or {})
-        asked = list(agents) if agents is not None else list(fixed)
+            raise ValueError(f"goals and conditions both name {', '.join(both)}")
+        fixed.update(whole)
+        asked = _ids(agents) if agents is not None else list(fixed)
+        if agents is not None and not asked:
+            raise ValueError("agents is empty: name a road user, or leave it out to generate all")
         arguments = ["generate", "-"]
         if asked:
             arguments.append(f"--agents={','.join(asked)}")
@@ -110,8 +124,8 @@ class Scene:
             arguments.append("--forget")
         if react is True:
             arguments.append("--react")
-        elif react is not False:
-            arguments.append(f"--react={','.join(react)}")
+        elif react is not False and (reacting := _ids(react)):
+            arguments.append(f"--react={','.join(reacting)}")
         with tempfile.TemporaryDirectory() as folder:
             for number, (id, condition) in enumerate(fixed.items()):
                 file = Path(folder, f"{number}.json")
@@ -126,16 +140,16 @@ class Scene:
         density_per_km: float | None = None,
         types: Mapping[str, float] | None = None,
         region: Iterable[tuple[float, float]] | None = None,
-        keep: Iterable[str] | None = None,
+        keep: AgentId | Iterable[AgentId] | None = None,
         at_s: float = 0.0,
         seed: int = 0,
     ) -> Scene:
-        """New road users on the map, beside those that are there: ``count`` in all, or so many for each
-        kilometre of lane. ``types`` gives shares, ``region`` a polygon in metres, ``keep`` who of the scene
-        stays (all when absent).
+        """Places road users on the map, beside those that are there: ``count`` in all, or ``density_per_km`` for
+        each kilometre of lane. ``types`` gives shares, ``region`` a polygon in metres, ``keep`` the road users of
+        the scene that stay (all when absent).
 
         Raises:
-            DragTrafficError: where something asked for cannot be.
+            DragTrafficError: the program refused the call.
         """
         arguments = ["place", "-", f"--seed={seed}", f"--at={at_s}"]
         arguments += [f"--count={count}"] if count is not None else []
@@ -143,7 +157,7 @@ class Scene:
         if types:
             arguments.append("--types=" + ",".join(f"{name}={share}" for name, share in types.items()))
         if keep is not None:
-            ids = ",".join(keep)
+            ids = ",".join(_ids(keep))
             arguments.append(f"--keep={ids}" if ids else "--keep")
         if region is None:
             return self._made(arguments)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, cast
 
 import dragtraffic
+import numpy
 import pandas
 import pytest
 from dragtraffic import Condition, Goal, Scene, Start, Velocity, Via
@@ -90,6 +92,19 @@ def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
         scene.generate(["nobody"])
 
 
+def test_numbers_of_numpy_and_ids_that_are_numbers(scene: Scene, turned: Scene) -> None:
+    single, whole, seed = cast("tuple[Any, Any, Any]", (numpy.float32(27.5), numpy.int64(9), numpy.int64(7)))
+    goal = Goal(x_m=numpy.float64(2.0), y_m=single, time_s=whole)
+    assert Condition(goal=goal).document()["goal"] == {"x_m": 2.0, "y_m": 27.5, "time_s": 9}
+    goal = Goal(x_m=numpy.float64(2.0), y_m=27.5)
+    again = scene.generate(numpy.array([4]), goals={4: goal}, react=True, seed=seed, samples=2)
+    assert again.samples == turned.samples
+    one = scene.generate("12", react=[])
+    assert set(one.samples[0]["agents"]) == {"12"}
+    with pytest.raises(ValueError, match="empty"):
+        scene.generate([])
+
+
 def test_placing(scene: Scene) -> None:
     placed = scene.place(count=5, types={"vehicle": 1.0}, keep=[], seed=3)
     assert len(placed.agents) == 5
@@ -114,6 +129,17 @@ def test_a_plot_shows_map_boxes_and_futures(turned: Scene) -> None:
     assert len(axes.lines) > frame["agent_id"].nunique()
     assert len(axes.patches) >= frame[frame["source"] == "log"]["agent_id"].nunique()
     assert {"4", "2"} <= {text.get_text() for text in axes.texts}
+
+
+def test_a_recording_with_heights_is_plotted(scene: Scene) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    area = [[-9.0, -9.0, 1.2], [9.0, -9.0, 1.3], [9.0, 9.0, 1.4]]
+    lines = {name: scene.document["map"].get(name, []) for name in ("lanes", "road_edges", "road_lines")}
+    high = {name: [{**line, "points_m": [[*p[:2], 1.2] for p in line["points_m"]]} for line in lines[name]] for name in lines}
+    areas = {"crosswalks": [{"id": "c", "polygon_m": area}], "drivable": [{"id": "d", "polygon_m": area}]}
+    recorded = Scene({**scene.document, "map": {**scene.document["map"], **high, **areas}})
+    assert len(recorded.plot().patches) >= len(scene.agents)
 
 
 def test_the_notebook_runs(monkeypatch: pytest.MonkeyPatch) -> None:
