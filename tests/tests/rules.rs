@@ -76,6 +76,7 @@ const HOUSES: &[House] = &[
                 "units",
                 "projection",
                 "netconvert",
+                "sentences",
                 "frame",
                 "joints",
                 "pack",
