@@ -80,6 +80,7 @@ const HOUSES: &[House] = &[
                 "units",
                 "projection",
                 "netconvert",
+                "sentences",
                 "frame",
                 "joints",
                 "pack",

@@ -2,6 +2,7 @@
 //! the same place with the same motion, where the first one ends.
 
 use crate::problem::Warning;
+use crate::sentences;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::{Agent, STEP_S, Scene, State, wrap_angle};
 
@@ -46,10 +47,13 @@ pub fn join(scene: &mut Scene) -> Option<Warning> {
         return None;
     }
     let count = joined.len();
-    let more = if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() };
     joined.truncate(NAMED);
-    let detail = format!("{count} road users had a second id and are joined: {}{more}", joined.join(", "));
-    Some(Warning::new("identities-joined", detail))
+    let pairs = joined.join(", ");
+    let message = match count.saturating_sub(NAMED) {
+        0 => sentences::identities_joined_all(count, &pairs),
+        more => sentences::identities_joined(count, &pairs, more),
+    };
+    Some(Warning::new("identities-joined", message))
 }
 
 fn unique<T>(list: &mut Vec<T>, key: impl Fn(&T) -> String) {

@@ -63,6 +63,7 @@ mod projection;
 mod recording;
 pub mod registry;
 mod scenarionet;
+pub mod sentences;
 mod settle;
 mod sides;
 pub mod source;

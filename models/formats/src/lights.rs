@@ -1,6 +1,7 @@
 //! Signals for maps that have heads but no program: the heads of a junction take turns.
 
 use crate::problem::Warning;
+use crate::sentences;
 use scene::map::LaneMap;
 use scene::{MAX_SIGNALS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 use std::collections::BTreeMap;
@@ -45,15 +46,12 @@ pub(crate) fn signals(map: &LaneMap, mut heads: Vec<Head>, steps: usize) -> (Vec
             signals.push(Signal { lane: lane.id.clone(), stop: Some(head.stop), stop_z_m: None, runs });
         }
     }
-    let dropped = if count > MAX_SIGNALS {
-        format!("; the {MAX_SIGNALS} nearest the middle are kept")
+    let message = if count > MAX_SIGNALS {
+        sentences::signals_made_near(count, junctions, MAX_SIGNALS)
     } else {
-        String::new()
+        sentences::signals_made(count, junctions)
     };
-    let detail = format!(
-        "{count} signal heads at {junctions} junctions have no program; they were given fixed times{dropped}"
-    );
-    (signals, (count > 0).then(|| Warning::new("signals-made", detail)))
+    (signals, (count > 0).then(|| Warning::new("signals-made", message)))
 }
 
 /// Number of the group of each head.

@@ -1,5 +1,6 @@
 //! What can be wrong with outside data, in one shape for every format.
 
+use scene::message::Message;
 use scene::{Scene, SceneError};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
@@ -224,19 +225,21 @@ impl fmt::Display for ReadError {
 impl std::error::Error for ReadError {}
 
 /// Something a reader changed or left out without refusing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "ImportWarning")]
 pub struct Warning {
-    /// A word that programs can switch on.
+    /// The kind of change; programs switch on it.
     pub code: &'static str,
-    /// For people.
+    /// The change in English.
     pub detail: String,
+    /// The change as data.
+    pub message: Message,
 }
 
 impl Warning {
-    /// A warning.
-    pub fn new(code: &'static str, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into() }
+    /// A warning of this kind, with its sentence.
+    pub fn new(code: &'static str, message: Message) -> Self {
+        Self { code, detail: message.to_string(), message }
     }
 }
 

@@ -4,8 +4,10 @@ use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::sentences::{self, subject};
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
+use scene::message::Word;
 use scene::{Agent, Scene, State, Vec2};
 use std::collections::HashSet;
 
@@ -64,8 +66,7 @@ pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<Warning> {
     let near: HashSet<usize> = order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect();
     let mut i = 0..;
     agents.retain(|_| i.next().is_some_and(|i| near.contains(&i)));
-    let detail = format!("{count} road users; the {MAX_AGENTS} nearest the ego are kept");
-    Some(Warning::new("agents-dropped", detail))
+    Some(Warning::new("agents-dropped", sentences::agents_near_ego(count, MAX_AGENTS)))
 }
 
 /// Where the ego is at the present step; without one the middle of everything, in whole metres so that it is found
@@ -138,13 +139,10 @@ impl Ids {
         name
     }
 
-    /// Tells of ids that were changed.
-    pub fn warning(&self, what: &str) -> Option<Warning> {
-        let detail = format!(
-            "{} {what} got other ids: a scene has each once, with letters, digits and _ . : -",
-            self.changed
-        );
-        (self.changed > 0).then(|| Warning::new("ids-changed", detail))
+    /// Warns of ids that were changed.
+    pub fn warning(&self, subject: Word) -> Option<Warning> {
+        let message = || sentences::ids_replaced(self.changed, subject);
+        (self.changed > 0).then(|| Warning::new("ids-changed", message()))
     }
 }
 
@@ -161,6 +159,6 @@ mod tests {
             (taken[0].as_str(), taken[2].as_str(), ids.take(&"x".repeat(90)).len()),
             ("a", "lane_7_b", 64)
         );
-        assert!(ids.warning("lanes").is_some());
+        assert!(ids.warning(subject::MAP_FEATURES).is_some());
     }
 }

@@ -3,8 +3,10 @@
 use crate::curve::{curvature, turn};
 use crate::draft::{Draft, Vehicle, place};
 use crate::lights::{gives_way, meet};
+use crate::messages;
 use scene::limits::Limits;
 use scene::map::LaneType;
+use scene::message::{Message, Word};
 use scene::{AgentType, HORIZON_STEPS, SignalState, Subtype};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -36,8 +38,10 @@ pub struct Check {
     pub kind: CheckKind,
     /// All is well.
     pub passed: bool,
-    /// In words.
+    /// The finding in English.
     pub text: String,
+    /// The finding as data.
+    pub message: Message,
     /// Where it fails, metres.
     pub at_m: Option<[f64; 2]>,
     /// Lanes it is about.
@@ -45,8 +49,8 @@ pub struct Check {
 }
 
 impl Check {
-    fn passed(kind: CheckKind, text: &str) -> Self {
-        Self { kind, passed: true, text: text.into(), at_m: None, lanes: Vec::new() }
+    fn passed(kind: CheckKind, message: Message) -> Self {
+        Self { kind, passed: true, text: message.to_string(), message, at_m: None, lanes: Vec::new() }
     }
 
     pub(crate) fn mirrored(mut self) -> Self {
@@ -67,21 +71,21 @@ pub fn all(draft: &Draft) -> Vec<Check> {
             checks.extend(failed.into_iter().take(MOST));
         }
     };
-    add(Check::passed(CheckKind::LanesLead, "Every lane leads somewhere"), ends(draft));
+    add(Check::passed(CheckKind::LanesLead, messages::lanes_lead()), ends(draft));
     let (vehicle, _) = vehicle(draft.turns);
-    add(Check::passed(CheckKind::Turns, &format!("A {vehicle} can turn")), bends(draft));
-    add(Check::passed(CheckKind::Widths, "Every lane is wide enough"), widths(draft));
+    add(Check::passed(CheckKind::Turns, messages::vehicle_turns(vehicle)), bends(draft));
+    add(Check::passed(CheckKind::Widths, messages::lanes_wide()), widths(draft));
     if !draft.signals.is_empty() {
-        add(Check::passed(CheckKind::SignalsApart, "Signal phases do not meet"), greens(draft));
+        add(Check::passed(CheckKind::SignalsApart, messages::greens_apart()), greens(draft));
     }
     checks
 }
 
-fn fault(draft: &Draft, kind: CheckKind, text: String, lane: usize, share: f64) -> Check {
+fn fault(draft: &Draft, kind: CheckKind, message: Message, lane: usize, share: f64) -> Check {
     let points = draft.points(lane);
     let at = points[((points.len() - 1) as f64 * share).round() as usize];
     let lanes = vec![draft.map.lanes[lane].id.clone()];
-    Check { kind, passed: false, text, at_m: Some(place(at)), lanes }
+    Check { kind, passed: false, text: message.to_string(), message, at_m: Some(place(at)), lanes }
 }
 
 /// Lanes for vehicles and cycles.
@@ -106,21 +110,17 @@ fn ends(draft: &Draft) -> Vec<Check> {
         let vehicles = lane.lane_type.carries_vehicles();
         vehicles && !draft.about[*i].open[0] && !lane.predecessors.iter().any(|id| carries(id, true))
     };
-    let told = |words: &'static str, share: f64| {
-        move |i: usize| {
-            let text = format!("Lane {} {words}", draft.map.lanes[i].id);
-            fault(draft, CheckKind::LanesLead, text, i, share)
-        }
-    };
-    let lost = travelled(draft).filter(lost).map(told("leads nowhere", 1.0));
-    lost.chain(travelled(draft).filter(unreached).map(told("is reached from nowhere", 0.0))).collect()
+    let id = |i: usize| draft.map.lanes[i].id.as_str();
+    let unled = |i| fault(draft, CheckKind::LanesLead, messages::lane_leads_nowhere(id(i)), i, 1.0);
+    let unfed = |i| fault(draft, CheckKind::LanesLead, messages::lane_unreached(id(i)), i, 0.0);
+    travelled(draft).filter(lost).map(unled).chain(travelled(draft).filter(unreached).map(unfed)).collect()
 }
 
-/// In words, and what it can do.
-fn vehicle(vehicle: Vehicle) -> (&'static str, Limits) {
+/// The vehicle that must be able to turn, and its limits.
+fn vehicle(vehicle: Vehicle) -> (Word, Limits) {
     match vehicle {
-        Vehicle::Bus => ("12 m bus", Limits::of(AgentType::Vehicle, Subtype::Bus, 12.0)),
-        Vehicle::Car => ("5 m car", Limits::of(AgentType::Vehicle, Subtype::Car, 5.0)),
+        Vehicle::Bus => (messages::BUS, Limits::of(AgentType::Vehicle, Subtype::Bus, 12.0)),
+        Vehicle::Car => (messages::CAR, Limits::of(AgentType::Vehicle, Subtype::Car, 5.0)),
     }
 }
 
@@ -135,13 +135,13 @@ fn bends(draft: &Draft) -> Vec<Check> {
         }
         let name = |arm: usize| draft.arms.get(arm).map_or("", |arm| arm.name.as_str());
         let movement = draft.movements.iter().find(|movement| movement.lane == i);
-        let which = movement.map_or_else(
-            || format!("Lane {}", draft.map.lanes[i].id),
-            |m| format!("{} to {}", name(m.from), name(m.to)),
-        );
-        let text = format!("{which} is tight: {:.1} m, a {vehicle} needs {:.1} m", 1.0 / bend, 1.0 / most);
-        if failed.iter().all(|(_, other)| other.text != text) {
-            failed.push((bend, fault(draft, CheckKind::Turns, text, i, 0.5)));
+        let (radius_m, needed_m) = (1.0 / bend, 1.0 / most);
+        let message = match movement {
+            Some(m) => messages::movement_tight(name(m.from), name(m.to), radius_m, vehicle, needed_m),
+            None => messages::lane_tight(&draft.map.lanes[i].id, radius_m, vehicle, needed_m),
+        };
+        if failed.iter().all(|(_, other)| other.text != message.english) {
+            failed.push((bend, fault(draft, CheckKind::Turns, message, i, 0.5)));
         }
     }
     failed.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -158,8 +158,8 @@ fn widths(draft: &Draft) -> Vec<Check> {
         .filter(narrow)
         .map(|i| {
             let lane = &draft.map.lanes[i];
-            let text = format!("Lane {} is {:.1} m wide", lane.id, lane.width_or_assumed_m());
-            fault(draft, CheckKind::Widths, text, i, 0.5)
+            let message = messages::lane_narrow(&lane.id, lane.width_or_assumed_m());
+            fault(draft, CheckKind::Widths, message, i, 0.5)
         })
         .collect()
 }
@@ -178,8 +178,8 @@ fn greens(draft: &Draft) -> Vec<Check> {
             let both = |step: usize| [a, b].iter().all(|m| state(m.lane, step) == SignalState::Go);
             if (0..=HORIZON_STEPS).step_by(5).any(both) && meet(draft, a, b) {
                 let name = |arm: usize| draft.arms.get(arm).map_or("", |arm| arm.name.as_str());
-                let text = format!("{} and {} have green together and meet", name(a.from), name(b.from));
-                failed.push(fault(draft, CheckKind::SignalsApart, text, a.lane, 0.5));
+                let message = messages::greens_conflict(name(a.from), name(b.from));
+                failed.push(fault(draft, CheckKind::SignalsApart, message, a.lane, 0.5));
             }
         }
     }

@@ -22,6 +22,7 @@ mod draft;
 mod junction;
 mod lights;
 mod merge;
+pub mod messages;
 mod parameters;
 mod ranges;
 mod road;

@@ -33,6 +33,7 @@ pub mod judge;
 pub mod licence;
 pub mod limits;
 pub mod map;
+pub mod message;
 pub mod motion;
 pub mod objects;
 pub mod preference;

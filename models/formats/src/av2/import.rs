@@ -7,6 +7,7 @@ use crate::format::EGO;
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use crate::recording::{MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};
+use crate::sentences;
 use crate::source::Source;
 use scene::{AgentType, Meta, Origin, STEP_S, Subtype, Timing, Vec2};
 use std::collections::HashMap;
@@ -181,8 +182,7 @@ pub(super) fn read(
             map
         }
         None => {
-            let detail = "no map came with the scenario (log_map_archive_*.json); the scene has no lanes";
-            warnings.push(Warning::new("no-map", detail));
+            warnings.push(Warning::new("no-map", sentences::map_missing()));
             Default::default()
         }
     };

@@ -1,6 +1,7 @@
 //! The map of a place: `log_map_archive_*.json`.
 
 use crate::problem::{ReadError, Warning};
+use crate::sentences;
 use crate::source::Source;
 use crate::surface;
 use crate::unpack::{self, Bounds};
@@ -157,12 +158,11 @@ impl Place {
         let (whole, far) = self.ground(origin, &mut map);
         bounds::by_edges(&mut map);
         let mut warnings = Vec::new();
-        let detail = format!("{broken} lane segments without two sides");
-        warnings.extend((broken > 0).then(|| Warning::new("lanes-dropped", detail)));
-        let detail = "drivable areas lie over each other too often to find the edges of the road";
-        warnings.extend((!whole).then(|| Warning::new("edges-dropped", detail)));
-        let detail = format!("{far} drivable areas reach farther than {MAX_COORDINATE_M} m from the middle");
-        warnings.extend((far > 0).then(|| Warning::new("areas-dropped", detail)));
+        let unusable = || Warning::new("lanes-dropped", sentences::lane_segments_unusable(broken));
+        warnings.extend((broken > 0).then(unusable));
+        warnings.extend((!whole).then(|| Warning::new("edges-dropped", sentences::crossing_areas())));
+        let far_areas = || Warning::new("areas-dropped", sentences::areas_too_far(far, MAX_COORDINATE_M));
+        warnings.extend((far > 0).then(far_areas));
         (map, warnings)
     }
 

@@ -8,9 +8,11 @@ use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::sentences;
 use crate::settle;
 use crate::source::Source;
 use scene::geometry::rotate;
+use scene::message::Message;
 use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
 use std::collections::{BTreeMap, HashSet};
 
@@ -140,13 +142,10 @@ fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
     let all_s = clock.seconds(last as f64);
     let steps = clock.step(last) + 1;
     if steps > MAX_STEPS {
-        let detail =
-            format!("{all_s:.1} s; a scene has {MAX_STEPS} steps of 0.1 s, and the first of them are kept");
-        warnings.push(Warning::new("steps-dropped", detail));
+        warnings.push(Warning::new("steps-dropped", sentences::steps_beyond_limit(all_s, MAX_STEPS)));
     }
     if !clock.is_even() {
-        let detail = format!("steps of {} s; states each 0.1 s lie straight between them", document.step_s);
-        warnings.push(Warning::new("time-resampled", detail));
+        warnings.push(Warning::new("time-resampled", sentences::time_interpolated(document.step_s)));
     }
     Clock { steps: steps.min(MAX_STEPS), ..clock }
 }
@@ -157,8 +156,8 @@ fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<Warning>) -> Vec<Agent> {
     let mut ids = HashSet::new();
     agents.retain(|agent| ids.insert(agent.id.clone()));
     if agents.len() < count {
-        let detail = format!("{} obstacles with an id that another has are left out", count - agents.len());
-        warnings.push(Warning::new("agents-dropped", detail));
+        let message = sentences::agents_with_used_id(count - agents.len());
+        warnings.push(Warning::new("agents-dropped", message));
     }
     warnings.extend(settle::nearest(&mut agents, 0));
     agents
@@ -172,32 +171,21 @@ fn tell(
     warnings: &mut Vec<Warning>,
 ) {
     let further: usize = document.problems.iter().map(|problem| problem.goals.len().saturating_sub(1)).sum();
-    let no_lanes = usize::from(document.lanelets.is_empty());
-    let mut tell = |count: usize, code, detail: &str| {
+    let mut warn = |count: usize, code, message: fn(usize) -> Message| {
         if count > 0 {
-            warnings.push(Warning::new(code, format!("{detail}: {count}")));
+            warnings.push(Warning::new(code, message(count)));
         }
     };
-    tell(regions, "goal-interval", "goals that are regions, of which the middle is taken");
-    tell(further, "goals-dropped", "further goals of the same road users, left out");
-    tell(sizes, "sizes-assumed", "planning problems, which say nothing of a size: that of a car is taken");
-    tell(
-        changed.uncertain,
-        "uncertain-states",
-        "obstacles with uncertain states, of which the middle is taken",
-    );
-    tell(
-        changed.sets,
-        "occupancy-sets",
-        "obstacles that say where they may be, not how they go: the first state is kept",
-    );
-    tell(changed.shapes, "shapes-approximated", "obstacles that are no boxes: boxes around them are taken");
-    tell(
-        changed.dropped,
-        "obstacles-dropped",
-        "obstacles without a place, or without a size up to 60 m, left out",
-    );
-    tell(changed.cut, "obstacles-empty", "obstacles that are not there at any step that is kept");
-    tell(document.others, "elements-dropped", "elements that a scene has no place for, left out");
-    tell(no_lanes, "no-map", "files without lanelets: there is no map");
+    warn(regions, "goal-interval", sentences::goals_are_regions);
+    warn(further, "goals-dropped", sentences::goals_beyond_first);
+    warn(sizes, "sizes-assumed", sentences::sizes_assumed_car);
+    warn(changed.uncertain, "uncertain-states", sentences::obstacles_uncertain);
+    warn(changed.sets, "occupancy-sets", sentences::obstacles_are_sets);
+    warn(changed.shapes, "shapes-approximated", sentences::shapes_boxed);
+    warn(changed.dropped, "obstacles-dropped", sentences::obstacles_unplaced);
+    warn(changed.cut, "obstacles-empty", sentences::obstacles_absent);
+    warn(document.others, "elements-dropped", sentences::elements_unread);
+    if document.lanelets.is_empty() {
+        warnings.push(Warning::new("no-map", sentences::map_lacks_lanelets()));
+    }
 }

@@ -4,6 +4,7 @@ use super::document::{Document, Lanelet, Side};
 use super::words::{INTERSECTION, Kind, MAX_SPEED_SIGNS, STOP_SIGNS, lane_kind, line_type};
 use crate::map_file::AGAINST;
 use crate::problem::Warning;
+use crate::sentences;
 use crate::surface::{self, Strip};
 use crate::{bounds, polyline, sides};
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TYPES, StopSign, TypedLine};
@@ -23,8 +24,7 @@ pub(super) fn lane_map(document: &Document, warnings: &mut Vec<Warning>) -> (Lan
     link(&document.lanelets, &lanes, &mut map);
     paint(&document.lanelets, &lanes, &mut map);
     if !ground(&document.lanelets, &lanes, &mut map) {
-        let detail = "lanelets lie over each other too often to find the edges of the road";
-        warnings.push(Warning::new("edges-dropped", detail));
+        warnings.push(Warning::new("edges-dropped", sentences::crossing_lanelets()));
     }
     bounds::by_edges(&mut map);
     stop_signs(document, &lanes, &mut map);
@@ -74,8 +74,7 @@ fn draw(document: &Document, map: &mut LaneMap, warnings: &mut Vec<Warning>) -> 
         }
     }
     if twice > 0 {
-        let detail = format!("{twice} lanelets with an id that another has are left out");
-        warnings.push(Warning::new("lanes-dropped", detail));
+        warnings.push(Warning::new("lanes-dropped", sentences::lanelets_with_used_id(twice)));
     }
     lanes
 }

@@ -5,6 +5,7 @@ use super::map::{Lanes, stop};
 use super::words::signal_state;
 use crate::limits::MAX_SIGNALS;
 use crate::problem::Warning;
+use crate::sentences;
 use scene::map::LaneMap;
 use scene::{STEP_S, Signal, SignalState};
 use std::collections::{HashMap, HashSet};
@@ -55,8 +56,7 @@ pub(super) fn signals(
         }
     }
     if dropped > 0 {
-        let detail = format!("{dropped} signals beyond the {MAX_SIGNALS} that a scene has are left out");
-        warnings.push(Warning::new("signals-dropped", detail));
+        warnings.push(Warning::new("signals-dropped", sentences::signals_over_limit(dropped, MAX_SIGNALS)));
     }
     signals
 }

@@ -3,6 +3,7 @@
 use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
 use scene::map::{
@@ -39,8 +40,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
         && document.objects.iter().flat_map(|object| &object.position).all(|p| p.z.is_none());
     let degrees = in_degrees(&document.objects, flat);
     if degrees {
-        warnings
-            .push(Warning::new("headings-in-degrees", "headings are in degrees and were turned to radians"));
+        warnings.push(Warning::new("headings-in-degrees", sentences::headings_in_degrees()));
     }
     let mut ids = Ids::default();
     let mut agents = Vec::new();
@@ -48,7 +48,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
         let id = object.id.unwrap_or(i as i64);
         agents.push(agent(object, i, ids.take(&id.to_string()), degrees)?);
     }
-    warnings.extend(ids.warning("road users"));
+    warnings.extend(ids.warning(subject::ROAD_USERS));
     let metadata = document.metadata.as_ref();
     let by_index = |i: i64| usize::try_from(i).ok().and_then(|i| agents.get(i)).map(|agent| agent.id.clone());
     let predict = metadata.iter().flat_map(|metadata| &metadata.tracks_to_predict);
@@ -61,9 +61,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     }
     let map = lane_map(&document.roads, &mut warnings);
     if !map.lanes.is_empty() {
-        let detail =
-            "the file does not say which lane follows which: lanes that end where others begin are joined";
-        warnings.push(Warning::new("no-lane-graph", detail));
+        warnings.push(Warning::new("no-lane-graph", sentences::lane_links_derived()));
     }
     let signals =
         document.tl_states.0.iter().filter_map(|(lane, light)| signal(lane, light, steps)).collect();
@@ -210,10 +208,9 @@ fn lane_map(roads: &[Road], warnings: &mut Vec<Warning>) -> LaneMap {
             _ => dropped += 1,
         }
     }
-    ids.iter().for_each(|ids| warnings.extend(ids.warning("map features")));
+    ids.iter().for_each(|ids| warnings.extend(ids.warning(subject::MAP_FEATURES)));
     if dropped > 0 {
-        let detail = format!("{dropped} map features of unknown kind or without enough points are left out");
-        warnings.push(Warning::new("features-dropped", detail));
+        warnings.push(Warning::new("features-dropped", sentences::features_unread(dropped)));
     }
     map
 }

@@ -7,6 +7,7 @@ use super::{marks, objects, signals};
 use crate::format::MAP_TIMING;
 use crate::map_file::{self, MapRead};
 use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::sentences;
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, lights};
@@ -63,8 +64,8 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let (signals, made) = lights::signals(&map, ruled.heads, MAP_TIMING.steps);
 
     let mut warnings = warnings(&file, &provenance.warnings, approximated, whole);
-    let detail = format!("{} signals rule no lane that the map has", ruled.unused);
-    warnings.extend((ruled.unused > 0).then(|| Warning::new("signals-dropped", detail)));
+    let unused = || Warning::new("signals-dropped", sentences::signals_without_lane(ruled.unused));
+    warnings.extend((ruled.unused > 0).then(unused));
     warnings.extend(made);
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
     let name = name.trim().to_owned();
@@ -152,23 +153,24 @@ fn ways(sections: &[Section], found: &Found, map: &LaneMap) -> Vec<Vec<Vec2>> {
 
 fn warnings(file: &Filtered, faults: &[xodr::Warning], approximated: usize, whole: bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let mut warn = |said: bool, code, detail: String| {
-        if said {
-            warnings.push(Warning::new(code, detail));
+    let mut warn = |applies: bool, code, message| {
+        if applies {
+            warnings.push(Warning::new(code, message));
         }
     };
     let others = faults.iter().filter(|fault| !fault.is_ignored()).map(ToString::to_string);
     let faults: Vec<String> = file.faults.iter().cloned().chain(others).collect();
     if let Some(first) = faults.first() {
-        let more = if faults.len() > 1 { format!(" (and {} more)", faults.len() - 1) } else { String::new() };
         let first: String = first.chars().take(300).collect();
-        warn(true, "map-faults", format!("{first}{more}"));
+        let message = match faults.len() - 1 {
+            0 => sentences::map_fault(&first),
+            more => sentences::map_faults(&first, more),
+        };
+        warn(true, "map-faults", message);
     }
     let listed: Vec<String> = file.left_out.iter().map(|(what, count)| format!("{count} x {what}")).collect();
-    warn(!listed.is_empty(), "parts-dropped", format!("left out: {}", listed.join(", ")));
-    let detail = format!("{approximated} painted lines are of a sort or colour for which there is no word");
-    warn(approximated > 0, "lines-approximated", detail);
-    let detail = "roads lie over each other too often to find their edges";
-    warn(!whole, "edges-dropped", detail.into());
+    warn(!listed.is_empty(), "parts-dropped", sentences::parts_left_out(&listed.join(", ")));
+    warn(approximated > 0, "lines-approximated", sentences::lines_approximated(approximated));
+    warn(!whole, "edges-dropped", sentences::crossing_roads());
     warnings
 }

@@ -5,6 +5,7 @@ use super::extract::{self, Extract};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, only_read};
 use crate::map_file::MapRead;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::sentences;
 use crate::source::Source;
 use crate::sumo::formats::read_net;
 use crate::sumo::import_net::PROJECTION_DROPPED;
@@ -57,8 +58,7 @@ impl OsmExtract {
         origin.crs = Some(projection.name());
         warnings.retain(|warning| warning.code != PROJECTION_DROPPED);
         if left {
-            let detail = "traffic keeps to the left, as it does where the map lies";
-            warnings.push(Warning::new("left-hand", detail));
+            warnings.push(Warning::new("left-hand", sentences::left_hand()));
         }
         let read = MapRead { name: String::new(), map, signals, origin, warnings };
         let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;

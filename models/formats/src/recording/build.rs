@@ -6,6 +6,7 @@ use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::sentences;
 use scene::map::LaneMap;
 use scene::{
     Agent, AgentFutures, Conditions, Future, Generated, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene,
@@ -269,12 +270,8 @@ impl Made {
         order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         order.truncate(MAX_AGENTS);
         if order.len() < present.len() {
-            let detail = format!(
-                "{} road users; the {} nearest their middle are kept, within {MAX_COORDINATE_M} m of the origin",
-                present.len(),
-                order.len()
-            );
-            warnings.push(Warning::new("agents-dropped", detail));
+            let message = sentences::agents_near_centre(present.len(), order.len(), MAX_COORDINATE_M);
+            warnings.push(Warning::new("agents-dropped", message));
         }
         let mut kept: Vec<usize> = order.into_iter().map(|(.., i)| i).collect();
         kept.sort_unstable();
@@ -295,26 +292,17 @@ impl Made {
         windowed: bool,
         to: &mut Vec<Warning>,
     ) {
-        let mut warn = |said: bool, code, detail: String| {
-            if said {
-                to.push(Warning::new(code, detail));
+        let mut warn = |applies: bool, code, message| {
+            if applies {
+                to.push(Warning::new(code, message));
             }
         };
-        warn(
-            assumed > 0,
-            "sizes-assumed",
-            format!("{assumed} road users have the default size of their type"),
-        );
-        let spacing_s = self.spacing_s;
-        let detail = format!("rows are {spacing_s:.3} s apart; motion is found anew each {STEP_S} s");
-        warn(resampled, "time-resampled", detail);
-        let detail = "headings come from the way that was gone; who stands keeps the last one";
-        warn(self.derived.headings, "headings-derived", detail.into());
-        let detail = "velocities come from positions and times";
-        warn(self.derived.velocities, "velocities-derived", detail.into());
-        warn(ids_changed > 0, "ids-changed", format!("{ids_changed} ids have other letters or a suffix"));
-        let detail = format!("longer than a scene: a scene for each {:.1} s", RECORDED_STEPS as f64 * STEP_S);
-        warn(windowed, "cut", detail);
+        warn(assumed > 0, "sizes-assumed", sentences::sizes_assumed(assumed));
+        warn(resampled, "time-resampled", sentences::time_resampled(self.spacing_s, STEP_S));
+        warn(self.derived.headings, "headings-derived", sentences::headings_derived());
+        warn(self.derived.velocities, "velocities-derived", sentences::velocities_derived());
+        warn(ids_changed > 0, "ids-changed", sentences::ids_respelled(ids_changed));
+        warn(windowed, "cut", sentences::cut_in_scenes(RECORDED_STEPS as f64 * STEP_S));
     }
 
     /// Possible motions as futures of a scene.
@@ -345,9 +333,7 @@ impl Made {
             list.push((drawn, Future::bare(drawn.probability.unwrap_or(f64::NAN), track.first_step, states)));
         }
         if dropped > 0 {
-            let detail =
-                format!("{dropped} possible motions are empty, impossible or more than a scene has room for");
-            warnings.push(Warning::new("futures-dropped", detail));
+            warnings.push(Warning::new("futures-dropped", sentences::futures_unread(dropped)));
         }
         let samples: Vec<scene::Sample> = samples.into_values().map(answer).collect();
         (!samples.is_empty()).then(|| Generated { samples, ..Generated::default() })

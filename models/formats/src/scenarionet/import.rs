@@ -8,6 +8,7 @@ use crate::describe;
 use crate::format::{EGO, ImportOptions};
 use crate::limits::{MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -84,8 +85,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let known = |value: &Value| ids.get(&pickle.text(value)?).cloned();
     let licence = text(own, "licence");
     if matches!(pickle.get(metadata, "metadrive_processed"), Some(Value::Bool(true))) {
-        let detail = "the file was moved and turned by MetaDrive; where it was recorded is not known";
-        warnings.push(Warning::new("frame-moved", detail));
+        warnings.push(Warning::new("frame-moved", sentences::moved_by_metadrive()));
     }
     let scene = Scene {
         id: None,
@@ -173,10 +173,9 @@ fn agents(
         names.insert(key, id);
         agents.push(agent);
     }
-    warnings.extend(ids.warning("road users"));
+    warnings.extend(ids.warning(subject::ROAD_USERS));
     if varying > 0 {
-        let detail = format!("{varying} road users change size; the median is kept");
-        warnings.push(Warning::new("sizes-vary", detail));
+        warnings.push(Warning::new("sizes-vary", sentences::sizes_vary_median(varying)));
     }
     Ok((agents, names))
 }
@@ -278,14 +277,13 @@ fn timestamps(
         return None;
     }
     if times.len() != steps || times.iter().any(|t| !t.is_finite()) {
-        warnings
-            .push(Warning::new("timestamps-ignored", "not a time for each step; steps of 0.1 s are assumed"));
+        warnings.push(Warning::new("timestamps-ignored", sentences::times_incomplete()));
         return None;
     }
     let first = times.first().copied().unwrap_or(0.0);
     let late = times.iter().enumerate().any(|(i, t)| (t - first - i as f64 * STEP_S).abs() > STEP_S / 2.0);
     if late {
-        warnings.push(Warning::new("timestamps-irregular", "steps are not 0.1 s apart; they are read as if"));
+        warnings.push(Warning::new("timestamps-irregular", sentences::times_irregular()));
     }
     Some(times)
 }
@@ -334,7 +332,7 @@ fn signals(
         });
     }
     if empty > 0 {
-        warnings.push(Warning::new("signals-dropped", format!("{empty} signals without a lane or states")));
+        warnings.push(Warning::new("signals-dropped", sentences::signals_empty(empty)));
     }
     Ok(signals)
 }

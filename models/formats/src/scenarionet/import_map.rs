@@ -4,6 +4,7 @@ use super::value::{Pickle, Value};
 use super::words::{Feature, feature};
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES};
 use crate::problem::{FieldProblem, ReadError, Warning, code, pointer_token};
+use crate::sentences::{self, subject};
 use crate::settle::Ids;
 use crate::units::MPS_PER_MPH;
 use scene::Vec2;
@@ -87,11 +88,9 @@ pub(super) fn lane_map(
             _ => counts.dropped += 1,
         }
     }
-    ids.iter().for_each(|ids| warnings.extend(ids.warning("map features")));
+    ids.iter().for_each(|ids| warnings.extend(ids.warning(subject::MAP_FEATURES)));
     if counts.dropped > 0 {
-        let detail =
-            format!("{} map features of unknown kind or without enough points are left out", counts.dropped);
-        warnings.push(Warning::new("features-dropped", detail));
+        warnings.push(Warning::new("features-dropped", sentences::features_unread(counts.dropped)));
     }
     Ok(map)
 }

@@ -10,6 +10,7 @@ use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use crate::recording::{Ids, middle};
+use crate::sentences;
 use scene::geometry::direction;
 use scene::{
     Agent, AgentType, Conditions, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene, Shared, Timing, Vec2,
@@ -248,12 +249,8 @@ impl<'a> Windows<'a> {
                 |(_, _, at): &&(&Key, &User, Vec2)| ((at - net.origin).abs() - net.half).max() > BESIDE_M;
             let count = all.iter().filter(beside).count();
             if count > 0 {
-                let detail = format!(
-                    "{count} of {} road users lie outside the network: another network, or degrees \
-                     (fcd-output.geo) in place of metres",
-                    all.len()
-                );
-                warnings.push(Warning::new("outside-network", detail));
+                let message = sentences::agents_outside_network(count, all.len());
+                warnings.push(Warning::new("outside-network", message));
             }
         }
         let far = |s: &Sample| (s.centre - origin).amax() > MAX_COORDINATE_M;
@@ -265,12 +262,8 @@ impl<'a> Windows<'a> {
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(b.1)));
         order.truncate(MAX_AGENTS);
         if order.len() < all.len() {
-            let detail = format!(
-                "{} road users; the {} nearest their middle are kept, within {MAX_COORDINATE_M} m of the origin",
-                all.len(),
-                order.len()
-            );
-            warnings.push(Warning::new("agents-dropped", detail));
+            let message = sentences::agents_near_centre(all.len(), order.len(), MAX_COORDINATE_M);
+            warnings.push(Warning::new("agents-dropped", message));
         }
         let mut kept: Vec<(&Key, &User)> = order.into_iter().map(|(_, key, user)| (key, user)).collect();
         kept.sort_by(|a, b| a.0.cmp(b.0));
@@ -278,24 +271,19 @@ impl<'a> Windows<'a> {
     }
 
     fn warn(&self, assumed: usize, jumps: usize, ids_changed: usize, warnings: &mut Vec<Warning>) {
-        let mut warn = |said: bool, code, detail: String| {
-            if said {
-                warnings.push(Warning::new(code, detail));
+        let mut warn = |applies: bool, code, message| {
+            if applies {
+                warnings.push(Warning::new(code, message));
             }
         };
-        let detail = "no network was given with the recording; the scene has no lanes and no signals";
-        warn(self.common.net.is_none(), "no-network", detail.into());
-        let detail = format!("{assumed} road users have the default size of their type's name");
-        warn(assumed > 0, "sizes-assumed", detail);
-        let detail = format!("{ids_changed} ids have other letters or a suffix");
-        warn(ids_changed > 0, "ids-changed", detail);
-        warn(jumps > 0, "jumps", format!("{jumps} times somebody was put elsewhere; such gaps stay gaps"));
-        let detail =
-            format!("time steps {:.1} s apart; more than {MAX_FILLED_S} s stay gaps", self.coarsest_s);
-        warn(self.coarsest_s > MAX_FILLED_S + SAME_S, "steps-coarse", detail);
-        let detail = format!("{} containers and passengers so far", self.left_out);
-        warn(self.left_out > 0, "left-out", detail);
-        warn(self.heights, "heights-dropped", "the recording has heights; the scene is flat".into());
+        warn(self.common.net.is_none(), "no-network", sentences::network_missing());
+        warn(assumed > 0, "sizes-assumed", sentences::sizes_assumed_by_name(assumed));
+        warn(ids_changed > 0, "ids-changed", sentences::ids_respelled(ids_changed));
+        warn(jumps > 0, "jumps", sentences::jumps(jumps));
+        let coarse = self.coarsest_s > MAX_FILLED_S + SAME_S;
+        warn(coarse, "steps-coarse", sentences::steps_coarse(self.coarsest_s, MAX_FILLED_S));
+        warn(self.left_out > 0, "left-out", sentences::passengers_left_out(self.left_out));
+        warn(self.heights, "heights-dropped", sentences::recording_heights_dropped());
     }
 
     /// The scene that is left at the end of the file; there may be another after it.

@@ -7,6 +7,7 @@ use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGN
 use crate::map_file;
 use crate::polyline::length;
 use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::sentences;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use scene::map::{LaneMap, Points};
@@ -62,8 +63,8 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     let mut warnings = warnings_of(&net);
     let mut places = drawn.signals;
     if places.len() > MAX_SIGNALS {
-        let detail = format!("{} signals; the {MAX_SIGNALS} nearest the middle are kept", places.len());
-        warnings.push(Warning::new("signals-dropped", detail));
+        let message = sentences::signals_near_centre(places.len(), MAX_SIGNALS);
+        warnings.push(Warning::new("signals-dropped", message));
         places.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
         places.truncate(MAX_SIGNALS);
     }
@@ -144,27 +145,23 @@ fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
 
 fn warnings_of(net: &Net) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let mut warn = |said: bool, code, detail: String| {
-        if said {
-            warnings.push(Warning::new(code, detail));
+    let mut warn = |applies: bool, code, message| {
+        if applies {
+            warnings.push(Warning::new(code, message));
         }
     };
-    warn(true, "ids-renumbered", "lanes and junctions have numbers in place of SUMO's ids".into());
-    warn(net.notes.heights, "heights-dropped", "the network has heights; the map is flat".into());
-    let detail = "positions stay in the network's own frame; its projection is not kept";
-    warn(net.notes.projected, PROJECTION_DROPPED, detail.into());
-    let detail = "traffic keeps to the left; kerbs and middle lines are drawn as if it kept to the right";
-    warn(net.notes.left_hand, "left-hand", detail.into());
+    warn(true, "ids-renumbered", sentences::ids_renumbered());
+    warn(net.notes.heights, "heights-dropped", sentences::map_heights_dropped());
+    warn(net.notes.projected, PROJECTION_DROPPED, sentences::projection_dropped());
+    warn(net.notes.left_hand, "left-hand", sentences::left_hand_as_right());
     let closed = net.lanes.iter().filter(|l| l.kind == LaneKind::Closed).count();
-    warn(closed > 0, "lanes-dropped", format!("{closed} lanes open to no road user (rails, strips)"));
+    warn(closed > 0, "lanes-dropped", sentences::lanes_closed(closed));
     let ids: BTreeSet<&str> = net.programs.iter().map(|p| p.id.as_str()).collect();
-    let detail = "a signal has several programs; the last one is shown";
-    warn(ids.len() < net.programs.len(), "programs-dropped", detail.into());
+    warn(ids.len() < net.programs.len(), "programs-dropped", sentences::programs_beyond_last());
     let held = net.programs.iter().filter(|p| !p.is_simple()).count();
-    let detail = format!("{held} signals react to traffic; they stay in the phase of their plan");
-    warn(held > 0, "signals-held", detail);
+    warn(held > 0, "signals-held", sentences::signals_held(held));
     let ruled = net.lanes.iter().filter_map(|l| l.signal.as_ref());
     let missing = ruled.filter(|(program, _)| !ids.contains(program.as_str())).count();
-    warn(missing > 0, "signals-dropped", format!("{missing} links of signals without a program"));
+    warn(missing > 0, "signals-dropped", sentences::signal_links_unprogrammed(missing));
     warnings
 }

@@ -9,8 +9,10 @@ use crate::format::{COLUMNS_POINTER, ImportOptions};
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use crate::recording::{Drawn, MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};
+use crate::sentences;
 use crate::source::Source;
 use scene::geometry::direction;
+use scene::message::Word;
 use scene::{AgentType, Meta, STEP_S, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::hash_map::DefaultHasher;
@@ -344,15 +346,11 @@ impl<'a> Scenarios<'a> {
             said.start_s = Some(0.0);
         }
         if gathered.untyped {
-            let detail = "the table has no types; all road users count as vehicles";
-            said.warnings.push(Warning::new("types-assumed", detail));
+            said.warnings.push(Warning::new("types-assumed", sentences::types_assumed()));
         }
         if gathered.unknown_words > 0 {
-            let detail = format!(
-                "{} road users have a type that is none of ours; they are shown, and never generated",
-                gathered.unknown_words
-            );
-            said.warnings.push(Warning::new("types-unknown", detail));
+            let message = sentences::types_unknown(gathered.unknown_words);
+            said.warnings.push(Warning::new("types-unknown", message));
         }
         gathered.recording.said = said;
         self.ready = Some(Box::new(gathered.recording.scenes()));

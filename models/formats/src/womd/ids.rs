@@ -1,6 +1,8 @@
 //! Ids of records as ids of scenes.
 
 use crate::problem::Warning;
+use crate::sentences;
+use scene::message::Word;
 use std::collections::BTreeMap;
 
 /// Ids as strings. A number that comes again gets the first free suffix: `12`, `12.2`, `12.3`.
@@ -22,10 +24,9 @@ impl UniqueIds {
         format!("{number}.{count}")
     }
 
-    pub(super) fn warn(&self, what: &str, warnings: &mut Vec<Warning>) {
+    pub(super) fn warn(&self, subject: Word, warnings: &mut Vec<Warning>) {
         if self.repeated > 0 {
-            let detail = format!("{} {what} repeat an id and got a suffix", self.repeated);
-            warnings.push(Warning::new("duplicate-ids", detail));
+            warnings.push(Warning::new("duplicate-ids", sentences::ids_suffixed(self.repeated, subject)));
         }
     }
 }

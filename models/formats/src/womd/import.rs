@@ -6,6 +6,7 @@ use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::format::EGO;
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::sentences::{self, subject};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,7 +38,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
     let now = scenario.current_time_index.unwrap_or(0).max(0) as usize;
     let now_step = now.min(steps.saturating_sub(1));
     if now != now_step {
-        warnings.push(Warning::new("now-step-moved", format!("current step {now} of {steps}")));
+        warnings.push(Warning::new("now-step-moved", sentences::now_step_moved(now, steps)));
     }
     let ego = scenario.sdc_track_index.and_then(|i| usize::try_from(i).ok());
     let ego = ego.filter(|i| *i < scenario.tracks.len());
@@ -59,8 +60,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
         }
     }
     if varying > 0 {
-        let detail = format!("{varying} road users change size; the size at the current step is kept");
-        warnings.push(Warning::new("sizes-vary", detail));
+        warnings.push(Warning::new("sizes-vary", sentences::sizes_vary_now(varying)));
     }
     let id = scenario.scenario_id.unwrap_or_default();
     let synthetic = id.starts_with(SYNTHETIC_PREFIX);
@@ -159,15 +159,15 @@ fn kept_tracks(
         })
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let detail = format!("{} road users; the {MAX_AGENTS} nearest the ego are kept", tracks.len());
-    warnings.push(Warning::new("agents-dropped", detail));
+    let message = sentences::agents_near_ego(tracks.len(), MAX_AGENTS);
+    warnings.push(Warning::new("agents-dropped", message));
     order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect()
 }
 
 fn track_ids(tracks: &[Track], warnings: &mut Vec<Warning>) -> Vec<String> {
     let mut ids = UniqueIds::default();
     let list = tracks.iter().map(|track| ids.take(track.id.unwrap_or(0).into())).collect();
-    ids.warn("tracks", warnings);
+    ids.warn(subject::TRACKS, warnings);
     list
 }
 
@@ -270,7 +270,7 @@ fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<Warning>) 
         }
     }
     if moved > 0 {
-        warnings.push(Warning::new("stop-points-vary", "a signal's first stop point is kept"));
+        warnings.push(Warning::new("stop-points-vary", sentences::stop_points_vary()));
     }
     signals
 }
@@ -287,15 +287,13 @@ fn timestamps(times: Vec<f64>, steps: usize, warnings: &mut Vec<Warning>) -> Opt
         return None;
     }
     if times.len() != steps || times.iter().any(|t| !t.is_finite()) {
-        let detail =
-            format!("{} times for {steps} steps, or not finite; 0.1 s steps are assumed", times.len());
-        warnings.push(Warning::new("timestamps-ignored", detail));
+        warnings.push(Warning::new("timestamps-ignored", sentences::times_ignored(times.len(), steps)));
         return None;
     }
     let first = times.first().copied().unwrap_or(0.0);
     let late = times.iter().enumerate().any(|(i, t)| (t - first - i as f64 * STEP_S).abs() > STEP_S / 2.0);
     if late {
-        warnings.push(Warning::new("timestamps-irregular", "steps are not 0.1 s apart; they are read as if"));
+        warnings.push(Warning::new("timestamps-irregular", sentences::times_irregular()));
     }
     Some(times)
 }

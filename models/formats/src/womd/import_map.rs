@@ -6,6 +6,7 @@ use super::proto::{
     TypedLine,
 };
 use crate::problem::Warning;
+use crate::sentences::{self, subject};
 use crate::units::MPS_PER_MPH;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign as Sign, TypedLine as Line};
 use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
@@ -75,11 +76,10 @@ pub(super) fn lane_map(features: Vec<MapFeature>, origin: Vec2, warnings: &mut V
     }
     let Ids { lanes, lines, edges, signs, crosswalks, bumps, driveways } = &ids;
     for kind in [lanes, lines, edges, signs, crosswalks, bumps, driveways] {
-        kind.warn("map features", warnings);
+        kind.warn(subject::MAP_FEATURES, warnings);
     }
     if dropped > 0 {
-        let detail = format!("{dropped} map features of unknown kind or without enough points are left out");
-        warnings.push(Warning::new("features-dropped", detail));
+        warnings.push(Warning::new("features-dropped", sentences::features_unread(dropped)));
     }
     map
 }

@@ -1,0 +1,151 @@
+//! The sentences of the readers' warnings: what a reader changed, assumed or left out.
+
+use scene::message::Word;
+
+/// What repeats an id or needs another one.
+pub mod subject {
+    use scene::message::Word;
+
+    /// Agents of a scene.
+    pub const ROAD_USERS: Word = Word { code: "road-users", english: "road users" };
+    /// Lanes, lines, edges and areas.
+    pub const MAP_FEATURES: Word = Word { code: "map-features", english: "map features" };
+    /// Recorded motion.
+    pub const TRACKS: Word = Word { code: "tracks", english: "tracks" };
+}
+
+scene::messages! {
+    agents_near_ego(found: usize, kept: usize) =
+        "agents-near-ego", "{found} road users; the {kept} nearest to the ego are kept";
+    agents_near_centre(found: usize, kept: usize, within_m: f64) =
+        "agents-near-centre",
+        "{found} road users; the {kept} nearest to their centre are kept, within {within_m} m of the origin";
+    agents_with_used_id(count: usize) =
+        "agents-with-used-id", "{count} obstacles with the id of another obstacle are left out";
+    agents_outside_network(count: usize, found: usize) =
+        "agents-outside-network",
+        "{count} of {found} road users lie outside the network: it belongs to another recording, or positions are \
+         degrees (fcd-output.geo) rather than metres";
+    areas_too_far(count: usize, within_m: f64) =
+        "areas-too-far", "{count} drivable areas reach farther than {within_m} m from the centre and are left out";
+    crossing_areas() =
+        "crossing-areas", "Drivable areas overlap too often to find the edges of the road";
+    crossing_lanelets() =
+        "crossing-lanelets", "Lanelets overlap too often to find the edges of the road";
+    crossing_roads() = "crossing-roads", "Roads overlap too often to find their edges";
+    cut_in_scenes(each_s: f64) =
+        "cut-in-scenes", "The recording is longer than a scene: it is cut in scenes of {each_s:.1} s";
+    elements_unread(count: usize) =
+        "elements-unread", "{count} elements have no place in a scene and are left out";
+    features_unread(count: usize) =
+        "features-unread", "{count} map features of unknown kind or with too few points are left out";
+    futures_unread(count: usize) =
+        "futures-unread", "{count} possible motions are empty, impossible or beyond the limit, and are left out";
+    goals_beyond_first(count: usize) =
+        "goals-beyond-first", "{count} further goals of the same road users are left out";
+    goals_are_regions(count: usize) =
+        "goals-are-regions", "{count} goals are regions; their centres are taken";
+    headings_derived() =
+        "headings-derived", "Headings are derived from the motion; a standing road user keeps its last heading";
+    headings_in_degrees() = "headings-in-degrees", "Headings are in degrees and were converted to radians";
+    ids_renumbered() = "ids-renumbered", "Lanes and junctions have numbers instead of SUMO's ids";
+    ids_replaced(count: usize, subject: Word) =
+        "ids-replaced",
+        "{count} {subject} got other ids: an id occurs once and has letters, digits and _ . : - alone";
+    ids_respelled(count: usize) = "ids-respelled", "{count} ids were respelled or got a suffix";
+    ids_suffixed(count: usize, subject: Word) = "ids-suffixed", "{count} {subject} repeat an id and got a suffix";
+    identities_joined(count: usize, pairs: &str, more: usize) =
+        "identities-joined", "{count} road users had a second id and are joined: {pairs} (and {more} more)";
+    identities_joined_all(count: usize, pairs: &str) =
+        "identities-joined-all", "{count} road users had a second id and are joined: {pairs}";
+    jumps(count: usize) = "jumps", "Road users were moved elsewhere {count} times; these gaps stay gaps";
+    lanelets_unusable(count: usize) =
+        "lanelets-unusable", "{count} lanelets without two sides, or not for traffic, are left out";
+    lanelets_with_used_id(count: usize) =
+        "lanelets-with-used-id", "{count} lanelets with the id of another lanelet are left out";
+    lanes_closed(count: usize) =
+        "lanes-closed", "{count} lanes open to no road user (rails, strips) are left out";
+    lane_links_derived() =
+        "lane-links-derived",
+        "The file does not link its lanes: a lane that ends where another one begins is linked to it";
+    lane_segments_unusable(count: usize) =
+        "lane-segments-unusable", "{count} lane segments without two sides are left out";
+    left_hand() = "left-hand", "Traffic keeps to the left, as it does in this region";
+    left_hand_as_right() =
+        "left-hand-as-right",
+        "Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right";
+    lines_approximated(count: usize) =
+        "lines-approximated", "{count} painted lines have a sort or colour without a word of its own";
+    map_fault(first: &str) = "map-fault", "{first}";
+    map_faults(first: &str, more: usize) = "map-faults", "{first} (and {more} more)";
+    map_heights_dropped() = "map-heights-dropped", "The network has heights; the map is flat";
+    map_lacks_lanelets() = "map-lacks-lanelets", "The file has no lanelets: the scene has no map";
+    map_missing() =
+        "map-missing", "No map came with the scenario (log_map_archive_*.json): the scene has no lanes";
+    moved_by_metadrive() =
+        "moved-by-metadrive", "MetaDrive moved and turned the file; the place of the recording is unknown";
+    network_missing() =
+        "network-missing", "No network came with the recording: the scene has no lanes and no signals";
+    now_step_moved(now: usize, steps: usize) =
+        "now-step-moved", "The current step is {now} of {steps}: the last step is taken";
+    obstacles_absent(count: usize) =
+        "obstacles-absent", "{count} obstacles are absent at all steps that are kept";
+    obstacles_are_sets(count: usize) =
+        "obstacles-are-sets", "{count} obstacles have possible areas instead of motion: their first state is kept";
+    obstacles_uncertain(count: usize) =
+        "obstacles-uncertain", "{count} obstacles have uncertain states; the centres are taken";
+    obstacles_unplaced(count: usize) =
+        "obstacles-unplaced", "{count} obstacles without a place, or without a size of at most 60 m, are left out";
+    parts_left_out(parts: &str) = "parts-left-out", "Left out: {parts}";
+    passengers_left_out(count: usize) =
+        "passengers-left-out", "{count} containers and passengers are left out so far";
+    programs_beyond_last() = "programs-beyond-last", "A signal has several programs; the last one is shown";
+    projection_dropped() =
+        "projection-dropped", "Positions stay in the frame of the network; its projection is not kept";
+    recording_heights_dropped() = "recording-heights-dropped", "The recording has heights; the scene is flat";
+    shapes_boxed(count: usize) = "shapes-boxed", "{count} obstacles are no boxes: boxes around them are taken";
+    signal_links_unprogrammed(count: usize) =
+        "signal-links-unprogrammed", "{count} links of signals have no program and are left out";
+    signals_empty(count: usize) =
+        "signals-empty", "{count} signals without a lane or without states are left out";
+    signals_held(count: usize) =
+        "signals-held", "{count} signals respond to traffic; they keep the times of their plan";
+    signals_made(count: usize, junctions: usize) =
+        "signals-made", "{count} signal heads at {junctions} junctions have no program; they got fixed times";
+    signals_made_near(count: usize, junctions: usize, kept: usize) =
+        "signals-made-near",
+        "{count} signal heads at {junctions} junctions have no program; they got fixed times, and the {kept} \
+         nearest to the centre are kept";
+    signals_near_centre(found: usize, kept: usize) =
+        "signals-near-centre", "{found} signals; the {kept} nearest to the centre are kept";
+    signals_over_limit(count: usize, kept: usize) =
+        "signals-over-limit", "{count} signals beyond the limit of {kept} are left out";
+    signals_without_lane(count: usize) =
+        "signals-without-lane", "{count} signals control no lane of the map and are left out";
+    sizes_assumed(count: usize) = "sizes-assumed", "{count} road users have the default size of their type";
+    sizes_assumed_by_name(count: usize) =
+        "sizes-assumed-by-name", "{count} road users have the default size for the name of their type";
+    sizes_assumed_car(count: usize) =
+        "sizes-assumed-car", "{count} planning problems have no size: that of a car is taken";
+    sizes_vary_median(count: usize) =
+        "sizes-vary-median", "{count} road users change size; the median is kept";
+    sizes_vary_now(count: usize) =
+        "sizes-vary-now", "{count} road users change size; the size at the current step is kept";
+    steps_beyond_limit(length_s: f64, kept: usize) =
+        "steps-beyond-limit", "The file lasts {length_s:.1} s; the first {kept} steps of 0.1 s are kept";
+    steps_coarse(apart_s: f64, filled_s: f64) =
+        "steps-coarse", "Time steps are {apart_s:.1} s apart; gaps longer than {filled_s} s stay gaps";
+    stop_points_vary() = "stop-points-vary", "A signal has several stop points; its first one is kept";
+    time_resampled(apart_s: f64, step_s: f64) =
+        "time-resampled", "Rows are {apart_s:.3} s apart; states are computed every {step_s} s";
+    time_interpolated(apart_s: f64) =
+        "time-interpolated", "Steps are {apart_s} s apart; states every 0.1 s are interpolated linearly";
+    times_ignored(found: usize, steps: usize) =
+        "times-ignored", "{found} times for {steps} steps, or a time is not finite; steps of 0.1 s are assumed";
+    times_incomplete() = "times-incomplete", "Some steps have no time; steps of 0.1 s are assumed";
+    times_irregular() = "times-irregular", "Steps are not 0.1 s apart; they are read as if they were";
+    types_assumed() = "types-assumed", "The table has no types; all road users count as vehicles";
+    types_unknown(count: usize) =
+        "types-unknown", "{count} road users have an unknown type; they are shown and never generated";
+    velocities_derived() = "velocities-derived", "Velocities are derived from positions and times";
+}
