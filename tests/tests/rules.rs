@@ -114,7 +114,7 @@ const HOUSES: &[House] = &[
         sources: "models/experts/src",
         module: &[],
         floors: &[
-            &["clock", "tuning"],
+            &["clock", "sentences", "tuning"],
             &["planning"],
             &["features"],
             &["net"],

@@ -31,6 +31,7 @@ pub mod net;
 pub mod placement;
 pub mod planning;
 pub mod request;
+pub mod sentences;
 pub mod tuning;
 pub mod weights;
 

@@ -3,6 +3,7 @@
 use crate::net::schedule;
 use crate::planning::world::Planning;
 use crate::tuning::fixed::rounds::ROUND_DIVERSITY;
+use scene::message::Message;
 use scene::preference::{Feedback, Round};
 use scene::score::Thresholds;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
@@ -280,9 +281,11 @@ pub enum ReachReport {
         limiting: Limiting,
         /// What it would take, in that limit's unit, when it can be told.
         needs: Option<f64>,
-        /// One sentence for people.
+        /// The reason in English.
         words: String,
-        /// Who is in the way, where somebody is.
+        /// The reason as data.
+        message: Message,
+        /// The agent in the way, if there is one.
         #[serde(skip_serializing_if = "Option::is_none")]
         with: Option<AgentId>,
     },
@@ -443,10 +446,19 @@ impl std::fmt::Display for WarningCode {
 pub struct Warning {
     /// A word that programs can switch on.
     pub code: WarningCode,
-    /// Whom it concerns.
+    /// The agent that it concerns.
     pub agent: Option<AgentId>,
-    /// One sentence.
+    /// The warning in English.
     pub detail: String,
+    /// The warning as data.
+    pub message: Message,
+}
+
+impl Warning {
+    /// A warning about an agent.
+    pub(crate) fn of(code: WarningCode, agent: &AgentId, message: Message) -> Self {
+        Self { code, agent: Some(agent.clone()), detail: message.to_string(), message }
+    }
 }
 
 /// First event: what will be done.

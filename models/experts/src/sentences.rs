@@ -98,6 +98,6 @@ scene::messages! {
         "via-missed",
         "The future passes via point {number} {distance_m:.1} m away at {time_s:.1} s; the tolerance is \
          {tolerance_m:.1} m.";
-    recording_ends(time_s: f64) =
-        "recording-ends", "The recording ends at {time_s:.1} s; the road user continues straight at its speed.";
+    motion_ends(time_s: f64) =
+        "motion-ends", "The known motion ends at {time_s:.1} s; the road user continues straight at its speed.";
 }

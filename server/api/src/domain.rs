@@ -6,7 +6,7 @@ use formats::native::Ranges;
 use scene::limits::Limits;
 use scene::score::{Threshold, Thresholds};
 use scene::via::VIA_WITHIN_S;
-use scene::{AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_VIAS, Size, Subtype, VIA_TOLERANCE_M};
+use scene::{AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, Size, Subtype, VIA_TOLERANCE_M};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -121,6 +121,8 @@ pub struct ThresholdRange {
 pub struct Domain {
     /// Version of the program.
     version: &'static str,
+    /// Most agents of a scene.
+    most_agents: usize,
     limits: KindLimits,
     condition_ranges: ConditionRanges,
     via: ViaRanges,
@@ -144,6 +146,7 @@ impl Domain {
         let range = |t: Threshold| (t.name, ThresholdRange { usual: t.usual(), range: t.range.into() });
         Self {
             version: env!("CARGO_PKG_VERSION"),
+            most_agents: MAX_AGENTS,
             limits,
             condition_ranges,
             via,

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const CRATES: &[&str] =
-    &["dragtraffic-scene", "dragtraffic-formats", "dragtraffic-layouts", "dragtraffic-experts"];
+    &["dragtraffic-scene", "dragtraffic-formats", "dragtraffic-layouts", "dragtraffic-experts", "dragtraffic-api"];
 /// Debian's packages: compiler, sources of the standard library, and the libraries that the compiler loads.
 const PACKAGES: &[&str] = &["rustc-web", "rust-web-src", "libstd-rust-web-dev"];
 const LOADED: &[&str] = &["libstd-rust-web-", "libllvm"];

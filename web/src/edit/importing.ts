@@ -1,6 +1,7 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/document/scene-json';
+import { messageText } from '../model/words/message-text';
 import { Refused, type Beside, type Client } from '../net/client';
 import { faultOf } from '../net/problem';
 import { inWords } from '../net/refusal';
@@ -229,7 +230,7 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
     count: countAll(counts),
   }));
   const { skipped } = reply;
-  const notes = [...new Set(reply.scenes.flatMap((s) => s.warnings.map((w) => w.detail)))];
+  const notes = [...new Set(reply.scenes.flatMap((s) => s.warnings.map((w) => messageText(w.message, w.detail))))];
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
   if (!skipped.length) return { file, kind, ok: true, scenes, notes };
   const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);

@@ -1,4 +1,5 @@
 // What can be taken of a scene whose file is broken in places: everything but the parts that are named as broken.
+import { MOST_AGENTS } from '../model/base/domain';
 import { isMapRef, type MapJson, type SceneJson } from '../model/document/scene-json';
 import type { Problem } from '../net/types';
 import { TEXTS } from '../texts/imports';
@@ -52,7 +53,7 @@ export function partAt(scene: SceneJson, pointer: string): BrokenPart | null {
 
 /** Null where what is wrong is not in parts that can be left out. */
 export function withoutBroken(scene: SceneJson, problem: Problem): Mended | null {
-  if (problem.code === 'too-many-agents') return fewer(scene, problem);
+  if (problem.code === 'too-many-agents') return fewer(scene);
   const parts = (problem.errors ?? []).map((e) => partAt(scene, e.pointer));
   if (!parts.length || parts.some((p) => p === null)) return null;
   const gone = new Map<string, Set<number>>();
@@ -70,11 +71,10 @@ export function withoutBroken(scene: SceneJson, problem: Problem): Mended | null
 }
 
 /** As many road users as a scene may have, from the first on. */
-function fewer(scene: SceneJson, problem: Problem): Mended | null {
-  const most = Number(/at most (\d+)/.exec(problem.detail ?? '')?.[1]);
-  if (!Number.isInteger(most) || scene.agents.length <= most) return null;
-  const rest = scene.agents.length - most;
-  return { scene: { ...scene, agents: scene.agents.slice(0, most) }, without: [TEXTS.theLastRoadUsers(rest)] };
+function fewer(scene: SceneJson): Mended | null {
+  const rest = scene.agents.length - MOST_AGENTS;
+  if (rest <= 0) return null;
+  return { scene: { ...scene, agents: scene.agents.slice(0, MOST_AGENTS) }, without: [TEXTS.theLastRoadUsers(rest)] };
 }
 
 /** Nothing leads to a lane that is not there. */

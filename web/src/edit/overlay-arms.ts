@@ -2,7 +2,7 @@
 // lanes lead, and what of it does not pass.
 import { armTitle } from '../model/words/arm-names';
 import type { Vec } from '../model/base/geometry';
-import { metres, num, retold } from '../model/base/units';
+import { metres, num } from '../model/base/units';
 import { pill, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { traceLine } from '../draw/strokes';
@@ -189,7 +189,7 @@ export class ArmsOverlay {
     this.#paintFaults(g, v, made);
     const fault = layouts.fault.value;
     const [x, y] = v.to(...(all.find((k) => k.kind === 'arm' && k.arm === layouts.arm.value)?.at ?? [0, 0]));
-    if (fault) pill(g, this.labels, x, y, retold(fault), { icon: 'triangle', bg: c.surface, fg: c.ink });
+    if (fault) pill(g, this.labels, x, y, fault, { icon: 'triangle', bg: c.surface, fg: c.ink });
   }
 
   /** How many lanes an arm has, where one is about to come or go. */

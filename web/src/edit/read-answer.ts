@@ -1,5 +1,6 @@
 // Verdicts, scores and warnings of an answer, in the editor's own terms.
 import type { FinalEvent, Resolved, ScoreReply } from '../net/types';
+import type { Message } from '../model/document/message';
 import type { Reach, Score, Stretch } from '../model/document/futures';
 
 export function readReach(r: Resolved | undefined): Reach | null {
@@ -8,24 +9,24 @@ export function readReach(r: Resolved | undefined): Reach | null {
   const { by_road: road } = r;
   const byRoad = road ? { x: road.x_m, y: road.y_m, heading: road.heading_rad, distance: road.distance_m } : null;
   if (j.status === 'reached')
-    return { status: 'reached', nearest: null, limiting: null, needs: null, words: null, byRoad };
+    return { status: 'reached', nearest: null, limiting: null, needs: null, message: null, byRoad };
   const { x_m, y_m, heading_rad, speed_mps } = j.nearest;
   return {
     status: 'unreachable',
     nearest: { x: x_m, y: y_m, heading: heading_rad, speed: speed_mps },
     limiting: j.limiting,
     needs: j.needs,
-    words: j.words,
+    message: j.message,
     with: (j as { readonly with?: string | null }).with ?? null,
     byRoad,
   };
 }
 
-/** Sentences to show beside a road user; what the verdict on its goal says already is left out. */
-export function readWarnings(e: FinalEvent): Map<string, string[]> {
-  const out = new Map<string, string[]>();
+/** Warnings by road user. The verdict on its goal has its own place. */
+export function readWarnings(e: FinalEvent): Map<string, Message[]> {
+  const out = new Map<string, Message[]>();
   for (const w of e.warnings)
-    if (w.agent && w.code !== 'goal-unreachable') out.set(w.agent, [...(out.get(w.agent) ?? []), w.detail]);
+    if (w.agent && w.code !== 'goal-unreachable') out.set(w.agent, [...(out.get(w.agent) ?? []), w.message]);
   return out;
 }
 

@@ -9,7 +9,7 @@ import {
   type AgentPatch,
   type Command,
 } from '../model/document/commands';
-import { topSpeed } from '../model/base/domain';
+import { MOST_AGENTS, topSpeed } from '../model/base/domain';
 import { countWords, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/base/kinds';
 import { copyOf, settle, type Newcomer } from '../model/document/newcomer';
 import {
@@ -30,8 +30,7 @@ import { shifted } from '../model/document/newcomer';
 import { TEXTS } from '../texts/moves';
 import { inSentence } from '../texts/language';
 
-/** The server takes no more in one scene. */
-const MOST_IN_SCENE = 256;
+
 /** The server works out the motion of no more at once. */
 export const MOST_AT_ONCE = 128;
 
@@ -292,9 +291,9 @@ export function removeThem(scene: Scene, all: readonly Agent[]): Command {
 
 /** Why so many more cannot be put into a scene; null where they can. */
 export function tooMany(scene: Scene, n: number): string | null {
-  const room = MOST_IN_SCENE - scene.agents.size;
+  const room = MOST_AGENTS - scene.agents.size;
   if (n <= room) return null;
-  return room > 0 ? TEXTS.aSceneHoldsRoad(MOST_IN_SCENE, room) : TEXTS.aSceneHoldsRoadUsers(MOST_IN_SCENE);
+  return room > 0 ? TEXTS.aSceneHoldsRoad(MOST_AGENTS, room) : TEXTS.aSceneHoldsRoadUsers(MOST_AGENTS);
 }
 
 /** They come into the scene; `done`: what happened to them, such as `placed`. `name` of the step where more is said. */

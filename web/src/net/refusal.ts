@@ -3,9 +3,5 @@ import { change } from '../texts/language';
 import { faultOf } from './problem';
 import type { Problem } from './types';
 
-/** A sentence of the server in the language of the page: where it is not known there, what its code stands for. */
-export function inWords(p: Problem, sentence = faultOf(p)): string {
-  if (!change) return sentence;
-  const heard = change.heard(sentence);
-  return heard === sentence ? (change.refused(p.code) ?? sentence) : heard;
-}
+/** The server's sentence in English; in another language what its code stands for. */
+export const inWords = (p: Problem, sentence = faultOf(p)): string => change?.refused(p.code) ?? sentence;

@@ -1,5 +1,5 @@
 // What the server refuses, by its code, in German. Its own sentences have more, such as names and numbers, but are
-// English; those of them that people read often are known by heart (`german-heard.ts`).
+// English.
 export const refused: Readonly<Record<string, string>> = {
   'malformed-json': 'Das ist kein JSON.',
   'malformed-file': 'Die Datei ist defekt.',

@@ -1,6 +1,5 @@
 // German, a file for each table. It comes as a script of its own and imports nothing from elsewhere but types: the tables
 // wait for it.
-export { heard } from './german-heard';
 export { refused } from './german-refused';
 export { taps } from './german-tapping';
 import type { Words } from './words';

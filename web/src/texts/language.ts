@@ -53,10 +53,9 @@ export const plural = (n: number, forms: Forms): string => forms[rules.select(n)
 export const inSentence = (title: string): string =>
   LANGUAGE === 'de' ? title : title.charAt(0).toLowerCase() + title.slice(1);
 
-/** What becomes of words: of those of an area, and of what the server says; null where they stay as they are. */
+/** The words of another language; null where they stay as they are. */
 interface Change {
   area(area: string, english: Words): Words;
-  heard(words: string): string;
   /** What the server refuses, by its code; `undefined` where that is not known. */
   refused(code: string): string | undefined;
   readonly taps: Taps;
@@ -65,11 +64,11 @@ interface Change {
 async function changeOf(): Promise<Change | null> {
   if (chosen === MARKED) {
     const { marked } = await import('./marked');
-    return { area: marked, heard: (words) => words, refused: () => undefined, taps: [] };
+    return { area: marked, refused: () => undefined, taps: [] };
   }
   if (LANGUAGE === 'en') return null;
-  const { german, heard, refused, taps } = await import('./german');
-  return { area: (area) => german[area], heard, refused: (code) => refused[code], taps };
+  const { german, refused, taps } = await import('./german');
+  return { area: (area) => german[area], refused: (code) => refused[code], taps };
 }
 
 export const change = await changeOf();

@@ -111,6 +111,6 @@ export const TEXTS = table('messages', {
     'start-off-road': (v: Values) => `There is no lane within ${v.within_m} of the start.`,
     'start-overlaps': (v: Values) => `The start overlaps road user ${v.agent}.`,
     'via-missed': (v: Values) => `The future passes via point ${v.number} ${v.distance_m} away at ${v.time_s}; the tolerance is ${v.tolerance_m}.`,
-    'recording-ends': (v: Values) => `The recording ends at ${v.time_s}; the road user continues straight at its speed.`,
+    'motion-ends': (v: Values) => `The known motion ends at ${v.time_s}; the road user continues straight at its speed.`,
   },
 });

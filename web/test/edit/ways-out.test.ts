@@ -28,7 +28,7 @@ function answer({ mayCross = [] as string[], named = true, change = (m: ModeJson
   e.answers.showDraft('1', withNames(f, { onFoot: false, nameOf: nameIn(e.scene.peek()!) }));
 }
 const reach = (byRoad: typeof ROAD | null) =>
-  e.answers.judge('1', { status: 'reached', nearest: null, limiting: null, needs: null, words: null, byRoad });
+  e.answers.judge('1', { status: 'reached', nearest: null, limiting: null, needs: null, message: null, byRoad });
 
 beforeEach(() => {
   e = new Editor();

@@ -1,5 +1,4 @@
-//! What a call says besides futures: every field's value and origin, the verdict on the goal in plain
-//! words, and warnings.
+//! The report of a call beside its futures: the value and origin of each field, the verdict on the goal, warnings.
 
 use super::actor::Actor;
 use super::trajectory::Rollout;
@@ -8,10 +7,15 @@ use crate::request::{
     Field, Intermediate, NearestState, ReachReport, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia,
     Source, Warning, WarningCode,
 };
+use crate::sentences::{self, Need, Speed, kind};
 use scene::geometry::obb::{OrientedBox, iou};
+use scene::message::Message;
 use scene::motion::{Kind, Limiting, MotionState, Reach};
 use scene::via::passings;
 use scene::{AgentId, AgentType, Conditions, Passing, STEP_S, State, Via, wrap_angle};
+
+/// A start or goal farther from any lane is off the road, metres.
+const OFF_ROAD_M: f64 = 6.0;
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {
@@ -103,16 +107,8 @@ fn vias(vias: &[Via], step: usize, states: &[State]) -> Vec<ResolvedVia> {
     vias.iter().zip(&passed).map(report).collect()
 }
 
-/// Where a via point is missed, in words; they are counted from 1.
-pub(super) fn missed_words(number: usize, via: &ResolvedVia) -> String {
-    let ResolvedVia { tolerance_m, distance_m, time_s, .. } = via;
-    format!(
-        "Via point {number} is passed {distance_m:.1} m away at {time_s:.1} s; at most {tolerance_m:.1} m was asked."
-    )
-}
-
-/// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:
-/// its words are about the way from there. `blocked_by` is in the way of a motion that halts before somebody.
+/// Verdict of one window on its target. `since_s` is the scene time at the start of a later window: the reason then
+/// holds from there on. `blocked_by` is the agent before which the motion stops.
 pub(super) fn reach_report(
     actor: &Actor,
     motion: &Rollout,
@@ -126,69 +122,64 @@ pub(super) fn reach_report(
             speed_mps: r.speed_mps,
         },
         Reach::Unreachable { nearest, limiting, needs, .. } => {
-            let words = words(actor, nearest, *limiting, *needs, blocked_by);
-            let words = since_s.map_or(words.clone(), |s| format!("From {s:.1} s on: {words}"));
+            let reason = reason(actor, nearest, *limiting, *needs, blocked_by);
+            let message = since_s.map_or(reason.clone(), |since_s| sentences::since(reason, since_s));
             ReachReport::Unreachable {
                 nearest: nearest.into(),
                 limiting: (*limiting).into(),
                 needs: *needs,
-                words,
+                words: message.to_string(),
+                message,
                 with: blocked_by.cloned(),
             }
         }
     }
 }
 
-/// One sentence or two: what cannot be, and what can.
-fn words(
+/// Why a goal is out of reach, and what is within reach.
+fn reason(
     actor: &Actor,
     nearest: &MotionState,
     limiting: Limiting,
     needs: Option<f64>,
     blocked_by: Option<&AgentId>,
-) -> String {
+) -> Message {
     let planned = &actor.plan;
-    let seconds = planned.target.step as f64 * STEP_S;
-    let what = match planned.present.agent_type {
-        AgentType::Pedestrian => "pedestrian",
-        AgentType::Cyclist => "cyclist",
-        _ => "vehicle",
+    let time_s = planned.target.step as f64 * STEP_S;
+    let kind = match planned.present.agent_type {
+        AgentType::Pedestrian => kind::PEDESTRIAN,
+        AgentType::Cyclist => kind::CYCLIST,
+        _ => kind::VEHICLE,
     };
     let start = planned.present.start;
-    let went = (nearest.position - start.position()).norm();
-    let asked = planned.target.position.map(|p| (p - start.position()).norm());
-    let from = match planned.model.kind {
-        Kind::Walk => format!("{:.1} m/s", start.speed_mps()),
-        Kind::Drive => format!("{:.0} km/h", 3.6 * start.speed_mps()),
-    };
-    let needs = |unit: &str| needs.map_or(String::new(), |n| format!(" It would take {n:.1} {unit}."));
-    match (limiting, asked) {
-        (Limiting::Acceleration | Limiting::Speed, Some(asked)) if asked > went => format!(
-            "Too far for {seconds:.1} s. The goal is {asked:.0} m away. In {seconds:.1} s from {from} this {what} gets {went:.0} m at most."
-        ),
-        (Limiting::Acceleration, _) => {
-            format!("Cannot speed up that much in {seconds:.1} s from {from}.{}", needs("m/s²"))
+    let most_m = (nearest.position - start.position()).norm();
+    let goal_m = planned.target.position.map(|p| (p - start.position()).norm());
+    let start_mps = Speed { mps: start.speed_mps(), on_foot: planned.model.kind == Kind::Walk };
+    let need = |unit| Need { amount: needs, unit };
+    match (limiting, goal_m) {
+        (Limiting::Acceleration | Limiting::Speed, Some(goal_m)) if goal_m > most_m => {
+            sentences::goal_too_far(time_s, goal_m, start_mps, kind, most_m)
         }
-        (Limiting::Speed, _) => format!("Faster than this {what} can go.{}", needs("m/s")),
-        (Limiting::Braking, Some(asked)) => format!(
-            "Cannot stop that soon. From {from} it gets no nearer than {went:.0} m, the goal is {asked:.0} m away.{}",
-            needs("m/s²")
-        ),
-        (Limiting::Braking, None) => {
-            format!("Cannot slow down that much in {seconds:.1} s.{}", needs("m/s²"))
+        (Limiting::Acceleration, _) => sentences::goal_too_fast(time_s, start_mps, need("m/s²")),
+        (Limiting::Speed, _) => sentences::goal_above_top_speed(kind, need("m/s")),
+        (Limiting::Braking, Some(goal_m)) => {
+            sentences::goal_too_near(start_mps, most_m, goal_m, need("m/s²"))
         }
-        (Limiting::Lateral, _) => format!("Too tight at this speed.{}", needs("m/s² sideways")),
-        (Limiting::Curvature, _) => format!("Too tight a turn for this {what}."),
+        (Limiting::Braking, None) => sentences::goal_too_slow(time_s, need("m/s²")),
+        (Limiting::Lateral, _) => sentences::goal_too_tight(need("m/s² sideways")),
+        (Limiting::Curvature, _) => sentences::goal_turn_too_tight(kind),
         (Limiting::Traffic, _) => {
-            let short = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
-            let who = blocked_by.map_or("Somebody".to_owned(), |id| format!("Road user {id}"));
-            format!("{who} is in the way of this {what}. It halts {short:.0} m short of the goal.")
+            let short_m = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
+            match blocked_by {
+                Some(id) => sentences::goal_blocked(id, kind, short_m),
+                None => sentences::goal_blocked_by_traffic(kind, short_m),
+            }
         }
     }
 }
 
-/// Unlikely starts and goals: done anyway, but said. `world` is that of the first window, `asked` gives
-/// what the user fixed about a road user and after how many steps its goal is due.
+/// Warnings about unlikely starts and goals, which are generated all the same. `world` is that of the first window;
+/// `asked` gives an agent's conditions and the number of steps until its goal is due.
 pub(super) fn warnings<'a>(
     world: &World<'_>,
     actors: &[Actor],
@@ -198,38 +189,30 @@ pub(super) fn warnings<'a>(
     for actor in actors {
         let present = &actor.plan.present;
         let (conditions, due) = asked(present.index);
-        let mut warn = |code: WarningCode, detail: String| {
-            out.push(Warning { code, agent: Some(actor.id.clone()), detail });
-        };
+        let mut warn = |code, message| out.push(Warning::of(code, &actor.id, message));
         let off_road = |point| {
             present.agent_type != AgentType::Pedestrian
                 && !world.graph.lanes().is_empty()
-                && world.graph.nearest_for(point, 6.0, present.agent_type).is_empty()
+                && world.graph.nearest_for(point, OFF_ROAD_M, present.agent_type).is_empty()
         };
         if let Some(position) = conditions.goal.position {
             if off_road(position) {
-                warn(WarningCode::GoalOffRoad, "There is no lane within 6 m of the goal.".into());
+                warn(WarningCode::GoalOffRoad, sentences::goal_off_road(OFF_ROAD_M));
             }
             let distance = (position - present.start.position()).norm();
             let seconds = due as f64 * STEP_S;
             if distance > 1.1 * seconds * actor.plan.model.limits.speed_mps.max(present.start.speed_mps()) {
-                warn(
-                    WarningCode::GoalUnreachable,
-                    format!("{distance:.0} m in {seconds:.1} s is beyond the top speed."),
-                );
+                warn(WarningCode::GoalUnreachable, sentences::goal_beyond_top_speed(distance, seconds));
             }
         }
         if conditions.start.position.is_some() {
             if off_road(present.start.position()) {
-                warn(WarningCode::StartOffRoad, "There is no lane within 6 m of the start.".into());
+                warn(WarningCode::StartOffRoad, sentences::start_off_road(OFF_ROAD_M));
             }
             let own = OrientedBox::of_state(&present.start, &present.size);
             for other in world.present.iter().filter(|p| p.index != present.index) {
                 if iou(&own, &OrientedBox::of_state(&other.start, &other.size)) > 0.02 {
-                    warn(
-                        WarningCode::StartOverlaps,
-                        format!("The start overlaps {}.", world.agent(other).id),
-                    );
+                    warn(WarningCode::StartOverlaps, sentences::start_overlaps(&world.agent(other).id));
                 }
             }
         }

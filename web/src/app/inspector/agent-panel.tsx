@@ -4,7 +4,8 @@ import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { seenUntil } from '../../model/physics/playback';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/document/scene';
-import { retold, seconds } from '../../model/base/units';
+import { messageText } from '../../model/words/message-text';
+import { seconds } from '../../model/base/units';
 import { goalFromLog } from '../../edit/moves';
 import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
@@ -235,17 +236,19 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
   );
 }
 
+const OFF_ROAD: ReadonlySet<string> = new Set(['goal-off-road', 'start-off-road']);
+
 function Warnings({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const list = useComputed(() => {
     const all = c.editor.motion.value.warnings?.get(agent.value.id);
-    // That there is no lane is said once.
-    return verdictOn(c, agent)?.snap ? all?.filter((w) => !w.startsWith('There is no lane')) : all;
+    // The verdict says that there is no lane.
+    return verdictOn(c, agent)?.snap ? all?.filter((w) => !OFF_ROAD.has(w.code)) : all;
   }).value;
   if (!list?.length) return null;
   return (
     <div class="sect">
-      {list.map(retold).map((w) => (
+      {list.map((w) => messageText(w)).map((w) => (
         <div key={w} class="hint plain">
           <Icon name="warn" size={17} />
           <div class="tx">{w}</div>

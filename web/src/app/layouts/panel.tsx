@@ -3,7 +3,8 @@ import { armTitle } from '../../model/words/arm-names';
 import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
-import { fromUnit, lengthUnit, num, retold, speedText, toLength, toUnit } from '../../model/base/units';
+import { messageText } from '../../model/words/message-text';
+import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
 import { useApp } from '../parts/app-context';
@@ -499,9 +500,9 @@ function Checks() {
     <section class="sect last" aria-label={TEXTS.checks}>
       <h3>{TEXTS.checks}</h3>
       <ul class="checks">
-        {fault ? <li class="bad">{retold(fault)}</li> : null}
+        {fault ? <li class="bad">{fault}</li> : null}
         {made?.checks.map((c) => (
-          <li key={retold(c.text)} class={c.passed ? 'ok' : 'bad'}>
+          <li key={c.text} class={c.passed ? 'ok' : 'bad'}>
             {c.at_m ? (
               <button
                 type="button"
@@ -510,10 +511,10 @@ function Checks() {
                   stage.glide.by((v) => v.centre(x, y));
                 }}
               >
-                <b>{failed.indexOf(c) + 1}</b> {retold(c.text)}
+                <b>{failed.indexOf(c) + 1}</b> {messageText(c.message, c.text)}
               </button>
             ) : (
-              retold(c.text)
+              messageText(c.message, c.text)
             )}
           </li>
         ))}

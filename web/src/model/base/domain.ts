@@ -34,6 +34,9 @@ const RANGES = domain.condition_ranges as unknown as Record<Exclude<AgentType, '
 
 export const DEFAULTS = domain.defaults;
 
+/** Most road users of a scene. */
+export const MOST_AGENTS = domain.most_agents;
+
 /** Version of the program that the page is a part of. */
 export const VERSION = domain.version;
 

@@ -1,6 +1,6 @@
 // Numbers as people read and type them. Inside the program everything is SI.
 import { signal } from '@preact/signals-core';
-import { change, LANGUAGE } from '../../texts/language';
+import { LANGUAGE } from '../../texts/language';
 import { TEXTS } from '../../texts/places';
 import { deg } from './geometry';
 
@@ -84,27 +84,12 @@ export const lengthRange = ([min, max]: readonly [number, number]): readonly [nu
 export const densityText = (per100M: number): string =>
   lengthUnit() === 'ft' ? TEXTS.per1000FtOfLane(num(per100M * 10 * FOOT_M, 1)) : TEXTS.per100MOfLane(num(per100M, 1));
 
-/** What the server says in English, metres and km/h, in the language and in the units that are read. */
-export const retold = (words: string): string => inLanguage(inUnits(change?.heard(words) ?? words));
-
-/** Numbers that the server wrote. */
-const inLanguage = (words: string): string => (LANGUAGE === 'de' ? words.replace(/(\d)\.(?=\d)/g, '$1,') : words);
-
-const inUnits = (words: string): string =>
-  shown.value === 'km/h'
-    ? words
-    : words
-        .replace(/([\d.]+) m\/s(²?)/g, (_, v: string, per) =>
-          per ? acceleration(Number(v)) : speedLabel(Number(v), walkingUnit(shown.value)),
-        )
-        .replace(/([\d.]+) km\/h/g, (_, v: string) => speedLabel(Number(v) / 3.6, shown.value))
-        .replace(/(\d+(?:\.\d+)?) m(?![\w/²])/g, (_, v: string) =>
-          metres(Number(v), lengthUnit() === 'm' ? (v.split('.')[1] ?? '').length : undefined),
-        );
-
 export const seconds = (v: number): string => `${num(v, 1)} s`;
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), inTenths(unit) ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
+/** A speed in the unit in use; on foot in metres or feet a second. */
+export const speedInUse = (mps: number, onFoot: boolean): string =>
+  speedLabel(mps, onFoot ? walkingUnit(shown.value) : shown.value);
 
 /** Accelerations are told in the unit of lengths. */
 export const accelerationUnit = (): string => `${lengthUnit()}/s²`;

@@ -1,4 +1,5 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
+import type { Message } from './message';
 import type { AgentFuturesJson, ReactionJson } from './scene-json';
 import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './future-facts';
 import type { Point, Pose } from '../base/geometry';
@@ -192,7 +193,8 @@ export interface Reach {
   readonly nearest: Pose | null;
   readonly limiting: string | null;
   readonly needs: unknown;
-  readonly words: string | null;
+  /** Why the goal is out of reach. */
+  readonly message: Message | null;
   /** Id of whoever is in the way, where traffic is what keeps it from the goal and the generator says who. */
   readonly with?: string | null;
   /** The nearest goal that the road reaches in the time, and how far it is from the one that was set. */
@@ -235,7 +237,7 @@ export interface MotionSet {
   /** Those that answer others: why, and what they gave up for it. */
   readonly answering: ReadonlyMap<string, Answering>;
   /** Unlikely things that were done anyway, by road user. */
-  readonly warnings?: ReadonlyMap<string, readonly string[]>;
+  readonly warnings?: ReadonlyMap<string, readonly Message[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */
   readonly head?: Readonly<Record<string, unknown>>;
 }

@@ -1,7 +1,7 @@
 // Somebody who comes new into a scene: placed, pasted or duplicated. Nothing of it was recorded.
 import type { Pose, Vec } from '../base/geometry';
 import { KIND_NAMES, PLACED_KINDS, typeOfKind, type PlacedKind, type Preset } from '../base/kinds';
-import { rangesOf } from '../base/domain';
+import { MOST_AGENTS, rangesOf } from '../base/domain';
 import { motionFrom, poseAtStep, type Motion, trackJson } from '../base/motion';
 import { freeGoal, logStartSpec, type Agent, type GoalSpec, type Others } from './scene';
 import { readVias, shiftedVias } from './vias';
@@ -111,7 +111,6 @@ export function shifted(n: Newcomer, dx: number, dy: number): Newcomer {
 // -------------------------------------------------------------- as text
 
 const MARK = 'dragtraffic road users';
-const MOST = 256;
 /** Text longer than this is not looked at: the largest scene is a tenth of it. */
 const MOST_CHARACTERS = 4_000_000;
 
@@ -144,7 +143,7 @@ export function readCopies(text: string): Newcomer[] | null {
   }
   const doc = json as { kind?: unknown; road_users?: unknown } | null;
   if (typeof doc !== 'object' || doc?.kind !== MARK || !Array.isArray(doc.road_users)) return null;
-  const all = doc.road_users.slice(0, MOST).flatMap((v) => readOne(v) ?? []);
+  const all = doc.road_users.slice(0, MOST_AGENTS).flatMap((v) => readOne(v) ?? []);
   return all.length ? all : null;
 }
 

@@ -3,8 +3,9 @@ import { isBlocked, type Reach } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
 import type { Pose, Vec } from '../base/geometry';
-import { metres, num, retold, seconds, speedLabel, type SpeedUnit } from '../base/units';
+import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
+import { messageText } from './message-text';
 import { TEXTS } from '../../texts/reach';
 
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
@@ -18,7 +19,7 @@ export function reachWords(
     const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
     return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
   }
-  const text = retold(r.words?.trim() ?? '');
+  const text = r.message ? messageText(r.message) : '';
   const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';

@@ -104,6 +104,6 @@ export const german: Said<typeof TEXTS> = {
     'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,
     'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,
     'via-missed': (v: Values) => `Zwischenpunkt ${v.number} wird bei ${v.time_s} um ${v.distance_m} verfehlt; die Toleranz ist ${v.tolerance_m}.`,
-    'recording-ends': (v: Values) => `Die Aufnahme endet bei ${v.time_s}; der Verkehrsteilnehmer fährt oder geht geradeaus mit gleichem Tempo weiter.`,
+    'motion-ends': (v: Values) => `Die bekannte Bewegung endet bei ${v.time_s}; es geht geradeaus mit gleichem Tempo weiter.`,
   },
 };

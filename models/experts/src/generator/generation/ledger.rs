@@ -9,6 +9,7 @@ use crate::generator::extrapolation::Guessed;
 use crate::generator::others::Reacted;
 use crate::generator::report::{self, Outcome};
 use crate::planning::world::World;
+use crate::sentences;
 use crate::request::{
     Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
 };
@@ -247,34 +248,27 @@ impl Ledger {
             if progress.contains_key(&i) || !guessed.moving || guessed.step > end {
                 continue;
             }
-            self.warnings.push(Warning {
-                code: WarningCode::Extrapolated,
-                agent: Some(request.scene.agents[i].id.clone()),
-                detail: format!(
-                    "Nothing says where it is from {:.1} s on; taken to go straight on at its speed.",
-                    guessed.step as f64 * STEP_S
-                ),
-            });
+            let message = sentences::motion_ends(guessed.step as f64 * STEP_S);
+            let id = &request.scene.agents[i].id;
+            self.warnings.push(Warning::of(WarningCode::Extrapolated, id, message));
         }
     }
 
     /// The answer, once all samples are finished.
     pub(super) fn answer(&mut self, windows: usize) -> Answer {
         for (id, resolved) in &self.resolved {
-            if let ReachReport::Unreachable { words, .. } = &resolved.reach {
+            if let ReachReport::Unreachable { message, .. } = &resolved.reach {
                 let known =
                     |w: &Warning| w.code == WarningCode::GoalUnreachable && w.agent.as_ref() == Some(id);
                 if !self.warnings.iter().any(known) {
-                    let agent = Some(id.clone());
-                    let code = WarningCode::GoalUnreachable;
-                    self.warnings.push(Warning { code, agent, detail: words.clone() });
+                    self.warnings.push(Warning::of(WarningCode::GoalUnreachable, id, message.clone()));
                 }
             }
         }
         for (id, resolved) in &self.resolved {
             for (k, via) in resolved.via.iter().enumerate().filter(|(_, via)| !via.passed) {
-                let detail = report::missed_words(k + 1, via);
-                self.warnings.push(Warning { code: WarningCode::ViaMissed, agent: Some(id.clone()), detail });
+                let message = sentences::via_missed(k + 1, via.distance_m, via.time_s, via.tolerance_m);
+                self.warnings.push(Warning::of(WarningCode::ViaMissed, id, message));
             }
         }
         let Self { samples, resolved, warnings, timings, .. } = std::mem::take(self);
