@@ -1,6 +1,6 @@
 // Steps there and back, branches, what is kept of them, and how a scene goes on from it.
 import { describe, expect, it } from 'vitest';
-import { Journal, resume } from '../src/edit/journal';
+import { Journal, resume } from '../src/edit/document/journal';
 import { rename, setGoal, setSeed } from '../src/model/commands';
 import { History, MOST_STEPS, replay } from '../src/model/history';
 import type { GeneratedJson } from '../src/model/json';

@@ -9,7 +9,7 @@ import { castJson, conditionOf, generatedJson, isEmptyCondition, thresholdsOf, w
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 import { shownFuture } from './shown';
 import { withCurve } from './speed-curve';
 

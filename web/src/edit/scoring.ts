@@ -5,7 +5,7 @@ import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/scen
 import { thresholdsOf, trackJson } from '../model/write';
 import type { Generator } from '../net/generator';
 import { readScore } from './read-answer';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 
 /** What everybody does by the document: those asked something follow their futures where there are any. */
 export function followed(scene: Scene, set: MotionSet): MotionSet {

@@ -1,10 +1,10 @@
 // An editing session without a page or a server: its generators live in the test.
 import { Editor } from '../../src/edit/editor';
 import { Generation } from '../../src/edit/generation';
-import { Journal } from '../../src/edit/journal';
-import { SceneFile } from '../../src/edit/scene-file';
-import { SceneList } from '../../src/edit/scene-list';
-import { Saving } from '../../src/edit/saving';
+import { Journal } from '../../src/edit/document/journal';
+import { SceneFile } from '../../src/edit/document/scene-file';
+import { SceneList } from '../../src/edit/document/scene-list';
+import { Saving } from '../../src/edit/document/saving';
 import { Client } from '../../src/net/client';
 import { PassingStepStore } from '../../src/net/step-store';
 import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';

@@ -15,7 +15,7 @@ import type { Editor, Step } from '../editor';
 import { motionAfter, rejudged } from '../motion-after';
 import { followed, scoreOf } from '../scoring';
 import type { Questions, Wanted } from '../question';
-import type { SceneFile } from '../scene-file';
+import type { SceneFile } from '../document/scene-file';
 import { TEXTS } from '../../texts/variants';
 
 /** A document and what everybody does in it. */

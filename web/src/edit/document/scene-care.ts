@@ -1,14 +1,14 @@
 // What one does with scenes as a whole: new ones, copies, names, removing and bringing back.
-import { emptyScene, withoutRoadUsers } from '../model/blank';
-import { rename } from '../model/commands';
-import { isMapRef, type SceneJson } from '../model/json';
-import { Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
+import { emptyScene, withoutRoadUsers } from '../../model/blank';
+import { rename } from '../../model/commands';
+import { isMapRef, type SceneJson } from '../../model/json';
+import { Refused, type Client } from '../../net/client';
+import type { Editor } from '../editor';
 import type { Journal } from './journal';
 import type { Library } from './library';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../../texts/keeping';
 
 /** So long a deleted scene can be brought back from the toast. */
 const UNDELETE_MS = 20_000;

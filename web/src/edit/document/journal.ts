@@ -1,11 +1,11 @@
 // What was done in the open scene, kept on this computer step by step, so that undo and redo outlive the page.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import { History, replay, type HistoryChange, type KeptHistory } from '../model/history';
-import { isComplete, stateOf, withState, type SceneState } from '../model/scene-diff';
-import { sceneKey, type Scene } from '../model/scene';
-import type { GeneratedJson } from '../model/json';
-import { ofAgents, variantsJson } from '../model/write';
-import { isFull, type KeptScene, type StepStore, type Synced } from '../net/step-store';
+import { History, replay, type HistoryChange, type KeptHistory } from '../../model/history';
+import { isComplete, stateOf, withState, type SceneState } from '../../model/scene-diff';
+import { sceneKey, type Scene } from '../../model/scene';
+import type { GeneratedJson } from '../../model/json';
+import { ofAgents, variantsJson } from '../../model/write';
+import { isFull, type KeptScene, type StepStore, type Synced } from '../../net/step-store';
 
 /** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
 export type Keeping = 'kept' | 'full' | 'off';

@@ -1,15 +1,15 @@
 // Links with a scene inside: what goes into one, and what is done with one that comes.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Feedback } from '../model/feedback';
-import { isMapRef, type EditorJson, type SceneJson } from '../model/json';
-import { Away, Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
+import type { Feedback } from '../../model/feedback';
+import { isMapRef, type EditorJson, type SceneJson } from '../../model/json';
+import { Away, Refused, type Client } from '../../net/client';
+import type { Editor } from '../editor';
 import type { Library } from './library';
 import type { SceneCare } from './scene-care';
 import type { SceneFile } from './scene-file';
 import type { ShownAt } from './share-link';
 import { isShareLink } from './share-mark';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../../texts/keeping';
 
 /** What of a scene goes into the link. */
 export interface Parts {

@@ -1,17 +1,17 @@
 // Scenes are opened here: from the server, with what this computer keeps of them, if it is this tab's turn.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import { Away, Refused, type Client } from '../net/client';
-import { keep } from '../net/storage';
-import { SceneTurns } from '../net/scene-lock';
-import { isMapRef, type MapJson, type SceneJson } from '../model/json';
-import { readGenerated, readScene, SceneError } from '../model/read';
-import { touched, type Scene } from '../model/scene';
-import type { Editor, Lock } from './editor';
+import { Away, Refused, type Client } from '../../net/client';
+import { keep } from '../../net/storage';
+import { SceneTurns } from '../../net/scene-lock';
+import { isMapRef, type MapJson, type SceneJson } from '../../model/json';
+import { readGenerated, readScene, SceneError } from '../../model/read';
+import { touched, type Scene } from '../../model/scene';
+import type { Editor, Lock } from '../editor';
 import { resume, type Journal } from './journal';
 import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../../texts/keeping';
 
 const WELCOME_BACK_MS = 9000;
 /** Less than a tab that waits for its turn has patience. */

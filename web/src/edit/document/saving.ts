@@ -1,10 +1,10 @@
 // Saving: every step is kept on this computer, and own scenes go to the server after it. Examples stay here until a
 // copy is made of them.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { SceneJson } from '../model/json';
-import type { Scene } from '../model/scene';
-import { Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
+import type { SceneJson } from '../../model/json';
+import type { Scene } from '../../model/scene';
+import { Refused, type Client } from '../../net/client';
+import type { Editor } from '../editor';
 import type { Journal } from './journal';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';

@@ -1,11 +1,11 @@
 // The open scene as a file: as it came, and as it is written back with the user's changes in it.
-import type { GeneratedJson, MapJson, SceneJson } from '../model/json';
-import type { MotionSet } from '../model/futures';
-import { rosterOfJson } from '../model/read';
-import type { Scene } from '../model/scene';
-import { castJson, generatedJson, variantSample, writeScene } from '../model/write';
-import type { SceneRef } from '../net/generator';
-import type { Editor } from './editor';
+import type { GeneratedJson, MapJson, SceneJson } from '../../model/json';
+import type { MotionSet } from '../../model/futures';
+import { rosterOfJson } from '../../model/read';
+import type { Scene } from '../../model/scene';
+import { castJson, generatedJson, variantSample, writeScene } from '../../model/write';
+import type { SceneRef } from '../../net/generator';
+import type { Editor } from '../editor';
 
 interface VariantTake {
   readonly id: number;
