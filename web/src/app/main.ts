@@ -47,7 +47,7 @@ function makeOpening(): Opening {
   const scenes = new SceneList(client);
   const file = new SceneFile(editor);
   const journal = new Journal(typeof indexedDB === 'undefined' ? new PassingStepStore() : new BrowserStepStore());
-  const saving = new Saving(editor, file, scenes, client, journal);
+  const saving = new Saving(editor.document, file, scenes, client, journal);
   const library = new Library(editor, file, saving, scenes, client, journal);
   const main = document.createElement('main');
   main.className = 'stage';

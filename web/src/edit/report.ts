@@ -4,7 +4,8 @@ import { counted, type TrafficEvent } from '../model/events';
 import { goalTimeOf, nameIn, type Scene } from '../model/scene';
 import { num, seconds } from '../model/units';
 import { headline } from '../model/verdict-words';
-import type { Editor, Step } from './editor';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
 import { TEXTS } from '../texts/generation';
 
 /** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */

@@ -87,7 +87,13 @@ export class Session {
     const { editor } = this;
     const file = new SceneFile(editor);
     const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
-    const saving = new Saving(editor, file, new SceneList(client), client, new Journal(new PassingStepStore()));
+    const saving = new Saving(
+      editor.document,
+      file,
+      new SceneList(client),
+      client,
+      new Journal(new PassingStepStore()),
+    );
     this.generation = new Generation(editor, file, saving, this.generator, this.others);
     file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
     editor.open(readScene(json));

@@ -1,151 +1,158 @@
-// Saving: every step is kept on this computer, and own scenes go to the server after it. Examples stay here until a
-// copy is made of them.
+// Saving: every step is kept on this computer, and own scenes go to the server after it, each by a queue of its own.
+// Examples stay here until a copy is made of them.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { SceneJson } from '../../model/json';
-import type { Scene } from '../../model/scene';
-import { Refused, type Client } from '../../net/client';
-import type { Editor } from '../editor';
-import type { Journal } from './journal';
-import type { SceneFile } from './scene-file';
+import { isMapRef, type SceneJson } from '../../model/json';
+import type { Committed } from '../../model/history';
+import { readScene } from '../../model/read';
+import type { Client } from '../../net/client';
+import type { Document } from './document';
+import { isOneOf, versionOf, type Journal, type Standing } from './journal';
+import { SaveQueue, type Conflict, type QueueState } from './save-queue';
+import type { SceneFile, Snapshot } from './scene-file';
 import type { SceneList } from './scene-list';
 
 /** `local`: kept on this computer only. `full`: there was no room even for that. `off`: this page may keep nothing. */
 export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full' | 'off';
 
-const DELAY_MS = 300;
-
 export class Saving {
-  readonly #server = signal<'none' | 'saved' | 'saving' | 'behind' | 'conflict'>('none');
-  readonly #conflict = signal<{ etag: string | null } | null>(null);
-  #etag: string | null = null;
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #running: Promise<void> | null = null;
-  #again = false;
+  readonly #queues = new Map<string, SaveQueue>();
+  /** The queue of the open scene; null where that is not saved to the server. */
+  readonly #open = signal<SaveQueue | null>(null);
+  /** The version of the document that the server holds. */
+  readonly #held = signal<number | null>(null);
 
   /** The version on the server that is not ours. */
-  readonly conflict: ReadonlySignal<{ etag: string | null } | null> = this.#conflict;
+  readonly conflict = computed<Conflict | null>(() => this.#open.value?.conflict.value ?? null);
   readonly state: ReadonlySignal<SaveState>;
 
   constructor(
-    private readonly editor: Editor,
+    private readonly document: Document,
     private readonly file: SceneFile,
     private readonly list: SceneList,
     private readonly client: Client,
     private readonly journal: Journal,
   ) {
     this.state = computed<SaveState>(() => {
-      const server = this.#server.value;
+      const server = this.#serverState();
       if (server === 'conflict' || server === 'saved' || server === 'saving') return server;
-      const keeping = journal.keeping.value;
-      const changed = editor.undoName.value !== null || server === 'behind';
+      const changed = document.undoName.value !== null || server === 'behind';
       if (!changed) return 'example';
+      const keeping = journal.keeping.value;
       return keeping === 'kept' ? 'local' : keeping;
     });
   }
 
+  /** Null for a scene that is not saved to the server. */
+  #serverState(): QueueState | null {
+    const state = this.#open.value?.state.value ?? null;
+    // A version that nobody has pushed is not on the server, whatever became of the ones before it.
+    return state === 'saved' && this.#held.value !== this.document.committed.value?.version ? 'behind' : state;
+  }
+
+  /** ETag of the open scene on the server, as far as it is known. */
   get etag(): string | null {
-    return this.#etag;
+    return this.#open.peek()?.etag ?? null;
   }
 
-  /** Another scene is open. `ahead`: with changes that the server does not have; `conflict`: and it has others. */
-  opened(scene: Scene, etag: string | null, standing: 'same' | 'ahead' | 'conflict'): void {
-    clearTimeout(this.#timer);
-    this.#etag = etag;
-    this.#conflict.value = standing === 'conflict' ? { etag } : null;
-    const own = this.file.stored && this.list.isOwn(scene.id);
-    this.#server.value = !own ? 'none' : standing === 'same' ? 'saved' : standing === 'ahead' ? 'behind' : 'conflict';
+  /** The newest version of a scene, where the server lacks it. */
+  unsaved(id: string): Snapshot | null {
+    return this.#queues.get(id)?.unsaved ?? null;
   }
 
-  /** A document change was committed. */
-  changed(scene: Scene): void {
-    if (!this.file.raw || !this.file.stored || !this.list.isOwn(scene.id)) return;
-    if (this.editor.lock.peek() || this.#conflict.peek()) return;
-    this.#server.value = 'saving';
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => void this.#save(), DELAY_MS);
+  /** ETag of the version that the unsaved one of a scene replaces. */
+  etagOf(id: string): string | null {
+    return this.#queues.get(id)?.etag ?? null;
+  }
+
+  /** Another scene is open: `ahead` with changes that the server does not have, `conflict` where it has others. */
+  opened(committed: Committed, etag: string | null, standing: Standing): void {
+    const { id } = committed.scene;
+    void this.#open.peek()?.flush();
+    if (!this.#isSaved(id)) {
+      this.#open.value = null;
+      return;
+    }
+    const queue = this.#queueOf(id);
+    queue.opened(etag, standing === 'ahead' ? 'behind' : standing === 'conflict' ? 'conflict' : 'saved');
+    this.#held.value = committed.version;
+    this.#open.value = queue;
+  }
+
+  /** The committed document has changed, or more is known of it. */
+  changed(): void {
+    const snapshot = this.document.lock.peek() ? null : this.file.snapshot();
+    if (snapshot && this.#isSaved(snapshot.committed.scene.id)) this.#open.peek()?.push(snapshot);
   }
 
   /**
-   * What everybody does in the document is known, and is kept with it. Worked out anew when it is opened again it
+   * What all road users do in the document is known, and is kept with it. Worked out anew when it is opened again it
    * could be another: a drag and its release go on from what the hand has seen.
    */
-  answered(scene: Scene): void {
-    if (this.file.stored && this.list.isOwn(scene.id)) this.changed(scene);
+  answered(): void {
+    if (this.#open.peek()) this.changed();
     else this.journal.keepAnswers(this.file.answers());
   }
 
-  /** The server is back, or there is room again: what could not be saved is saved now. */
+  /** The server is back: what could not be saved is saved now. */
   retry(): void {
-    if (this.#server.peek() === 'behind' && !this.editor.lock.peek()) void this.#save();
+    for (const queue of this.#queues.values()) queue.retry();
   }
 
-  /** What is to be saved is saved, or cannot be. */
-  async flush(): Promise<void> {
-    if (this.#server.peek() !== 'saving') return;
-    clearTimeout(this.#timer);
-    await (this.#running ?? this.#save());
-    if (this.#running) await this.#running;
+  /** The open scene, and one that is about to be opened: what is to be saved is saved, or cannot be. */
+  async flush(id?: string): Promise<void> {
+    const about = id === undefined ? undefined : this.#queues.get(id);
+    about?.retry();
+    await Promise.all([this.#open.peek()?.flush(), about?.flush()]);
   }
 
-  /** Conflict: this version replaces the other one. */
+  /** Another tab takes care of the open scene from now on, with the steps that are kept of it. */
+  letGo(): void {
+    if (this.journal.keeping.peek() === 'kept') this.#open.peek()?.stop();
+  }
+
+  /** Conflict: this version replaces the other one, or makes the scene again where it was deleted. */
   async keepMine(): Promise<void> {
-    await this.#save(true);
-    if (this.#server.peek() === 'saved') this.#conflict.value = null;
+    const snapshot = this.file.snapshot();
+    if (snapshot) await this.#open.peek()?.keep(snapshot);
   }
 
   /** Conflict: the other version is on screen now. */
   tookTheirs(etag: string | null): void {
-    this.#etag = etag;
-    this.#conflict.value = null;
-    this.#server.value = 'saved';
+    this.#open.peek()?.tookTheirs(etag);
+    this.#held.value = this.document.committed.peek()?.version ?? null;
   }
 
-  #save(force = false): Promise<void> {
-    if (this.#running) {
-      this.#again = true;
-      return this.#running;
-    }
-    this.#running = this.#saveNow(force).finally(() => {
-      this.#running = null;
-      if (!this.#again) return;
-      this.#again = false;
-      if (this.#server.peek() !== 'conflict') void this.#save();
+  #isSaved(id: string): boolean {
+    return this.file.stored && this.list.isOwn(id);
+  }
+
+  #queueOf(id: string): SaveQueue {
+    const known = this.#queues.get(id);
+    if (known) return known;
+    const queue: SaveQueue = new SaveQueue(id, this.client, {
+      saved: (snapshot, etag) => this.#saved(queue, snapshot, etag),
+      isOurs: (theirs, unsure) => this.#isOurs(queue, theirs, unsure),
     });
-    return this.#running;
+    this.#queues.set(id, queue);
+    return queue;
   }
 
-  async #saveNow(force: boolean): Promise<void> {
-    const scene = this.editor.scene.peek();
-    const step = this.editor.history?.head ?? null;
-    const body = this.file.current();
-    if (!scene || !body) return;
-    try {
-      const etag = await this.#put(scene.id, body, force);
-      if (this.editor.scene.peek()?.id !== scene.id) return;
-      this.#etag = etag;
-      this.file.noteStored(body);
-      if (etag) this.journal.synced(etag, step);
-      if (this.editor.scene.peek() === scene) this.#server.value = 'saved';
-      void this.list.refresh().catch(() => undefined);
-    } catch (e) {
-      if (this.editor.scene.peek()?.id === scene.id) this.#failed(e);
+  #saved(queue: SaveQueue, { committed, body }: Snapshot, etag: string | null): void {
+    if (this.#open.peek() === queue) {
+      this.#held.value = committed.version;
+      this.file.noteStored(body());
     }
+    if (etag) this.journal.synced(committed, etag);
+    void this.list.refresh().catch(() => undefined);
   }
 
-  #failed(e: unknown): void {
-    const conflict = e instanceof Refused && e.status === 412;
-    if (conflict) this.#conflict.value = { etag: e.problem.etag ?? null };
-    this.#server.value = conflict ? 'conflict' : 'behind';
-  }
-
-  async #put(id: string, body: SceneJson, force: boolean): Promise<string | null> {
-    const etag = force ? (this.#conflict.peek()?.etag ?? (await this.client.scene(id)).etag) : this.#etag;
-    try {
-      return await this.client.save(id, body, etag);
-    } catch (e) {
-      const unknownMap = e instanceof Refused && e.problem.code === 'unknown-map';
-      if (unknownMap) return this.client.save(id, this.file.complete()!, etag);
-      throw e;
-    }
+  /** A save whose reply was lost, or one of another tab that kept its steps here, is no other version. */
+  #isOurs(queue: SaveQueue, theirs: SceneJson, unsure: readonly Snapshot[]): boolean {
+    const map = isMapRef(theirs.map) ? this.file.map : theirs.map;
+    if (!map) return false;
+    const version = versionOf(readScene(theirs, map));
+    if (unsure.some((s) => versionOf(s.committed.scene) === version)) return true;
+    const { history } = this.document;
+    return this.#open.peek() === queue && history !== null && isOneOf(version, history, this.journal.syncedTo);
   }
 }

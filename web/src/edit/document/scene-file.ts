@@ -1,16 +1,27 @@
-// The open scene as a file: as it came, and as it is written back with the user's changes in it.
+// The open scene as a file: as it came, and as it is written back with the committed changes in it.
 import type { GeneratedJson, MapJson, SceneJson } from '../../model/json';
 import type { MotionSet } from '../../model/futures';
+import type { Committed } from '../../model/history';
 import { rosterOfJson } from '../../model/read';
-import type { Scene } from '../../model/scene';
+import { sceneKey, type Scene } from '../../model/scene';
 import { castJson, generatedJson, variantSample, writeScene } from '../../model/write';
 import type { SceneRef } from '../../net/generator';
-import type { Editor } from '../editor';
+import type { Session } from './session';
 
 interface VariantTake {
   readonly id: number;
   readonly scene: Scene;
   readonly set: MotionSet;
+}
+
+/** A committed document as it is written, whatever is opened or changed after it. */
+export interface Snapshot {
+  readonly committed: Committed;
+  readonly map: MapJson | null;
+  /** With the futures that belong to it; the map by its hash where the server has it. */
+  body(): SceneJson;
+  /** The same with the map inside: for files, and for servers that do not know the map. */
+  complete(): SceneJson;
 }
 
 export class SceneFile {
@@ -27,7 +38,7 @@ export class SceneFile {
   /** Who is in the version that the server holds. */
   #roster: string | null = null;
 
-  constructor(private readonly editor: Editor) {}
+  constructor(private readonly session: Session) {}
 
   adopt(json: SceneJson, map: MapJson, stored: boolean): void {
     this.raw = json;
@@ -60,51 +71,50 @@ export class SceneFile {
     return this.#withConditions.has(id);
   }
 
-  /** The scene with its changes and the futures that belong to them; the map by its hash where the server has it. */
-  current(): SceneJson | null {
-    const scene = this.editor.scene.peek();
-    const json = scene && this.#written(scene, this.editor.motion.peek());
-    return json && this.#withVariants(json);
+  /** The committed document as it is now; null while nothing is open. */
+  snapshot(): Snapshot | null {
+    const committed = this.session.document.committed.peek();
+    const { raw, map, mapRef } = this;
+    if (!committed || !raw) return null;
+    const { scene } = committed;
+    const generated = this.answers();
+    const takes = generated ? this.variantTakes() : [];
+    let written: SceneJson | null = null;
+    const body = (): SceneJson =>
+      (written ??= withVariants(
+        writeScene(raw, scene, generated, mapRef ? { ref: mapRef } : (map ?? undefined)),
+        takes,
+      ));
+    return { committed, map, body, complete: () => (map ? { ...body(), map } : body()) };
   }
 
-  /** Kept variants go with what everybody does in them: another generator may not draw them again. */
-  #withVariants(json: SceneJson): SceneJson {
-    const { generated, x_editor } = json;
-    const kept = generated ? this.variantTakes() : [];
-    if (!generated || !kept.length) return json;
-    const index = new Map(kept.map(({ id }, i) => [id, generated.samples.length + i]));
-    const variants = x_editor?.variants?.map((v) => (index.has(v.id) ? { ...v, sample: index.get(v.id) } : v));
-    const samples = [...generated.samples, ...kept.map(({ scene, set }) => variantSample(scene, set))];
-    return { ...json, generated: { ...generated, samples }, x_editor: { ...x_editor, variants } };
-  }
-
-  /** The futures that belong to the document; null while they are not known, and where nobody has any. */
+  /** The futures that belong to the committed document; null while they are not known, and where there are none. */
   answers(): GeneratedJson | null {
-    const scene = this.editor.scene.peek();
-    return scene && answersIn(scene, this.editor.motion.peek());
-  }
-
-  #written(scene: Scene, m: MotionSet): SceneJson | null {
-    if (!this.raw) return null;
-    return writeScene(
-      this.raw,
-      scene,
-      answersIn(scene, m),
-      this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined),
-    );
+    const scene = this.session.document.scene.peek();
+    const set = this.session.motion.peek();
+    return scene && set.key === sceneKey(scene) ? answersIn(scene, set) : null;
   }
 
   /** A document as a file of its own, with the map inside. */
   completeOf(scene: Scene, set: MotionSet): SceneJson | null {
-    const json = this.#written(scene, set);
-    return json && this.map ? { ...json, map: this.map } : json;
+    const { raw, map } = this;
+    return raw && writeScene(raw, scene, answersIn(scene, set), map ?? undefined);
   }
 
-  /** The same with the map inside: for files, and for servers that do not know the map. */
+  /** The committed document as a file, with the map inside. */
   complete(): SceneJson | null {
-    const json = this.current();
-    return json && this.map ? { ...json, map: this.map } : json;
+    return this.snapshot()?.complete() ?? null;
   }
+}
+
+/** Kept variants go with the motions of all road users in them: another generator may not draw them again. */
+function withVariants(json: SceneJson, takes: readonly VariantTake[]): SceneJson {
+  const { generated, x_editor } = json;
+  if (!generated || !takes.length) return json;
+  const index = new Map(takes.map(({ id }, i) => [id, generated.samples.length + i]));
+  const variants = x_editor?.variants?.map((v) => (index.has(v.id) ? { ...v, sample: index.get(v.id) } : v));
+  const samples = [...generated.samples, ...takes.map(({ scene, set }) => variantSample(scene, set))];
+  return { ...json, generated: { ...generated, samples }, x_editor: { ...x_editor, variants } };
 }
 
 function answersIn(scene: Scene, m: MotionSet): GeneratedJson | null {
