@@ -1,13 +1,13 @@
 // Boxes on the ground: whether they touch, how far they are apart, and when several come closest.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { gapAtLeast, gapBetween, touching, type Footprint } from '../src/model/boxes';
-import { closestOf, gapNow, timeGapOf, timeToCollision } from '../src/model/closest';
-import { KIND_NAMES, kindsWords } from '../src/model/kinds';
-import { newcomer, settle } from '../src/model/newcomer';
-import { PRESETS } from '../src/model/kinds';
-import { motionFrom, type Motion } from '../src/model/motion';
-import type { Agent } from '../src/model/scene';
+import { gapAtLeast, gapBetween, touching, type Footprint } from '../src/model/physics/boxes';
+import { closestOf, gapNow, timeGapOf, timeToCollision } from '../src/model/physics/proximity';
+import { KIND_NAMES, kindsWords } from '../src/model/base/kinds';
+import { newcomer, settle } from '../src/model/document/newcomer';
+import { PRESETS } from '../src/model/base/kinds';
+import { motionFrom, type Motion } from '../src/model/base/motion';
+import type { Agent } from '../src/model/document/scene';
 import { ghostAt, firstChoice } from '../src/edit/placing';
 import { crossing } from './helpers';
 

@@ -1,11 +1,11 @@
 // Cases: what counts as one, what is tried, and what a search leaves behind.
 import { describe, expect, it } from 'vitest';
-import { NOTHING_SAID } from '../src/model/about';
-import { attempt, withAttempt } from '../src/model/attempts';
-import { alike, KINDS, momentOf, type Moment, type Sought } from '../src/model/cases';
-import { emptyMotion, type MotionSet } from '../src/model/futures';
-import { motionFrom, type Motion } from '../src/model/motion';
-import { sceneKey, startPose, withAgents, type Scene } from '../src/model/scene';
+import { NOTHING_SAID } from '../src/model/document/future-facts';
+import { attempt, withAttempt } from '../src/model/physics/attempts';
+import { alike, KINDS, momentOf, type Moment, type Sought } from '../src/model/physics/cases';
+import { emptyMotion, type MotionSet } from '../src/model/document/futures';
+import { motionFrom, type Motion } from '../src/model/base/motion';
+import { sceneKey, startPose, withAgents, type Scene } from '../src/model/document/scene';
 import { Cases } from '../src/edit/cases/cases';
 import { Questions } from '../src/edit/question';
 import { SceneFile } from '../src/edit/document/scene-file';

@@ -1,15 +1,15 @@
 // Road users come, go, change kind and are changed together: every command has an exact inverse, however they mix.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import type { Command } from '../src/model/commands';
-import { resetAgent, resetAll, setGoal } from '../src/model/commands';
-import { History } from '../src/model/history';
-import { PLACED_KINDS, PRESETS } from '../src/model/kinds';
-import { copiesText, newcomer, readCopies } from '../src/model/newcomer';
-import { readScene } from '../src/model/read';
-import { newIds, sceneKey, startPose, type Agent, type Scene } from '../src/model/scene';
-import { writeScene } from '../src/model/write';
-import { patchVariant, replaceVariants, sameCast, stateOfVariant, takeVariant } from '../src/model/variants';
+import type { Command } from '../src/model/document/commands';
+import { resetAgent, resetAll, setGoal } from '../src/model/document/commands';
+import { History } from '../src/model/document/history';
+import { PLACED_KINDS, PRESETS } from '../src/model/base/kinds';
+import { copiesText, newcomer, readCopies } from '../src/model/document/newcomer';
+import { readScene } from '../src/model/document/scene-reader';
+import { newIds, sceneKey, startPose, type Agent, type Scene } from '../src/model/document/scene';
+import { writeScene } from '../src/model/document/scene-writer';
+import { patchVariant, replaceVariants, sameCast, stateOfVariant, takeVariant } from '../src/model/document/variants';
 import * as several from '../src/edit/several';
 import { crossing, crossingJson } from './helpers';
 

@@ -17,12 +17,12 @@ import {
   setSize,
   setStart,
   type Command,
-} from '../src/model/commands';
-import { History } from '../src/model/history';
-import type { Agent, GoalSpec, Scene, StartSpec } from '../src/model/scene';
-import { LENGTHS, REPLANS, sceneKey } from '../src/model/scene';
+} from '../src/model/document/commands';
+import { History } from '../src/model/document/history';
+import type { Agent, GoalSpec, Scene, StartSpec } from '../src/model/document/scene';
+import { LENGTHS, REPLANS, sceneKey } from '../src/model/document/scene';
 import { crossing } from './helpers';
-import { via } from '../src/model/via';
+import { via } from '../src/model/document/vias';
 
 const number = fc.double({ min: -200, max: 200, noNaN: true });
 const pos = fc.option(fc.tuple(number, number).map(([x, y]) => [x, y] as const));

@@ -1,9 +1,9 @@
 // What somebody does beside what was recorded of it, where the recording has gaps, begins late or goes on for longer.
 import { describe, expect, it } from 'vitest';
-import { comparedWithLog, findChanges } from '../src/model/changes';
-import { emptyMotion } from '../src/model/futures';
-import { distances, motionFrom, type Motion } from '../src/model/motion';
-import { sceneKey, withAgents, type Agent } from '../src/model/scene';
+import { comparedWithLog, findChanges } from '../src/model/words/change-words';
+import { emptyMotion } from '../src/model/document/futures';
+import { distances, motionFrom, type Motion } from '../src/model/base/motion';
+import { sceneKey, withAgents, type Agent } from '../src/model/document/scene';
 import { car, crossing } from './helpers';
 
 /** Along x at 10 m/s, seen in these steps; elsewhere the columns hold noughts, as files have them. */

@@ -1,9 +1,9 @@
 // Where ways cross within a short time: crossing and meeting count, following and passing much later do not.
 import { describe, expect, it } from 'vitest';
-import { conflictZones, WITHIN_S } from '../src/model/conflicts';
-import { emptyMotion, type MotionSet } from '../src/model/futures';
-import { STEP_S, type Motion } from '../src/model/motion';
-import { withAgents, type Agent, type Scene } from '../src/model/scene';
+import { conflictZones, WITHIN_S } from '../src/model/physics/conflicts';
+import { emptyMotion, type MotionSet } from '../src/model/document/futures';
+import { STEP_S, type Motion } from '../src/model/base/motion';
+import { withAgents, type Agent, type Scene } from '../src/model/document/scene';
 import { car, crossing } from './helpers';
 
 /** From a place in a direction at 10 m/s, from so many seconds on. */

@@ -1,8 +1,9 @@
 // What of a speed curve cannot be driven, and the ways out that are offered.
 import { describe, expect, it } from 'vitest';
-import { misfitOf, type Asked } from '../src/model/curve-fit';
-import { limitsOf } from '../src/model/domain';
-import { motionOf, type SpeedPoint } from '../src/model/profile';
+import { misfitOf, type Asked } from '../src/model/physics/curve-fit';
+import { limitsOf } from '../src/model/base/domain';
+import { motionOf } from '../src/model/physics/speed-profile';
+import type { SpeedPoint } from '../src/model/document/profile';
 
 const LIMITS = limitsOf({ type: 'vehicle', subtype: 'car' });
 const path = {

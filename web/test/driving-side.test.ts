@@ -1,11 +1,11 @@
 // On which side one drives: worked out from the lanes, or said by what the map was made from.
 import { describe, expect, it } from 'vitest';
-import type { MapJson, Point, SceneJson } from '../src/model/json';
-import { drivingSide } from '../src/model/driving-side';
-import { readScene } from '../src/model/read';
+import type { MapJson, Point, SceneJson } from '../src/model/document/scene-json';
+import { drivingSide } from '../src/model/physics/driving-side';
+import { readScene } from '../src/model/document/scene-reader';
 import { View } from '../src/draw/view';
 import { overArea } from '../src/edit/placing';
-import { PRESETS } from '../src/model/kinds';
+import { PRESETS } from '../src/model/base/kinds';
 import { Layouts } from '../src/edit/layouts';
 import { crossing, crossingJson } from './helpers';
 

@@ -3,7 +3,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { goToEvent, time } from '../src/actions/time';
 import type { Context } from '../src/actions/context';
 import { View } from '../src/draw/view';
-import type { TrafficEvent } from '../src/model/events';
+import type { TrafficEvent } from '../src/model/words/event-words';
 
 const event = (x: number, y: number, time: number) =>
   ({ at: [x, y], time, inLog: false, kind: 'near' }) as unknown as TrafficEvent;

@@ -1,31 +1,32 @@
 // What is said of futures in rounds: every step can be taken back, a file has it all, words say what it rests on.
 import { describe, expect, it } from 'vitest';
 import {
-  addWish,
   answerTo,
   docOf,
+  hasNews,
+  presentRound,
+  readFeedback,
+  type Asked,
+  type Verdict,
+} from '../src/model/document/feedback';
+import { feedbackTable } from '../src/model/words/feedback-table';
+import { againstWords, reasons, restsOn, wishWords } from '../src/model/words/feedback-words';
+import { patchScene, takeDealt, type Command } from '../src/model/document/commands';
+import { applyDiff, diffOf } from '../src/model/document/scene-diff';
+import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/document/scene-json';
+import { readScene } from '../src/model/document/scene-reader';
+import { printOf, sceneKey, type Scene } from '../src/model/document/scene';
+import {
+  addWish,
   everybody,
   forget,
-  hasNews,
   judge,
   nextRound,
   oneSubject,
-  presentRound,
-  printOf,
-  readFeedback,
-  type Asked,
   type Judged,
   type Subject,
-  type Verdict,
-} from '../src/model/feedback';
-import { feedbackTable } from '../src/model/feedback-table';
-import { againstWords, reasons, restsOn, wishWords } from '../src/model/feedback-words';
-import { patchScene, takeDealt, type Command } from '../src/model/commands';
-import { applyDiff, diffOf } from '../src/model/scene-diff';
-import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/json';
-import { readScene } from '../src/model/read';
-import { sceneKey, type Scene } from '../src/model/scene';
-import { writeScene } from '../src/model/write';
+} from '../src/model/document/feedback-commands';
+import { writeScene } from '../src/model/document/scene-writer';
 import { car, crossing, crossingJson } from './helpers';
 
 const like = (harsh: number, more: Partial<FeaturesJson> = {}): FeaturesJson => ({

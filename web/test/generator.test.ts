@@ -1,6 +1,6 @@
 // The conversation with the generator: latest wins, late answers are dropped, losses are survived.
 import { afterEach, describe, expect, it } from 'vitest';
-import type { SceneJson } from '../src/model/json';
+import type { SceneJson } from '../src/model/document/scene-json';
 import { Client } from '../src/net/client';
 import type { Handlers, Question } from '../src/net/generator';
 import { HttpGenerator, type Patience } from '../src/net/http-generator';

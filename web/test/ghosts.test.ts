@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import { Fades } from '../src/draw/fades';
 import { brakeTicks } from '../src/draw/ghosts';
-import type { Motion } from '../src/model/motion';
+import type { Motion } from '../src/model/base/motion';
 
 const at = (id: string, x: number) => ({ id, place: { x, y: 0, heading: 0, speed: 0 } });
 const seen = (f: ReturnType<Fades<ReturnType<typeof at>>['next']>) =>

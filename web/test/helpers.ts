@@ -1,7 +1,7 @@
 import { buildCrossing } from './standin/crossing.mjs';
-import type { SceneJson } from '../src/model/json';
-import { readScene } from '../src/model/read';
-import type { Scene } from '../src/model/scene';
+import type { SceneJson } from '../src/model/document/scene-json';
+import { readScene } from '../src/model/document/scene-reader';
+import type { Scene } from '../src/model/document/scene';
 
 export const crossingJson = (): SceneJson => structuredClone(buildCrossing().scene) as SceneJson;
 export const crossing = (): Scene => readScene(crossingJson());

@@ -1,12 +1,12 @@
 // Steps there and back, branches, what is kept of them, and how a scene goes on from it.
 import { describe, expect, it } from 'vitest';
 import { Journal, resume } from '../src/edit/document/journal';
-import { rename, setGoal, setSeed } from '../src/model/commands';
-import { History, MOST_STEPS, replay } from '../src/model/history';
-import type { GeneratedJson } from '../src/model/json';
-import { readScene } from '../src/model/read';
-import { freeGoal, sceneKey, withAgents, type Agent, type Scene } from '../src/model/scene';
-import { applyDiff, diffOf, isEmptyDiff, stateOf, withState } from '../src/model/scene-diff';
+import { rename, setGoal, setSeed } from '../src/model/document/commands';
+import { History, MOST_STEPS, replay } from '../src/model/document/history';
+import type { GeneratedJson } from '../src/model/document/scene-json';
+import { readScene } from '../src/model/document/scene-reader';
+import { freeGoal, sceneKey, withAgents, type Agent, type Scene } from '../src/model/document/scene';
+import { applyDiff, diffOf, isEmptyDiff, stateOf, withState } from '../src/model/document/scene-diff';
 import { PassingStepStore } from '../src/net/step-store';
 import { crossingJson } from './helpers';
 

@@ -1,7 +1,7 @@
 // What files cannot hold, and what they are good for, in plain words.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { setGoal } from '../src/model/commands';
+import { setGoal } from '../src/model/document/commands';
 import { found, meant } from '../src/edit/outward/finding';
 import { inKinds, outFormats } from '../src/edit/outward/formats';
 import { lossesOf, stays } from '../src/edit/outward/losses';

@@ -1,9 +1,9 @@
 import fc from 'fast-check';
 import { afterEach, describe, expect, it } from 'vitest';
-import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/geometry';
-import { findRoute, nearestLanes } from '../src/model/lanemap';
-import { limitsOf, rangesOf, topSpeed } from '../src/model/domain';
-import { furthestReach, leastReach, localReach } from '../src/model/reach';
+import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/base/geometry';
+import { findRoute, nearestLanes } from '../src/model/document/lanemap';
+import { limitsOf, rangesOf, topSpeed } from '../src/model/base/domain';
+import { furthestReach, leastReach } from '../src/model/physics/reach';
 import {
   areaText,
   densityText,
@@ -19,15 +19,18 @@ import {
   speedLabel,
   toldIn,
   toLength,
-} from '../src/model/units';
-import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
-import { readGenerated, readScene, SceneError } from '../src/model/read';
-import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/write';
-import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/commands';
-import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
-import { findChanges, motionOf, seenUntil } from '../src/model/changes';
-import { readEvents } from '../src/model/events';
-import { freeGoal, sceneKey, startPose, touched, withAgents } from '../src/model/scene';
+} from '../src/model/base/units';
+import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/base/motion';
+import { readScene, SceneError } from '../src/model/document/scene-reader';
+import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/document/scene-writer';
+import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/document/commands';
+import { emptyMotion, placesLike, type MotionSet } from '../src/model/document/futures';
+import { localReach } from '../src/model/words/reach-words';
+import { readGenerated, readFutures } from '../src/model/words/named-futures';
+import { findChanges } from '../src/model/words/change-words';
+import { motionOf, seenUntil } from '../src/model/physics/playback';
+import { readEvents } from '../src/model/words/event-words';
+import { freeGoal, sceneKey, startPose, touched, withAgents } from '../src/model/document/scene';
 import { giveWay, goOn, sixFutures } from './standin/futures.mjs';
 import { car, crossing, crossingJson, walker } from './helpers';
 

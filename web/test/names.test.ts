@@ -1,10 +1,10 @@
 // Names of futures, on lists as the generator answers them: one of each example scene.
 /* eslint-disable max-len -- an answer is one line */
 import { describe, expect, it } from 'vitest';
-import type { FaultKind, Manoeuvre, RelationKind } from '../src/model/json';
-import type { About } from '../src/model/about';
-import { distances, type Motion } from '../src/model/motion';
-import { nameAll, nameRest, type Nameable, type Naming } from '../src/model/names';
+import type { FaultKind, Manoeuvre, RelationKind } from '../src/model/document/scene-json';
+import type { About } from '../src/model/document/future-facts';
+import { distances, type Motion } from '../src/model/base/motion';
+import { nameAll, nameRest, type Nameable, type Naming } from '../src/model/words/future-names';
 
 type Sample = readonly [manoeuvre: string, relations: readonly string[], states: readonly number[]];
 interface Answered {

@@ -1,16 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import { limitsOf } from '../src/model/domain';
+import { limitsOf } from '../src/model/base/domain';
 import {
   addedPoint,
   motionOf,
   movedPoint,
   pathOf,
-  readProfile,
   stopsOf,
   timeOfStop,
   wantedSpeed,
-} from '../src/model/profile';
-import { hardestBraking } from '../src/model/motion';
+} from '../src/model/physics/speed-profile';
+import { readProfile } from '../src/model/document/profile';
+import { hardestBraking } from '../src/model/base/motion';
 
 const line = (metres: number) => ({
   x: Array.from({ length: metres + 1 }, (_, i) => i),

@@ -1,10 +1,10 @@
 // Who changes, by how much, and in which words.
 import { describe, expect, it } from 'vitest';
-import { findChanges } from '../src/model/changes';
-import { emptyMotion, type Future, type MotionSet } from '../src/model/futures';
-import type { ReactionJson } from '../src/model/json';
-import type { Motion } from '../src/model/motion';
-import { answersAhead, reactionWords, type Reaction } from '../src/model/reaction';
+import { emptyMotion, type Future, type MotionSet } from '../src/model/document/futures';
+import type { ReactionJson } from '../src/model/document/scene-json';
+import type { Motion } from '../src/model/base/motion';
+import { answersAhead, type Reaction } from '../src/model/physics/reaction';
+import { findChanges, reactionWords } from '../src/model/words/change-words';
 import { crossing, walker } from './helpers';
 
 const scene = crossing();

@@ -1,14 +1,14 @@
 // Where one stops on a way, and what lanes are called at a junction.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { armWords } from '../src/model/arm-names';
-import { pointAt } from '../src/model/geometry';
-import { turnOf, type Lane } from '../src/model/lanemap';
-import type { Path } from '../src/model/profile';
-import type { SceneJson } from '../src/model/json';
-import { readScene } from '../src/model/read';
-import { startPose } from '../src/model/scene';
-import { stopPlaces } from '../src/model/stop-places';
+import { armWords } from '../src/model/words/arm-names';
+import { pointAt } from '../src/model/base/geometry';
+import { turnOf, type Lane } from '../src/model/document/lanemap';
+import type { Path } from '../src/model/document/profile';
+import type { SceneJson } from '../src/model/document/scene-json';
+import { readScene } from '../src/model/document/scene-reader';
+import { startPose } from '../src/model/document/scene';
+import { stopPlaces } from '../src/model/physics/stop-places';
 import { car, crossing } from './helpers';
 
 const scene = crossing();

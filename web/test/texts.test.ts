@@ -4,7 +4,8 @@ import { readFileSync } from 'node:fs';
 import { german, refused, taps } from '../src/texts/german';
 import { inSentence, languageFor, LANGUAGE, plural } from '../src/texts/language';
 import { marked } from '../src/texts/marked';
-import { table, type Word, type Words } from '../src/texts/table';
+import { table } from '../src/texts/table';
+import type { Word, Words } from '../src/texts/words';
 import { ENGLISH, tapping } from '../src/texts/tapping';
 
 const modules = import.meta.glob<Record<string, unknown>>('../src/texts/*.ts', { eager: true });

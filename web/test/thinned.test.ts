@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { thinned, type Vec } from '../src/model/geometry';
+import { thinned, type Vec } from '../src/model/base/geometry';
 
 const kept = (points: readonly Vec[], tolerance = 0.05): Vec[] => {
   const out: Vec[] = [];

@@ -1,12 +1,12 @@
 // Variants: they come back exactly, kept ones are never written over, names and moments tell them apart.
 import { describe, expect, it } from 'vitest';
-import { choose, patchScene, setGoal } from '../src/model/commands';
-import type { TrafficEvent } from '../src/model/events';
-import { emptyMotion, type Futures, type MotionSet } from '../src/model/futures';
-import { partingOf } from '../src/model/parting';
-import { motionFrom, type Motion } from '../src/model/motion';
-import { readScene } from '../src/model/read';
-import { sceneKey, startPose, type Agent, type Scene } from '../src/model/scene';
+import { choose, patchScene, setGoal } from '../src/model/document/commands';
+import type { TrafficEvent } from '../src/model/words/event-words';
+import { emptyMotion, type Futures, type MotionSet } from '../src/model/document/futures';
+import { partingOf } from '../src/model/words/comparison';
+import { motionFrom, type Motion } from '../src/model/base/motion';
+import { readScene } from '../src/model/document/scene-reader';
+import { sceneKey, startPose, type Agent, type Scene } from '../src/model/document/scene';
 import {
   countOf,
   limitsOfSweep,
@@ -16,8 +16,8 @@ import {
   withValue,
   type Over,
   type Sweep,
-} from '../src/model/sweep';
-import { nameVariants, type Nameless } from '../src/model/variant-names';
+} from '../src/model/physics/sweep';
+import { nameVariants, type Nameless } from '../src/model/words/variant-names';
 import {
   keepAsVariant,
   keyOfVariant,
@@ -26,9 +26,9 @@ import {
   replaceVariants,
   sceneOfVariant,
   stateOfVariant,
-} from '../src/model/variants';
-import { writeScene } from '../src/model/write';
-import type { SceneJson } from '../src/model/json';
+} from '../src/model/document/variants';
+import { writeScene } from '../src/model/document/scene-writer';
+import type { SceneJson } from '../src/model/document/scene-json';
 import { car, crossing, crossingJson, walker } from './helpers';
 
 const withSeed = (s: Scene, seed: number): Scene => patchScene('', { seed, drawn: 1 }).apply(s);

@@ -1,26 +1,20 @@
 // What is said of futures: marks, words, names, letters, places on the picture, events.
 import { describe, expect, it } from 'vitest';
-import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
-import { FAULT_KINDS, markOf, readAbout } from '../src/model/about';
-import { setGoal } from '../src/model/commands';
-import { closeInTime, counted, eventsOf, readEvents, summary } from '../src/model/events';
-import { faultPlaces } from '../src/model/fault-places';
-import {
-  emptyMotion,
-  keepVerdicts,
-  percents,
-  readFutures,
-  withNames,
-  type Futures,
-  type MotionSet,
-} from '../src/model/futures';
-import type { Naming } from '../src/model/names';
-import { readGenerated, readScene } from '../src/model/read';
-import { metAnew, withMeetingsOf } from '../src/model/rejudge';
-import { heldStill } from '../src/model/motion';
-import { nameIn, startPose, withAgents } from '../src/model/scene';
-import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
-import { generatedJson, writeScene } from '../src/model/write';
+import type { FaultJson, ModeJson, RelationJson } from '../src/model/document/scene-json';
+import { FAULT_KINDS, markOf, readAbout } from '../src/model/document/future-facts';
+import { setGoal } from '../src/model/document/commands';
+import { closeInTime, counted } from '../src/model/physics/events';
+import { faultPlaces } from '../src/model/physics/fault-places';
+import { emptyMotion, keepVerdicts, percents, type Futures, type MotionSet } from '../src/model/document/futures';
+import type { Naming } from '../src/model/words/future-names';
+import { readScene } from '../src/model/document/scene-reader';
+import { eventsOf, readEvents, summary } from '../src/model/words/event-words';
+import { readFutures, withNames, readGenerated } from '../src/model/words/named-futures';
+import { metAnew, withMeetingsOf } from '../src/model/physics/verdict-updates';
+import { heldStill } from '../src/model/base/motion';
+import { nameIn, startPose, withAgents } from '../src/model/document/scene';
+import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/words/verdict-words';
+import { generatedJson, writeScene } from '../src/model/document/scene-writer';
 import { FrozenNames } from '../src/edit/frozen-names';
 import { outcome } from '../src/edit/report';
 import { markedSpan, placeSigns, SIGN } from '../src/app/timeline/axes';

@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { clearGoal, setGoal, setVias } from '../src/model/commands';
-import { motionFrom } from '../src/model/motion';
-import { conditionOf } from '../src/model/write';
+import { clearGoal, setGoal, setVias } from '../src/model/document/commands';
+import { motionFrom } from '../src/model/base/motion';
+import { conditionOf } from '../src/model/document/scene-writer';
 import {
   heldTolerance,
   inOrder,
@@ -14,7 +14,7 @@ import {
   viasJson,
   withNew,
   withVia,
-} from '../src/model/via';
+} from '../src/model/document/vias';
 import { mirrorAll, moveAll } from '../src/edit/several';
 import { crossing } from './helpers';
 

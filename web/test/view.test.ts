@@ -1,9 +1,9 @@
 // World to screen and back, however the picture is turned; what is found under the pointer; a picture on its way.
 import fc from 'fast-check';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { deg, rad, wrapAngle, type Vec } from '../src/model/geometry';
-import { setGoal } from '../src/model/commands';
-import { startPose } from '../src/model/scene';
+import { deg, rad, wrapAngle, type Vec } from '../src/model/base/geometry';
+import { setGoal } from '../src/model/document/commands';
+import { startPose } from '../src/model/document/scene';
 import { handlePoints } from '../src/draw/handles';
 import { Recording, Vocabulary } from '../src/draw/recording';
 import { View } from '../src/draw/view';

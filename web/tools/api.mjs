@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 import openapi, { astToString } from 'openapi-typescript';
 
 const document = new URL('../../assets/openapi.json', import.meta.url);
-const target = fileURLToPath(new URL('../src/model/api.ts', import.meta.url));
+const target = fileURLToPath(new URL('../src/model/base/api.ts', import.meta.url));
 const head =
   '// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what\n' +
   '// the editor uses.\n';

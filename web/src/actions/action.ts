@@ -1,8 +1,8 @@
 // An action: one thing a user can do, with everything that buttons, menus, palette and shortcut sheet say of it.
-import type { Agent } from '../model/scene';
-import { canChange, canMove } from '../model/scene';
+import type { Agent } from '../model/document/scene';
+import { canChange, canMove } from '../model/document/scene';
 import { freeOnes } from '../edit/copying';
-import type { Command } from '../model/commands';
+import type { Command } from '../model/document/commands';
 import type { Part } from '../edit/editor';
 import type { Help } from '../texts/helps';
 import type { Context } from './context';

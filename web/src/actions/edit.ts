@@ -1,8 +1,8 @@
 // Edit: copies, removal, locks, kinds, names; what single road users do while others change.
 import type { Help } from '../texts/helps';
-import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/kinds';
-import type { Others } from '../model/scene';
-import { doing } from '../model/scene';
+import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/base/kinds';
+import type { Others } from '../model/document/scene';
+import { doing } from '../model/document/scene';
 import { lockedWords, removeSelected } from '../edit/copying';
 import * as several from '../edit/several';
 import { hasAgent, hasScene, hasSome, inGroup, onSome, type Action } from './action';

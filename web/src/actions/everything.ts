@@ -1,6 +1,6 @@
 // Everything: undo, the palette, help, and the page itself.
 import { inGroup } from './action';
-import { nextSpeedUnit } from '../model/units';
+import { nextSpeedUnit } from '../model/base/units';
 import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';

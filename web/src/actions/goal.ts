@@ -1,7 +1,7 @@
 // Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
-import { canChange, changedByHand, hasGoal, type Agent } from '../model/scene';
-import { clearGoal, resetAgent, setSeed, type Command } from '../model/commands';
-import { LETTERS } from '../model/futures';
+import { canChange, changedByHand, hasGoal, type Agent } from '../model/document/scene';
+import { clearGoal, resetAgent, setSeed, type Command } from '../model/document/commands';
+import { LETTERS } from '../model/document/futures';
 import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
 import { pinnedAt, togglePin } from '../edit/pins';

@@ -1,7 +1,7 @@
 // Select and look: tools, who is selected, the view, the layers.
 import type { Help } from '../texts/helps';
-import { nearestLanes } from '../model/lanemap';
-import { canChange, startPose, type Agent } from '../model/scene';
+import { nearestLanes } from '../model/document/lanemap';
+import { canChange, startPose, type Agent } from '../model/document/scene';
 import { knowsLimits } from '../draw/ground';
 import { TOOLS } from '../edit/gestures/tools';
 import type { LayerName } from '../edit/layers';

@@ -1,13 +1,13 @@
 // Move: the start or the goal of the selected road user, by keys.
 import type { Help } from '../texts/helps';
-import type { Agent } from '../model/scene';
-import type { Command } from '../model/commands';
+import type { Agent } from '../model/document/scene';
+import type { Command } from '../model/document/commands';
 import type { View } from '../draw/view';
 import type { Editor, Part } from '../edit/editor';
 import { freeOnes } from '../edit/copying';
 import * as moves from '../edit/moves';
 import * as several from '../edit/several';
-import { rad } from '../model/geometry';
+import { rad } from '../model/base/geometry';
 import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
 import { TEXTS } from '../texts/actions';

@@ -1,5 +1,5 @@
 // Place: tools that put road users into the scene, and filling it.
-import type { PlacedKind } from '../model/kinds';
+import type { PlacedKind } from '../model/base/kinds';
 import { TOOLS } from '../edit/gestures/tools';
 import { placeGhost } from '../edit/gestures/placing';
 import { hasScene, inGroup } from './action';

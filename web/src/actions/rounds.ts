@@ -1,6 +1,6 @@
 // Rounds: futures of one road user, or ways the whole scene could go, are kept or rejected, and drawn anew by that.
-import { LETTERS } from '../model/futures';
-import { canChange } from '../model/scene';
+import { LETTERS } from '../model/document/futures';
+import { canChange } from '../model/document/scene';
 import { hasFree, inGroup, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS as PAGE } from '../texts/page';

@@ -1,7 +1,7 @@
 // Scene: the list, new ones and copies, files in and out, what was done.
 import type { Help } from '../texts/helps';
-import type { Others } from '../model/scene';
-import { resetAll, setOthers } from '../model/commands';
+import type { Others } from '../model/document/scene';
+import { resetAll, setOthers } from '../model/document/commands';
 import { hasScene, inGroup, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';

@@ -1,8 +1,9 @@
 // Time: playback, events, how much is worked out.
-import { counted, type TrafficEvent } from '../model/events';
-import { LENGTHS, REPLANS } from '../model/scene';
-import { setLength, setReplan } from '../model/commands';
-import { STEP_S } from '../model/motion';
+import { counted } from '../model/physics/events';
+import type { TrafficEvent } from '../model/words/event-words';
+import { LENGTHS, REPLANS } from '../model/document/scene';
+import { setLength, setReplan } from '../model/document/commands';
+import { STEP_S } from '../model/base/motion';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';

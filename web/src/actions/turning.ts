@@ -1,7 +1,7 @@
 // The picture turned: along a road, by steps, and north up again.
-import { nearestLanes } from '../model/lanemap';
-import { rad, type OnLine, type Vec } from '../model/geometry';
-import { startPose } from '../model/scene';
+import { nearestLanes } from '../model/document/lanemap';
+import { rad, type OnLine, type Vec } from '../model/base/geometry';
+import { startPose } from '../model/document/scene';
 import type { Editor } from '../edit/editor';
 import { poseShown } from '../edit/frame';
 import { lanesFor } from '../edit/snap';

@@ -1,5 +1,5 @@
 // Variants: ways the scene could go, side by side.
-import type { Moment } from '../model/parting';
+import type { Moment } from '../model/words/comparison';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/actions';

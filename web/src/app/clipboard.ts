@@ -1,5 +1,5 @@
 // The browser's clipboard. Keys reach it by its own events, which need no permission; menus go by what is allowed.
-import type { Vec } from '../model/geometry';
+import type { Vec } from '../model/base/geometry';
 import type { Context } from '../actions/context';
 import { TEXTS } from '../texts/page';
 

@@ -1,7 +1,7 @@
 // The menu at the pointer: actions for a road user, for several, for a goal, for the ground.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
-import { PLACED_KINDS } from '../model/kinds';
+import { PLACED_KINDS } from '../model/base/kinds';
 import type { MenuOn } from '../edit/gestures/chart';
 import type { ContextMenu as Open } from '../actions/ui';
 import { useApp } from './parts/app-context';

@@ -2,12 +2,12 @@
 // where it looked when a step was done.
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
-import { busyBox, openingCentre } from '../model/busy';
-import { wrapAngle, type Vec } from '../model/geometry';
-import type { Camera, HistoryStep } from '../model/history';
+import { busyBox, openingCentre } from '../model/physics/scene-centre';
+import { wrapAngle, type Vec } from '../model/base/geometry';
+import type { Camera, HistoryStep } from '../model/document/history';
 import { poseShown } from '../edit/frame';
-import { endPose, poseAt } from '../model/motion';
-import { canChange, startPose, type Agent } from '../model/scene';
+import { endPose, poseAt } from '../model/base/motion';
+import { canChange, startPose, type Agent } from '../model/document/scene';
 
 /** How much of the map the height of the picture shows at first, in metres, and within which zooms. */
 const OPENING_M = 88;

@@ -1,8 +1,8 @@
 // Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { rename } from '../model/commands';
-import { isRecorded } from '../model/scene';
+import { rename } from '../model/document/commands';
+import { isRecorded } from '../model/document/scene';
 import type { SaveState } from '../edit/document/saving';
 import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';

@@ -2,7 +2,7 @@
 // server that is not there yet.
 import { effect } from '@preact/signals-core';
 import type { Opening } from '../actions/context';
-import { hasGoal } from '../model/scene';
+import { hasGoal } from '../model/document/scene';
 
 /** The three-step hint moves on with what one does and closes for good after the first drop. */
 export function coach({ editor, ui }: Opening): void {

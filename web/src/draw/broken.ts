@@ -1,6 +1,6 @@
 // What is wrong on a line itself: the stretch in red under white dashes, and the ground it crosses hatched.
 import type { Pen, Sprite } from './pen';
-import { isValidAt, STEP_S, type Motion } from '../model/motion';
+import { isValidAt, STEP_S, type Motion } from '../model/base/motion';
 import { colours, paletteStamp } from './theme';
 import type { View } from './view';
 

@@ -1,5 +1,5 @@
 // Ghosts that come and go: each fades in, and one that would jump fades out at the old place and in at the new one.
-import type { Pose } from '../model/geometry';
+import type { Pose } from '../model/base/geometry';
 
 /** How long a ghost takes to come or to go, in milliseconds. */
 const FADE_MS = 90;

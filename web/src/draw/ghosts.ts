@@ -1,8 +1,8 @@
 // What somebody would do, drawn so that it never looks as if it were done: a dashed box where it would wait or be
 // slowest, with its brake lights on, and ticks along its path that lie closer the harder it brakes.
 import type { Pen } from './pen';
-import type { OnLine } from '../model/geometry';
-import { poseAt, type Motion } from '../model/motion';
+import type { OnLine } from '../model/base/geometry';
+import { poseAt, type Motion } from '../model/base/motion';
 import { outline, sizeOnScreen, type Sized } from './sprites';
 import { trail } from './strokes';
 import { colours } from './theme';

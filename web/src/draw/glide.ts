@@ -1,7 +1,7 @@
 // The picture goes over from one place to another in a moment, so that one sees where one comes from. Without motion,
 // where that is asked for, it is there at once.
-import { wrapAngle, type Vec } from '../model/geometry';
-import type { Camera } from '../model/history';
+import { wrapAngle, type Vec } from '../model/base/geometry';
+import type { Camera } from '../model/document/history';
 import type { View } from './view';
 
 const GLIDE_MS = 180;

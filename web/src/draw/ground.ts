@@ -1,9 +1,9 @@
 // What lies on the ground under the road users when one asks for it: conflict zones, speed limits, how far one gets.
-import { CELL_M, type Zone } from '../model/conflicts';
-import type { Vec } from '../model/geometry';
-import { pointAt } from '../model/geometry';
-import type { LaneMap } from '../model/lanemap';
-import { toUnit, type SpeedUnit } from '../model/units';
+import { CELL_M, type Zone } from '../model/physics/conflicts';
+import type { Vec } from '../model/base/geometry';
+import { pointAt } from '../model/base/geometry';
+import type { LaneMap } from '../model/document/lanemap';
+import { toUnit, type SpeedUnit } from '../model/base/units';
 import type { Pen } from './pen';
 import { polyline } from './strokes';
 import { colours, font, type ColourName } from './theme';

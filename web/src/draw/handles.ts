@@ -1,8 +1,8 @@
 // The handles of a selected road user: ring, heading tiller behind, speed arrow ahead, goal flag. Filled is
 // fixed, hollow is free. Constant size on screen at every zoom.
 import type { Pen } from './pen';
-import type { OnLine, Pose, Vec } from '../model/geometry';
-import type { AgentType } from '../model/scene';
+import type { OnLine, Pose, Vec } from '../model/base/geometry';
+import type { AgentType } from '../model/base/kinds';
 import { outline, roundRect, sizeOnScreen, type Sized } from './sprites';
 import { colours } from './theme';
 import type { Labels } from './labels';

@@ -1,7 +1,7 @@
 // Labels on pills. Each takes the first free place around its object; those that find none are left out,
 // except the ones that must be read.
 import type { Pen } from './pen';
-import { clamp } from '../model/geometry';
+import { clamp } from '../model/base/geometry';
 import { colours, font } from './theme';
 import { roundRect } from './sprites';
 

@@ -1,5 +1,5 @@
 // What a picture says of itself where no editor is around it: how long a metre is, when it is, and where north is.
-import { seconds } from '../model/units';
+import { seconds } from '../model/base/units';
 import { textWidth } from './labels';
 import type { Pen } from './pen';
 import { scaleOf } from './scale';

@@ -1,7 +1,7 @@
 // Small marks beside road users: the pennant at a goal, the lock of one that is not to be moved.
 import type { Pen } from './pen';
 import { roundRect } from './sprites';
-import type { Vec } from '../model/geometry';
+import type { Vec } from '../model/base/geometry';
 import { colours, type ColourName } from './theme';
 import type { View } from './view';
 

@@ -1,7 +1,7 @@
 // The road: ground, kerbs, asphalt, bike lanes, crosswalks, lines, arrows. Drawn in metres under one transform.
 import type { Pen } from './pen';
-import { pointAt, wrapAngle, type Box, type Vec } from '../model/geometry';
-import { nearestLanes, turnOf, type Lane, type LaneMap } from '../model/lanemap';
+import { pointAt, wrapAngle, type Box, type Vec } from '../model/base/geometry';
+import { nearestLanes, turnOf, type Lane, type LaneMap } from '../model/document/lanemap';
 import { Layer } from './tiles';
 import { colours } from './theme';
 import type { View } from './view';

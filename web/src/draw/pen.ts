@@ -1,5 +1,5 @@
 // What painters draw with: the part of a 2D canvas that they need, and three things that a canvas elsewhere can keep.
-import type { Vec } from '../model/geometry';
+import type { Vec } from '../model/base/geometry';
 
 /** A path that stays the same over many pictures, in the coordinates of the scene. */
 export class Shape {

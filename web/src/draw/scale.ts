@@ -1,5 +1,5 @@
 // How long a round length is on the picture.
-import { fromLength, lengthUnit, roundBelow, toLength } from '../model/units';
+import { fromLength, lengthUnit, roundBelow, toLength } from '../model/base/units';
 import type { View } from './view';
 
 /** The longest the scale gets, in pixels. */

@@ -1,8 +1,8 @@
 // Traffic signals at the stop line. Red is a solid bar, green a row of dots, so that colour is not needed.
 import type { Pen } from './pen';
-import { pointAt, type Vec } from '../model/geometry';
-import { STEP_S } from '../model/motion';
-import type { Scene, Signal } from '../model/scene';
+import { pointAt, type Vec } from '../model/base/geometry';
+import { STEP_S } from '../model/base/motion';
+import type { Scene, Signal } from '../model/document/scene';
 import { colours } from './theme';
 import type { View } from './view';
 

@@ -1,7 +1,8 @@
 // Road users as small pictures, painted once per kind, size and zoom step and then only stamped.
 import type { Pen, Sprite } from './pen';
-import type { Agent, Kind } from '../model/scene';
-import type { OnLine } from '../model/geometry';
+import type { Agent } from '../model/document/scene';
+import type { Kind } from '../model/base/kinds';
+import type { OnLine } from '../model/base/geometry';
 import { colours, paletteStamp, type ColourName } from './theme';
 import type { View } from './view';
 

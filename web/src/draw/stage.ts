@@ -6,7 +6,7 @@ import { Glide } from './glide';
 import type { Pen } from './pen';
 import { opaquePen, paintOn } from './replay';
 import { Screen } from './screen';
-import type { Point, Vec } from '../model/geometry';
+import type { Point, Vec } from '../model/base/geometry';
 import { View } from './view';
 import { readPalette } from './theme';
 

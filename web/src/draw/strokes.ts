@@ -1,9 +1,9 @@
 // Lines on the map: every one has a halo, one dot per second, and a dash that says how sure it is.
 import type { Pen } from './pen';
-import { isValidAt, stretches, type Motion } from '../model/motion';
-import type { Futures } from '../model/futures';
-import { LETTERS } from '../model/futures';
-import { thinned, type Vec } from '../model/geometry';
+import { isValidAt, stretches, type Motion } from '../model/base/motion';
+import type { Futures } from '../model/document/futures';
+import { LETTERS } from '../model/document/futures';
+import { thinned, type Vec } from '../model/base/geometry';
 import { colours, font, modeColour, modeOnColour } from './theme';
 import type { Labels, Offset } from './labels';
 import type { View } from './view';

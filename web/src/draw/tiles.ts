@@ -1,5 +1,5 @@
 // Map geometry as shapes of about 64 m: a repaint strokes a few dozen paths instead of thousands.
-import { boxesMeet, emptyBox, growBox, type Box, type Vec } from '../model/geometry';
+import { boxesMeet, emptyBox, growBox, type Box, type Vec } from '../model/base/geometry';
 import { Shape, type Pen } from './pen';
 
 interface Tile {

@@ -1,7 +1,16 @@
 // World to screen and back: one scale, one turn and one offset, known here alone. y points up in the world and down on
 // the screen.
-import { boxOf, clamp, wrapAngle, type Box, type OnLine, type Point, type Quad, type Vec } from '../model/geometry';
-import type { Camera } from '../model/history';
+import {
+  boxOf,
+  clamp,
+  wrapAngle,
+  type Box,
+  type OnLine,
+  type Point,
+  type Quad,
+  type Vec,
+} from '../model/base/geometry';
+import type { Camera } from '../model/document/history';
 import type { Pen } from './pen';
 
 const MIN_ZOOM = 0.5;

@@ -1,9 +1,9 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
-import { thoseWhoAnswer } from '../model/answering';
-import type { MotionSet } from '../model/futures';
-import { takenPin } from '../model/pins';
-import { STEP_S } from '../model/motion';
-import { canChange, doing, GOAL_TIME, touchedIn, type Agent, type Scene } from '../model/scene';
+import { thoseWhoAnswer } from '../model/document/reaction-records';
+import type { MotionSet } from '../model/document/futures';
+import { takenPin } from '../model/document/pins';
+import { STEP_S } from '../model/base/motion';
+import { canChange, doing, GOAL_TIME, touchedIn, type Agent, type Scene } from '../model/document/scene';
 import type { Step } from './document/step';
 import type { Editor } from './editor';
 import type { Wanted } from './question';

@@ -1,11 +1,18 @@
 // What the generator has answered, and how far it is: the motion in force, the draft on its way, who changed, the
 // status line, and whether the generator is there at all.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import { findChanges, type Change } from '../model/changes';
-import { ByDocument, emptyMotion, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
-import { withTaken } from '../model/pins';
-import { sceneKey, type Scene } from '../model/scene';
-import type { SpeedUnit } from '../model/units';
+import { findChanges, type Change } from '../model/words/change-words';
+import {
+  ByDocument,
+  emptyMotion,
+  type Futures,
+  type MotionSet,
+  type Reach,
+  type Score,
+} from '../model/document/futures';
+import { withTaken } from '../model/document/pins';
+import { sceneKey, type Scene } from '../model/document/scene';
+import type { SpeedUnit } from '../model/base/units';
 
 export type Status =
   | { kind: 'loading' }

@@ -1,6 +1,6 @@
 // Where the handles of arms lie on screen while an area is filled: drawn outward, more vehicles come in.
-import { armTitle } from '../model/arm-names';
-import type { Vec } from '../model/geometry';
+import { armTitle } from '../model/words/arm-names';
+import type { Vec } from '../model/base/geometry';
 import type { View } from '../draw/view';
 import type { Arm } from './filling';
 

@@ -1,6 +1,6 @@
 // What can be told of the text of a refused file: the line that is wrong, whose it is, and the scene without it.
-import { lineOf, linesAround, offsetOf } from '../model/json-place';
-import type { SceneJson } from '../model/json';
+import { lineOf, linesAround, offsetOf } from '../model/document/json-place';
+import type { SceneJson } from '../model/document/scene-json';
 import type { Problem } from '../net/types';
 import { partAt, withoutBroken, type BrokenPart, type Mended } from './mending';
 

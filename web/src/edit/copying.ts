@@ -1,7 +1,7 @@
 // Copy, cut, paste, duplicate. What is copied travels as text, so that it can be put into another tab's scene.
-import type { Vec } from '../model/geometry';
-import { copiesText, readCopies, shifted, type Newcomer } from '../model/newcomer';
-import { wrapAngle } from '../model/geometry';
+import type { Vec } from '../model/base/geometry';
+import { copiesText, readCopies, shifted, type Newcomer } from '../model/document/newcomer';
+import { wrapAngle } from '../model/base/geometry';
 import type { Editor } from './editor';
 import { addThem, copiesOf, movable, removeThem, tooMany, whoWords, withRoom } from './several';
 import { snapNewcomer } from './placing';

@@ -1,7 +1,7 @@
 // Files out of what is on screen.
 import { Refused, type Client } from '../net/client';
 import type { SceneJson } from '../net/types';
-import type { Scene } from '../model/scene';
+import type { Scene } from '../model/document/scene';
 import type { Editor } from './editor';
 import type { Loss } from './outward/losses';
 import type { SceneFile } from './document/scene-file';

@@ -1,17 +1,17 @@
 // The editing session: what is selected and pointed at, and its parts (document, answers, playhead, notices). What a
 // panel shows is a signal here, to be read; it changes by the named methods alone.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { HistoryStep, KeptHistory } from '../model/history';
-import type { Command } from '../model/commands';
-import { startPose, touched, touchedIn, type Agent, type Scene } from '../model/scene';
-import type { Futures, MotionSet } from '../model/futures';
-import { motionOf } from '../model/changes';
-import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
-import { endPose, poseAtStep } from '../model/motion';
-import type { Way } from '../model/scene-diff';
-import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
-import { localReach, type LocalReach } from '../model/reach';
-import { type SpeedUnit, toldIn, walkingUnit } from '../model/units';
+import type { HistoryStep, KeptHistory } from '../model/document/history';
+import type { Command } from '../model/document/commands';
+import { startPose, touched, touchedIn, type Agent, type Scene } from '../model/document/scene';
+import type { Futures, MotionSet } from '../model/document/futures';
+import { endPose, poseAtStep } from '../model/base/motion';
+import type { Way } from '../model/document/scene-diff';
+import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/base/geometry';
+import { motionOf } from '../model/physics/playback';
+import { eventsOf, readEvents, type TrafficEvent } from '../model/words/event-words';
+import { localReach, type LocalReach } from '../model/words/reach-words';
+import { type SpeedUnit, toldIn, walkingUnit } from '../model/base/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Calm } from './calm';

@@ -1,10 +1,10 @@
 // What can be done about an event: a future of one of the two that does not meet the other, or a slower start.
-import { markOf } from '../model/about';
-import { choose } from '../model/commands';
-import type { TrafficEvent } from '../model/events';
-import { LETTERS, type Future } from '../model/futures';
-import { canMove, startPose, type Agent } from '../model/scene';
-import { speedLabel } from '../model/units';
+import { markOf } from '../model/document/future-facts';
+import { choose } from '../model/document/commands';
+import type { TrafficEvent } from '../model/words/event-words';
+import { LETTERS, type Future } from '../model/document/futures';
+import { canMove, startPose, type Agent } from '../model/document/scene';
+import { speedLabel } from '../model/base/units';
 import type { Editor } from './editor';
 import { withField, type Remedy } from './moves';
 import { TEXTS } from '../texts/moves';

@@ -1,12 +1,11 @@
 // What the server says of a wish: who would stand where, and what of it is shown.
-import { insidePolygon, type Vec } from '../model/geometry';
-import type { AgentJson } from '../model/json';
-import { PLACED_KINDS } from '../model/kinds';
-import { isStill, motionFrom } from '../model/motion';
-import { comesLater, settle, type Newcomer } from '../model/newcomer';
-import { kindOf } from '../model/read';
-import { canMove, startPose, type Scene } from '../model/scene';
-import { castJson, wholeAgentJson } from '../model/write';
+import { insidePolygon, type Vec } from '../model/base/geometry';
+import type { AgentJson } from '../model/document/scene-json';
+import { PLACED_KINDS, kindOf } from '../model/base/kinds';
+import { isStill, motionFrom } from '../model/base/motion';
+import { comesLater, settle, type Newcomer } from '../model/document/newcomer';
+import { canMove, startPose, type Scene } from '../model/document/scene';
+import { castJson, wholeAgentJson } from '../model/document/scene-writer';
 import type { Client } from '../net/client';
 import type { PlaceReply } from '../net/types';
 import { typesOf } from './fill-mix';

@@ -1,8 +1,8 @@
 // The kinds of those who drive, shared out as a mix wants them.
-import { PRESETS, type PlacedKind, type Preset } from '../model/kinds';
-import type { Newcomer } from '../model/newcomer';
-import { topSpeed } from '../model/domain';
-import type { Footprint } from '../model/boxes';
+import { PRESETS, type PlacedKind, type Preset } from '../model/base/kinds';
+import type { Newcomer } from '../model/document/newcomer';
+import { topSpeed } from '../model/base/domain';
+import type { Footprint } from '../model/physics/boxes';
 import { shareOf, type FillKind, type Mix } from './fill-mix';
 import { inTheWay } from './room';
 

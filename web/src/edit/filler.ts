@@ -1,7 +1,7 @@
 // Asks the server who would stand where, as often as the wish changes, and adds them when that is wanted.
 import { effect } from '@preact/signals-core';
-import type { Scene } from '../model/scene';
-import { inOneStep, removeAgents } from '../model/commands';
+import type { Scene } from '../model/document/scene';
+import { inOneStep, removeAgents } from '../model/document/commands';
 import { Away, Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
 import type { Answers } from './fill-answer';

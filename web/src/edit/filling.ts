@@ -1,8 +1,8 @@
 // What an area is to be filled with: where, how busy, which kinds, and what is seen of it before it is added.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { boxOf, insideBox, type Vec } from '../model/geometry';
-import { topSpeed } from '../model/domain';
-import { comesLater, type Newcomer } from '../model/newcomer';
+import { boxOf, insideBox, type Vec } from '../model/base/geometry';
+import { topSpeed } from '../model/base/domain';
+import { comesLater, type Newcomer } from '../model/document/newcomer';
 import { EVEN_MIX, type FillKind, type Mix } from './fill-mix';
 
 /** Everything that decides who is placed where. */

@@ -1,6 +1,6 @@
 // What the others would do if one let go now: asked beside the drag's own question, on a line of its own, so that it
 // neither overtakes nor holds up the six futures. The last answer is the one that a release takes over.
-import { sceneKey, type Scene } from '../model/scene';
+import { sceneKey, type Scene } from '../model/document/scene';
 import type { Generator, Handlers, Question } from '../net/generator';
 import type { FinalEvent } from '../net/types';
 import { Rest } from './rest';

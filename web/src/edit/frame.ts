@@ -1,7 +1,7 @@
 // The frame around several selected road users, and where everybody is at the playhead.
-import type { Pose, Vec } from '../model/geometry';
-import { poseAt } from '../model/motion';
-import { startPose, type Agent } from '../model/scene';
+import type { Pose, Vec } from '../model/base/geometry';
+import { poseAt } from '../model/base/motion';
+import { startPose, type Agent } from '../model/document/scene';
 import type { Rect } from '../draw/labels';
 import { boxOnScreen } from '../draw/sprites';
 import type { View } from '../draw/view';

@@ -1,7 +1,7 @@
 // Names of futures while a hand moves: an idea keeps its name until rest, unless what the name rests on is no longer
 // so and another relation has held for a while.
-import { ideas, type Future, type Futures } from '../model/futures';
-import { nameAll, nameRest, type Named, type Naming } from '../model/names';
+import { ideas, type Future, type Futures } from '../model/document/futures';
+import { nameAll, nameRest, type Named, type Naming } from '../model/words/future-names';
 
 /** So long must a new relation hold before it is named, in milliseconds. */
 const HOLDS_MS = 400;

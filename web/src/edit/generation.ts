@@ -1,12 +1,12 @@
 // What is asked of the generator, and when: six futures of whom one selects, live ones during a drag, everybody's
 // answer after a change. What becomes of the answers is in `reception.ts`.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import { DEFAULTS } from '../model/domain';
-import { goesOneWay, thoseWhoAnswer } from '../model/answering';
-import { emptyMotion, type MotionSet } from '../model/futures';
-import { drawAnew } from '../model/commands';
-import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
-import { countedAnew } from '../model/rejudge';
+import { DEFAULTS } from '../model/base/domain';
+import { goesOneWay, thoseWhoAnswer } from '../model/document/reaction-records';
+import { emptyMotion, type MotionSet } from '../model/document/futures';
+import { drawAnew } from '../model/document/commands';
+import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/document/scene';
+import { countedAnew } from '../model/physics/verdict-updates';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';

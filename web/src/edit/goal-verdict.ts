@@ -1,9 +1,10 @@
 // Can the goal of a road user be reached? The generator's verdict where it is known, the quick one while it is not.
-import { markOf } from '../model/about';
-import type { Point } from '../model/geometry';
-import { isBlocked, reachWords, type Reach } from '../model/futures';
-import { nameIn, type Agent } from '../model/scene';
-import { metres } from '../model/units';
+import { markOf } from '../model/document/future-facts';
+import type { Point } from '../model/base/geometry';
+import { isBlocked, type Reach } from '../model/document/futures';
+import { reachWords } from '../model/words/reach-words';
+import { nameIn, type Agent } from '../model/document/scene';
+import { metres } from '../model/base/units';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/picture';
 

@@ -1,7 +1,7 @@
 // What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
-import { insideBox, type OnLine, type Vec } from '../model/geometry';
-import type { Motion } from '../model/motion';
-import { canChange, startPose, type Agent, type Pin } from '../model/scene';
+import { insideBox, type OnLine, type Vec } from '../model/base/geometry';
+import type { Motion } from '../model/base/motion';
+import { canChange, startPose, type Agent, type Pin } from '../model/document/scene';
 import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
 import type { Rect } from '../draw/labels';
 import { sizeOnScreen } from '../draw/sprites';

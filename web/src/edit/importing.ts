@@ -1,6 +1,6 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { SceneJson } from '../model/json';
+import type { SceneJson } from '../model/document/scene-json';
 import { Refused, type Beside, type Client } from '../net/client';
 import { faultOf } from '../net/problem';
 import { inWords } from '../net/refusal';

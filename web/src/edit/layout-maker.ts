@@ -1,11 +1,11 @@
 // Asks the server for the map as often as the wish changes, and makes a scene of it.
 import { effect } from '@preact/signals-core';
-import { drivingSide, type DrivingSide } from '../model/driving-side';
-import { nearestLanes } from '../model/lanemap';
-import { TEMPLATE_TITLES } from '../model/layouts';
-import { isMapRef, type AgentJson, type SceneJson } from '../model/json';
-import { readScene } from '../model/read';
-import { startPose } from '../model/scene';
+import { drivingSide, type DrivingSide } from '../model/physics/driving-side';
+import { nearestLanes } from '../model/document/lanemap';
+import { TEMPLATE_TITLES } from '../model/document/layouts';
+import { isMapRef, type AgentJson, type SceneJson } from '../model/document/scene-json';
+import { readScene } from '../model/document/scene-reader';
+import { startPose } from '../model/document/scene';
 import { Away, Refused, type Client } from '../net/client';
 import { inWords } from '../net/refusal';
 import { keep, recall } from '../net/storage';

@@ -1,9 +1,9 @@
 // A map that is being made: the template with its parameters, what came of it, and the arm in hand.
-import { armTitle } from '../model/arm-names';
+import { armTitle } from '../model/words/arm-names';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { DrivingSide } from '../model/driving-side';
-import type { Vec } from '../model/geometry';
-import type { SceneJson } from '../model/json';
+import type { DrivingSide } from '../model/physics/driving-side';
+import type { Vec } from '../model/base/geometry';
+import type { SceneJson } from '../model/document/scene-json';
 import {
   fitting,
   laneOf,
@@ -12,9 +12,9 @@ import {
   type Connection,
   type Connections,
   type LaneOfArm,
-} from '../model/layouts';
-import { readScene } from '../model/read';
-import type { Scene } from '../model/scene';
+} from '../model/document/layouts';
+import { readScene } from '../model/document/scene-reader';
+import type { Scene } from '../model/document/scene';
 import type { Arm, Layout, MapReply, Parameters, TemplateName } from '../net/types';
 import { TEXTS } from '../texts/picture';
 import type * as Hands from './hands';

@@ -1,5 +1,5 @@
 // What can be taken of a scene whose file is broken in places: everything but the parts that are named as broken.
-import { isMapRef, type MapJson, type SceneJson } from '../model/json';
+import { isMapRef, type MapJson, type SceneJson } from '../model/document/scene-json';
 import type { Problem } from '../net/types';
 import { TEXTS } from '../texts/imports';
 

@@ -1,13 +1,23 @@
 // What everybody does once an answer is there: what was known before, and what the answer says in its place.
-import { motionOf } from '../model/changes';
-import { DEFAULTS } from '../model/domain';
-import { asIfNotAsked, toBeGivenUp, type Answering } from '../model/answering';
-import type { AgentFuturesJson } from '../model/json';
-import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet, type Score } from '../model/futures';
-import type { Naming } from '../model/names';
-import { firstPose } from '../model/read';
-import { metAnew, withMeetingsOf, type Changed } from '../model/rejudge';
-import { doing, isRecorded, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } from '../model/scene';
+import { DEFAULTS } from '../model/base/domain';
+import { asIfNotAsked, toBeGivenUp } from '../model/document/reaction-records';
+import type { AgentFuturesJson } from '../model/document/scene-json';
+import type { Answering, Futures, KeepOrder, MotionSet, Score } from '../model/document/futures';
+import { motionOf } from '../model/physics/playback';
+import { readFutures, withNames } from '../model/words/named-futures';
+import type { Naming } from '../model/words/future-names';
+import { firstPose } from '../model/document/scene-reader';
+import { metAnew, withMeetingsOf, type Changed } from '../model/physics/verdict-updates';
+import {
+  doing,
+  isRecorded,
+  nameIn,
+  sceneKey,
+  touched,
+  touchedIn,
+  type Agent,
+  type Scene,
+} from '../model/document/scene';
 import type { FinalEvent } from '../net/types';
 import type { Wanted } from './question';
 import { readReach, readScore, readWarnings } from './read-answer';

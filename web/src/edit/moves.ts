@@ -1,13 +1,14 @@
 // Changes of start and goal, said once and used by handles, keys and typed values alike.
-import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
-import { nearestLanes } from '../model/lanemap';
-import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../model/commands';
-import { LETTERS } from '../model/futures';
-import { limitsOf, topSpeed } from '../model/domain';
-import { poseAt } from '../model/motion';
-import { localReach, shortfall } from '../model/reach';
-import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
-import { inTenths, metres, seconds, speedLabel, toUnit } from '../model/units';
+import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/base/geometry';
+import { nearestLanes } from '../model/document/lanemap';
+import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../model/document/commands';
+import { LETTERS } from '../model/document/futures';
+import { limitsOf, topSpeed } from '../model/base/domain';
+import { poseAt } from '../model/base/motion';
+import { shortfall } from '../model/physics/reach';
+import { localReach } from '../model/words/reach-words';
+import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/document/scene';
+import { inTenths, metres, seconds, speedLabel, toUnit } from '../model/base/units';
 import type { Editor, Field, Part } from './editor';
 import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';

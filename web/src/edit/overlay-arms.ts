@@ -1,8 +1,8 @@
 // What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
 // lanes lead, and what of it does not pass.
-import { armTitle } from '../model/arm-names';
-import type { Vec } from '../model/geometry';
-import { metres, num, retold } from '../model/units';
+import { armTitle } from '../model/words/arm-names';
+import type { Vec } from '../model/base/geometry';
+import { metres, num, retold } from '../model/base/units';
 import { pill, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
 import { traceLine } from '../draw/strokes';

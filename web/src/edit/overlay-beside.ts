@@ -1,8 +1,8 @@
 // Another way that the scene could go, dashed: whoever does another thing there, and the way that it takes.
-import { motionOf } from '../model/changes';
-import { poseAt } from '../model/motion';
-import { sameSpec, startPose, type Agent, type Scene } from '../model/scene';
-import { seconds, speedLabel, type SpeedUnit } from '../model/units';
+import { motionOf } from '../model/physics/playback';
+import { poseAt } from '../model/base/motion';
+import { sameSpec, startPose, type Agent, type Scene } from '../model/document/scene';
+import { seconds, speedLabel, type SpeedUnit } from '../model/base/units';
 import { paintFlag, paintGhost, paintRing } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';

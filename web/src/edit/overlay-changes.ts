@@ -1,8 +1,8 @@
 // What the overlay shows of everybody: who changed since the last change.
 import type { Pen } from '../draw/pen';
-import type { Pose } from '../model/geometry';
-import { poseAt } from '../model/motion';
-import type { Agent } from '../model/scene';
+import type { Pose } from '../model/base/geometry';
+import { poseAt } from '../model/base/motion';
+import type { Agent } from '../model/document/scene';
 import { tag, type Labels } from '../draw/labels';
 import { paintGhost, paintRing } from '../draw/handles';
 import { colourKey, stamp } from '../draw/sprites';

@@ -1,10 +1,10 @@
 // Events on the overlay: rings around those in one at the playhead, and a label at the one that is picked.
 import type { Pen } from '../draw/pen';
-import type { TrafficEvent } from '../model/events';
-import type { Pose } from '../model/geometry';
-import { poseAt } from '../model/motion';
-import type { Agent } from '../model/scene';
-import { seconds } from '../model/units';
+import type { TrafficEvent } from '../model/words/event-words';
+import type { Pose } from '../model/base/geometry';
+import { poseAt } from '../model/base/motion';
+import type { Agent } from '../model/document/scene';
+import { seconds } from '../model/base/units';
 import { paintIcon, tag, type Labels, type PillStyle } from '../draw/labels';
 import { paintGhost, paintRing } from '../draw/handles';
 import { colourKey, stamp } from '../draw/sprites';

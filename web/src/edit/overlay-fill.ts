@@ -1,8 +1,8 @@
 // What the overlay shows of an area that is being filled: its outline with corners, and who would come.
-import { boxOf, type Vec } from '../model/geometry';
-import { typeOfKind } from '../model/kinds';
-import { comesLater, type Newcomer } from '../model/newcomer';
-import { metres } from '../model/units';
+import { boxOf, type Vec } from '../model/base/geometry';
+import { typeOfKind } from '../model/base/kinds';
+import { comesLater, type Newcomer } from '../model/document/newcomer';
+import { metres } from '../model/base/units';
 import { paintRing } from '../draw/handles';
 import { pill, tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';

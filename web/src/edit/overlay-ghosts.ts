@@ -1,9 +1,9 @@
 // What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
 import type { Pen } from '../draw/pen';
-import type { Change } from '../model/changes';
-import type { Pose } from '../model/geometry';
-import { STEP_S } from '../model/motion';
-import type { Agent } from '../model/scene';
+import type { Change } from '../model/words/change-words';
+import type { Pose } from '../model/base/geometry';
+import { STEP_S } from '../model/base/motion';
+import type { Agent } from '../model/document/scene';
 import { Fades, type Faded } from '../draw/fades';
 import { paintWaiting, paintWay, type GhostStyle } from '../draw/ghosts';
 import { pill, tag, type Labels } from '../draw/labels';

@@ -1,9 +1,9 @@
 // The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
 import type { Pen } from '../draw/pen';
-import type { Pose } from '../model/geometry';
-import { reachableWays, reachBetween, shortfall } from '../model/reach';
-import { canChange, startPose, type Agent } from '../model/scene';
-import { metres, seconds, speedLabel } from '../model/units';
+import type { Pose } from '../model/base/geometry';
+import { reachableWays, reachBetween, shortfall } from '../model/physics/reach';
+import { canChange, startPose, type Agent } from '../model/document/scene';
+import { metres, seconds, speedLabel } from '../model/base/units';
 import { pill, tag, type Labels } from '../draw/labels';
 import { paintFlag, paintGhost, paintHandles, paintString } from '../draw/handles';
 import { paintRing, paintWays } from '../draw/ground';

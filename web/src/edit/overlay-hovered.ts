@@ -1,7 +1,7 @@
 // The future under the pointer, played in place: a box runs along it, again and again, while everybody else stands.
 import type { Pen } from '../draw/pen';
-import { endPose, lastStep, poseAt, STEP_S, type Motion } from '../model/motion';
-import type { Agent } from '../model/scene';
+import { endPose, lastStep, poseAt, STEP_S, type Motion } from '../model/base/motion';
+import type { Agent } from '../model/document/scene';
 import { paintGhost } from '../draw/handles';
 import { colours, modeColour } from '../draw/theme';
 import type { View } from '../draw/view';

@@ -1,10 +1,10 @@
 // What the overlay shows of several: the frame around them, whom a sweep takes, and who is about to be placed.
-import type { Pose, Vec } from '../model/geometry';
-import { kindsWords } from '../model/kinds';
-import type { Newcomer } from '../model/newcomer';
-import { typeOfKind } from '../model/kinds';
-import type { Agent } from '../model/scene';
-import { speedLabel, walkingUnit } from '../model/units';
+import type { Pose, Vec } from '../model/base/geometry';
+import { kindsWords } from '../model/base/kinds';
+import type { Newcomer } from '../model/document/newcomer';
+import { typeOfKind } from '../model/base/kinds';
+import type { Agent } from '../model/document/scene';
+import { speedLabel, walkingUnit } from '../model/base/units';
 import { paintRing, paintSpeed } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';

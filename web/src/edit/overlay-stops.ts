@@ -5,10 +5,11 @@ import type { Pen } from '../draw/pen';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
-import type { Vec } from '../model/geometry';
-import { stopsOf, type SpeedPoint } from '../model/profile';
-import type { Agent } from '../model/scene';
-import { seconds } from '../model/units';
+import type { Vec } from '../model/base/geometry';
+import { stopsOf } from '../model/physics/speed-profile';
+import type { SpeedPoint } from '../model/document/profile';
+import type { Agent } from '../model/document/scene';
+import { seconds } from '../model/base/units';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/picture';
 

@@ -1,12 +1,12 @@
 // What is wrong with the futures of the selected road user, on the lines themselves: stretches, ground, and a word
 // at each place.
 import type { Pen } from '../draw/pen';
-import type { Fault } from '../model/about';
-import { faultPlaces, type FaultPlace } from '../model/fault-places';
-import { LETTERS, type Futures } from '../model/futures';
-import type { Vec } from '../model/geometry';
-import { nameIn, type Agent } from '../model/scene';
-import { placeWord } from '../model/verdict-words';
+import type { Fault } from '../model/document/future-facts';
+import { faultPlaces, type FaultPlace } from '../model/physics/fault-places';
+import { LETTERS, type Futures } from '../model/document/futures';
+import type { Vec } from '../model/base/geometry';
+import { nameIn, type Agent } from '../model/document/scene';
+import { placeWord } from '../model/words/verdict-words';
 import { paintBroken, paintGround, type Stretch } from '../draw/broken';
 import { FLAG_HEIGHT, paintFlag, paintGhost } from '../draw/handles';
 import { pill, type Labels, type PillStyle, type Rect } from '../draw/labels';

@@ -1,11 +1,11 @@
 // The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
 import type { Pen } from '../draw/pen';
-import type { Pose } from '../model/geometry';
-import { endPose, endsBefore, poseAt } from '../model/motion';
-import { comparedWithLog } from '../model/changes';
-import type { Futures } from '../model/futures';
-import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/scene';
-import { metres, seconds, speedLabel } from '../model/units';
+import type { Pose } from '../model/base/geometry';
+import { endPose, endsBefore, poseAt } from '../model/base/motion';
+import { comparedWithLog } from '../model/words/change-words';
+import type { Futures } from '../model/document/futures';
+import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../model/document/scene';
+import { metres, seconds, speedLabel } from '../model/base/units';
 import { Labels, pill, tag, type Taken } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
 import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';

@@ -1,14 +1,14 @@
 // What is on the canvases for the present state of the editor. A drag frame paints the overlay alone.
 import type { Pen } from '../draw/pen';
 import { effect } from '@preact/signals-core';
-import { mixPose, type Pose } from '../model/geometry';
-import { isStill, poseAt } from '../model/motion';
-import { motionOf } from '../model/changes';
-import { conflictZones, type Zone } from '../model/conflicts';
-import type { MotionSet } from '../model/futures';
-import type { LaneMap } from '../model/lanemap';
-import { isRecorded, startPose, type Agent, type Scene } from '../model/scene';
-import { speedLabel } from '../model/units';
+import { mixPose, type Pose } from '../model/base/geometry';
+import { isStill, poseAt } from '../model/base/motion';
+import { motionOf } from '../model/physics/playback';
+import { conflictZones, type Zone } from '../model/physics/conflicts';
+import type { MotionSet } from '../model/document/futures';
+import type { LaneMap } from '../model/document/lanemap';
+import { isRecorded, startPose, type Agent, type Scene } from '../model/document/scene';
+import { speedLabel } from '../model/base/units';
 import { paintLimits, paintZones } from '../draw/ground';
 import { Labels, pill, Taken, type Rect } from '../draw/labels';
 import { paintLock, paintPennant, type Pennant } from '../draw/marks';

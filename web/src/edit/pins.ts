@@ -1,9 +1,10 @@
 // Pinned futures of the selected road user, as the page shows them.
-import { LETTERS } from '../model/futures';
-import { indexOfPin, misfit, MOST_PINS, motionOfPin, pinFuture, pinOf, unpin } from '../model/pins';
-import type { Command } from '../model/commands';
-import type { Motion } from '../model/motion';
-import type { Agent, Pin } from '../model/scene';
+import { LETTERS } from '../model/document/futures';
+import { indexOfPin, MOST_PINS, motionOfPin, pinFuture, pinOf, unpin } from '../model/document/pins';
+import { misfit } from '../model/words/pin-words';
+import type { Command } from '../model/document/commands';
+import type { Motion } from '../model/base/motion';
+import type { Agent, Pin } from '../model/document/scene';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/pins';
 

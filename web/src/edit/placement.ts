@@ -1,8 +1,8 @@
 // What is about to be placed: the size and the way of placing for each kind, and the ghosts under the pointer.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import { wrapAngle, type Vec } from '../model/geometry';
-import type { PlacedKind } from '../model/kinds';
-import type { Scene } from '../model/scene';
+import { wrapAngle, type Vec } from '../model/base/geometry';
+import type { PlacedKind } from '../model/base/kinds';
+import type { Scene } from '../model/document/scene';
 import { firstChoice, ghostAt, ghostsFor, placeWords, type Ghosts, type PlacingChoice } from './placing';
 
 export class Placement {

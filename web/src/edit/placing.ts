@@ -8,15 +8,15 @@ import {
   type Pose,
   type Quad,
   type Vec,
-} from '../model/geometry';
-import { drivingSide } from '../model/driving-side';
-import { topSpeed } from '../model/domain';
-import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
-import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
-import { newcomer, type Newcomer } from '../model/newcomer';
-import { startPose, type Scene } from '../model/scene';
-import { areaText, lengthText } from '../model/units';
-import type { Footprint } from '../model/boxes';
+} from '../model/base/geometry';
+import { drivingSide } from '../model/physics/driving-side';
+import { topSpeed } from '../model/base/domain';
+import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/base/kinds';
+import { nearestLanes, type Lane, type LaneMap } from '../model/document/lanemap';
+import { newcomer, type Newcomer } from '../model/document/newcomer';
+import { startPose, type Scene } from '../model/document/scene';
+import { areaText, lengthText } from '../model/base/units';
+import type { Footprint } from '../model/physics/boxes';
 import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
 

@@ -1,11 +1,18 @@
 // From the document to a question: the scene, by name where the server has it as it is on screen, what is asked of
 // whom, and the options.
-import { DEFAULTS } from '../model/domain';
-import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../model/json';
-import type { Futures, MotionSet } from '../model/futures';
-import { doing, GOAL_TIME, profileOf, type Scene } from '../model/scene';
-import { asIfNotAsked } from '../model/answering';
-import { castJson, conditionOf, generatedJson, isEmptyCondition, thresholdsOf, withStill } from '../model/write';
+import { DEFAULTS } from '../model/base/domain';
+import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../model/document/scene-json';
+import type { Futures, MotionSet } from '../model/document/futures';
+import { doing, GOAL_TIME, profileOf, type Scene } from '../model/document/scene';
+import { asIfNotAsked } from '../model/document/reaction-records';
+import {
+  castJson,
+  conditionOf,
+  generatedJson,
+  isEmptyCondition,
+  thresholdsOf,
+  withStill,
+} from '../model/document/scene-writer';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Step } from './document/step';

@@ -1,6 +1,6 @@
 // Verdicts, scores and warnings of an answer, in the editor's own terms.
 import type { FinalEvent, Resolved, ScoreReply } from '../net/types';
-import type { Reach, Score, Stretch } from '../model/futures';
+import type { Reach, Score, Stretch } from '../model/document/futures';
 
 export function readReach(r: Resolved | undefined): Reach | null {
   if (!r) return null;

@@ -1,23 +1,22 @@
 // What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
 import { batch, effect } from '@preact/signals-core';
-import type { AgentFuturesJson } from '../model/json';
+import type { AgentFuturesJson } from '../model/document/scene-json';
 import {
   ideas,
   isBlocked,
   keepVerdicts,
   percents,
-  readFutures,
-  withNames,
   withOwnFirst,
   type Futures,
   type KeepOrder,
   type Reach,
-} from '../model/futures';
-import type { Fault } from '../model/about';
-import { goesOneWay } from '../model/answering';
-import { findChanges } from '../model/changes';
-import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/scene';
-import { whyAnother, whyNot } from '../model/verdict-words';
+} from '../model/document/futures';
+import type { Fault } from '../model/document/future-facts';
+import { goesOneWay } from '../model/document/reaction-records';
+import { readFutures, withNames } from '../model/words/named-futures';
+import { findChanges } from '../model/words/change-words';
+import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/document/scene';
+import { whyAnother, whyNot } from '../model/words/verdict-words';
 import type { Handlers } from '../net/generator';
 import { inWords } from '../net/refusal';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
@@ -30,7 +29,7 @@ import { Steady } from './steady';
 import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
 import { Rest } from './rest';
-import { figure } from '../model/units';
+import { figure } from '../model/base/units';
 import { TEXTS } from '../texts/generation';
 import { LANGUAGE } from '../texts/language';
 

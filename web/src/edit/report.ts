@@ -1,9 +1,10 @@
 // What a change led to, in sentences for the toast and for screen readers.
-import type { Change } from '../model/changes';
-import { counted, type TrafficEvent } from '../model/events';
-import { goalTimeOf, nameIn, type Scene } from '../model/scene';
-import { num, seconds } from '../model/units';
-import { headline } from '../model/verdict-words';
+import { counted } from '../model/physics/events';
+import type { Change } from '../model/words/change-words';
+import type { TrafficEvent } from '../model/words/event-words';
+import { goalTimeOf, nameIn, type Scene } from '../model/document/scene';
+import { num, seconds } from '../model/base/units';
+import { headline } from '../model/words/verdict-words';
 import type { Step } from './document/step';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/generation';

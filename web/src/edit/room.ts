@@ -1,8 +1,8 @@
 // Room for road users: who stands where somebody is to be put, and where there is place instead.
-import { touching, type Footprint } from '../model/boxes';
-import type { Vec } from '../model/geometry';
-import type { Newcomer } from '../model/newcomer';
-import { startPose, type Agent, type Scene } from '../model/scene';
+import { touching, type Footprint } from '../model/physics/boxes';
+import type { Vec } from '../model/base/geometry';
+import type { Newcomer } from '../model/document/newcomer';
+import { startPose, type Agent, type Scene } from '../model/document/scene';
 
 /** Everybody who is there at the start of a scene, as boxes. */
 export function standing(scene: Scene): (Footprint & { readonly agent: Agent })[] {

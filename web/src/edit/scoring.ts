@@ -1,8 +1,9 @@
 // What happens in motions that are known already.
-import { motionOf } from '../model/changes';
-import type { MotionSet, Score } from '../model/futures';
-import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/scene';
-import { thresholdsOf, trackJson } from '../model/write';
+import type { MotionSet, Score } from '../model/document/futures';
+import { canChange, doing, sceneKey, touchedIn, type Scene } from '../model/document/scene';
+import { thresholdsOf } from '../model/document/scene-writer';
+import { motionOf } from '../model/physics/playback';
+import { trackJson } from '../model/base/motion';
 import type { Generator } from '../net/generator';
 import { readScore } from './read-answer';
 import type { SceneFile } from './document/scene-file';

@@ -1,5 +1,5 @@
 // Changes of one road user or of many at once, each one step of the history.
-import { wrapAngle, type Vec } from '../model/geometry';
+import { wrapAngle, type Vec } from '../model/base/geometry';
 import {
   addAgents,
   nameAs,
@@ -8,10 +8,10 @@ import {
   withoutGoal,
   type AgentPatch,
   type Command,
-} from '../model/commands';
-import { topSpeed } from '../model/domain';
-import { countWords, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
-import { copyOf, settle, type Newcomer } from '../model/newcomer';
+} from '../model/document/commands';
+import { topSpeed } from '../model/base/domain';
+import { countWords, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/base/kinds';
+import { copyOf, settle, type Newcomer } from '../model/document/newcomer';
 import {
   canMove,
   hasGoal,
@@ -22,11 +22,11 @@ import {
   type Others,
   type Scene,
   type StartSpec,
-} from '../model/scene';
-import { shiftedVias } from '../model/via';
+} from '../model/document/scene';
+import { shiftedVias } from '../model/document/vias';
 import { fixedWords } from './moves';
 import { freeShift, standing } from './room';
-import { shifted } from '../model/newcomer';
+import { shifted } from '../model/document/newcomer';
 import { TEXTS } from '../texts/moves';
 import { inSentence } from '../texts/language';
 

@@ -1,6 +1,6 @@
 // The future that was bold last, for the generator: it leaves it only for a gain that is worth the jump.
-import type { ShownJson } from '../model/json';
-import { isJudged } from '../model/futures';
+import type { ShownJson } from '../model/document/scene-json';
+import { isJudged } from '../model/document/futures';
 import type { Editor } from './editor';
 
 /** Box centres are sent every so many steps, this many at most. */

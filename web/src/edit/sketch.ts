@@ -1,11 +1,11 @@
 // A plain curve for the time the generator is away: along the lanes where they lead there, at an even change of
 // speed. It is marked as a sketch everywhere and never becomes part of the scene's motion.
-import { pointAt, type Pose } from '../model/geometry';
-import { limitsOf } from '../model/domain';
-import { pathTo } from '../model/reach';
-import type { Futures } from '../model/futures';
-import type { Motion } from '../model/motion';
-import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/scene';
+import { pointAt, type Pose } from '../model/base/geometry';
+import { limitsOf } from '../model/base/domain';
+import { pathTo } from '../model/physics/reach';
+import type { Futures } from '../model/document/futures';
+import type { Motion } from '../model/base/motion';
+import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/document/scene';
 import { TEXTS } from '../texts/hud';
 
 export function sketchFutures(scene: Scene, a: Agent): Futures | null {

@@ -1,8 +1,8 @@
 // Snapping to lanes and angles. It shows itself and lets go with Alt.
-import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/geometry';
-import { armWords } from '../model/arm-names';
-import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
-import { startPose, type Agent, type Scene } from '../model/scene';
+import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/base/geometry';
+import { armWords } from '../model/words/arm-names';
+import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/document/lanemap';
+import { startPose, type Agent, type Scene } from '../model/document/scene';
 import { TEXTS } from '../texts/picture';
 
 export interface Snapped {

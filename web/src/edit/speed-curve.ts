@@ -1,9 +1,9 @@
 // The speed curve of the selected road user in hand: its points are moved, added and taken away, and what comes of it
 // is shown at once. The release is one step; others answer it then.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { setCurve } from '../model/commands';
-import { limitsOf, topSpeed } from '../model/domain';
-import type { Futures, Score } from '../model/futures';
+import { setCurve } from '../model/document/commands';
+import { limitsOf, topSpeed } from '../model/base/domain';
+import type { Futures, Score } from '../model/document/futures';
 import {
   addedPoint,
   EASING_S,
@@ -13,16 +13,14 @@ import {
   movedPoint,
   pathOf,
   timeOfStop,
-  type Path,
-  type Profile,
-  type SpeedPoint,
-} from '../model/profile';
-import type { Way } from '../model/curve-fit';
-import { pointAt, project, type Pose, type Vec } from '../model/geometry';
-import { poseAt, type Motion } from '../model/motion';
-import { judgedBy } from '../model/rejudge';
-import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/scene';
-import { stopPlaces, type StopPlace } from '../model/stop-places';
+} from '../model/physics/speed-profile';
+import type { Path, Profile, SpeedPoint } from '../model/document/profile';
+import type { Way } from '../model/physics/curve-fit';
+import { pointAt, project, type Pose, type Vec } from '../model/base/geometry';
+import { poseAt, type Motion } from '../model/base/motion';
+import { judgedBy } from '../model/physics/verdict-updates';
+import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/document/scene';
+import { stopPlaces, type StopPlace } from '../model/physics/stop-places';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/moves';
 

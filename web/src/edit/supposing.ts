@@ -1,8 +1,8 @@
 // What everybody would do after a change that is not made, asked on a line of its own. The document stays as it is.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Command } from '../model/commands';
-import type { MotionSet } from '../model/futures';
-import type { Scene } from '../model/scene';
+import type { Command } from '../model/document/commands';
+import type { MotionSet } from '../model/document/futures';
+import type { Scene } from '../model/document/scene';
 import type { Generator } from '../net/generator';
 import type { FinalEvent } from '../net/types';
 import { askedAfter } from './after-change';

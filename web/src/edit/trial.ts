@@ -1,8 +1,8 @@
 // A change that is tried and not made: what everybody would do is shown dashed beside what they do.
 import { effect, type ReadonlySignal } from '@preact/signals-core';
-import type { Command } from '../model/commands';
-import { findChanges } from '../model/changes';
-import type { MotionSet } from '../model/futures';
+import type { Command } from '../model/document/commands';
+import { findChanges } from '../model/words/change-words';
+import type { MotionSet } from '../model/document/futures';
 import type { Beside, Editor } from './editor';
 import { supposition, type Supposing, type Supposition } from './supposing';
 

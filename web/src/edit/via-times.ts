@@ -1,7 +1,7 @@
 // Times and order of the places on the way, for fields and sliders.
-import { setVias, type Command } from '../model/commands';
-import type { Agent } from '../model/scene';
-import { nearestOn, passed, timesOf } from '../model/via';
+import { setVias, type Command } from '../model/document/commands';
+import type { Agent } from '../model/document/scene';
+import { nearestOn, passed, timesOf } from '../model/document/vias';
 import type { Editor } from './editor';
 import { changeVia } from './vias';
 import { TEXTS } from '../texts/via';

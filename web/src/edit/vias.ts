@@ -1,10 +1,10 @@
 // Places on the way of the selected road user: added on a path, moved, widened, given a time, taken away. Said once and
 // used by handles, keys, fields and menus alike.
-import { setVias, type Command } from '../model/commands';
-import type { Vec } from '../model/geometry';
-import { poseAt, type Motion } from '../model/motion';
-import type { Agent } from '../model/scene';
-import { heldTolerance, MOST_VIAS, nearestOn, placeIn, via, withNew, withVia, type Via } from '../model/via';
+import { setVias, type Command } from '../model/document/commands';
+import type { Vec } from '../model/base/geometry';
+import { poseAt, type Motion } from '../model/base/motion';
+import type { Agent } from '../model/document/scene';
+import { heldTolerance, MOST_VIAS, nearestOn, placeIn, via, withNew, withVia, type Via } from '../model/document/vias';
 import type { Editor } from './editor';
 import { TEXTS } from '../texts/via';
 

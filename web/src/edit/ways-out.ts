@@ -1,12 +1,12 @@
 // Ways out of a goal that is reached against the rules: by the road, or with leave to go over what is in the way.
-import { leavesRoad, markOf, type Fault } from '../model/about';
-import { goalStep, type Command } from '../model/commands';
-import { LETTERS, type Future } from '../model/futures';
-import type { OnLine, Vec } from '../model/geometry';
-import type { Motion } from '../model/motion';
-import { pathTo } from '../model/reach';
-import { startPose, type Agent, type GoalSpec } from '../model/scene';
-import { goes, mayCrossWords } from '../model/verdict-words';
+import { leavesRoad, markOf, type Fault } from '../model/document/future-facts';
+import { goalStep, type Command } from '../model/document/commands';
+import { LETTERS, type Future } from '../model/document/futures';
+import type { OnLine, Vec } from '../model/base/geometry';
+import type { Motion } from '../model/base/motion';
+import { pathTo } from '../model/physics/reach';
+import { startPose, type Agent, type GoalSpec } from '../model/document/scene';
+import { goes, mayCrossWords } from '../model/words/verdict-words';
 import type { Editor } from './editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';

@@ -1,9 +1,10 @@
 // What comes of the ways out of an event, before anybody takes one: each is tried apart, one after the other.
 import { effect, signal, untracked } from '@preact/signals-core';
-import { compareMarks, type Mark } from '../model/about';
-import { counted, readEvents, type TrafficEvent } from '../model/events';
-import type { MotionSet } from '../model/futures';
-import type { Scene } from '../model/scene';
+import { compareMarks, type Mark } from '../model/document/future-facts';
+import { counted } from '../model/physics/events';
+import { readEvents, type TrafficEvent } from '../model/words/event-words';
+import type { MotionSet } from '../model/document/futures';
+import type { Scene } from '../model/document/scene';
 import type { Editor } from './editor';
 import { eventRemedies } from './event-remedies';
 import type { Remedy } from './moves';

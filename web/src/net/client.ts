@@ -14,7 +14,7 @@ import type {
   TemplateName,
   FormatInfo,
 } from './types';
-import type { MapJson } from '../model/json';
+import type { MapJson } from '../model/document/scene-json';
 
 export class Away extends Error {}
 

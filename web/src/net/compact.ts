@@ -1,6 +1,6 @@
 // Futures as the server sends them, compact, turned into those of a scene document.
-import type { components } from '../model/api';
-import type { AgentFuturesJson } from '../model/json';
+import type { components } from '../model/base/api';
+import type { AgentFuturesJson } from '../model/document/scene-json';
 import type { DraftEvent, FinalEvent, GenerateEvent } from './types';
 
 type Schemas = components['schemas'];

@@ -1,6 +1,6 @@
 // What the editor asks of a generator. The editor knows this interface alone: the server is behind it today
 // (`http-generator.ts`), a test or an engine in the page may be.
-import type { SceneJson } from '../model/json';
+import type { SceneJson } from '../model/document/scene-json';
 import type { DraftEvent, FinalEvent, GenerateOptions, Problem, ScoreReply } from './types';
 
 /** A scene by its name on the server, or itself. The same object asked about twice is written once. */

@@ -1,5 +1,5 @@
 // The generator behind the HTTP API: one request on the way, one waiting, the newest wins.
-import type { SceneJson } from '../model/json';
+import type { SceneJson } from '../model/document/scene-json';
 import type { Client } from './client';
 import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
 import type { Answer, Line } from './line';

@@ -1,8 +1,8 @@
 // What was done in which scene, kept on this computer: one entry a step, added as it is done, and beside them where
 // one is among them, the document before the first, and what everybody does where one is.
-import type { GeneratedJson } from '../model/json';
-import type { DocumentRef, HistoryStep, KeptHistory } from '../model/history';
-import type { SceneState } from '../model/scene-diff';
+import type { GeneratedJson } from '../model/document/scene-json';
+import type { DocumentRef, HistoryStep, KeptHistory } from '../model/document/history';
+import type { SceneState } from '../model/document/scene-diff';
 
 /** The document that a version on the server is known to equal. */
 export interface Synced extends DocumentRef {

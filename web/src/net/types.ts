@@ -1,7 +1,7 @@
 // The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
 // nothing here is private.
-import type { components } from '../model/api';
-import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/json';
+import type { components } from '../model/base/api';
+import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/document/scene-json';
 
 type Schemas = components['schemas'];
 

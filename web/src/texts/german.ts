@@ -3,7 +3,7 @@
 export { heard } from './german-heard';
 export { refused } from './german-refused';
 export { taps } from './german-tapping';
-import type { Words } from './table';
+import type { Words } from './words';
 
 const files = import.meta.glob<{ readonly german: Words }>('./german/*.ts', { eager: true });
 

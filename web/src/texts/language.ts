@@ -1,6 +1,6 @@
 // The language of the page: the one that was chosen in the menu, else the browser's.
 // It is known before any word is said: the tables wait for it, and the page is loaded anew when another one is chosen.
-import type { Words } from './table';
+import type { Words } from './words';
 import type { Taps } from './tapping';
 
 /** What people choose from. The words of English stand in the tables themselves. */

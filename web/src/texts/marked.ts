@@ -1,6 +1,6 @@
 // No language: every text comes out in brackets and longer by a third, so that a test sees what stands in no table and
 // what has no room to be longer. It is never offered.
-import type { Word, Words } from './table';
+import type { Word, Words } from './words';
 
 const LONGER = 1 / 3;
 

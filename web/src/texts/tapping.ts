@@ -1,5 +1,5 @@
 // Who touches the page clicks nothing. The texts speak of clicks; where fingers are the hand they speak of taps.
-import type { Words } from './table';
+import type { Words } from './words';
 
 /** Words of clicking, each with that of tapping; the first that fits. */
 export type Taps = readonly (readonly [click: string, tap: string])[];

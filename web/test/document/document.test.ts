@@ -1,8 +1,8 @@
 // The committed document, and the trial of a drag on top of it.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { Document, TrialOpenError } from '../../src/edit/document/document';
-import { rename, setGoal, setSeed, type Command } from '../../src/model/commands';
-import { freeGoal } from '../../src/model/scene';
+import { rename, setGoal, setSeed, type Command } from '../../src/model/document/commands';
+import { freeGoal } from '../../src/model/document/scene';
 import { car, crossing } from '../helpers';
 
 let document: Document;

@@ -1,7 +1,7 @@
 // A drag in the session, and what happens to it when something else changes the document.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { Editor } from '../../src/edit/editor';
-import { rename, setGoal, setSeed } from '../../src/model/commands';
+import { rename, setGoal, setSeed } from '../../src/model/document/commands';
 import { car, crossing } from '../helpers';
 import { Pointer } from '../edit/pointer';
 

@@ -1,6 +1,6 @@
 // Opening scenes: from the server, with what this computer keeps of them, one tab at a time.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { rename, setSeed } from '../../src/model/commands';
+import { rename, setSeed } from '../../src/model/document/commands';
 import { PassingStepStore } from '../../src/net/step-store';
 import { crossingJson } from '../helpers';
 import { channels, Locks } from '../locks';

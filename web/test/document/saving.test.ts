@@ -1,9 +1,9 @@
 // Saving: what goes to the server, when, and what the title says of it.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { rename, setGoal, setSeed } from '../../src/model/commands';
-import { readScene } from '../../src/model/read';
-import { freeGoal } from '../../src/model/scene';
-import type { Command } from '../../src/model/commands';
+import { rename, setGoal, setSeed } from '../../src/model/document/commands';
+import { readScene } from '../../src/model/document/scene-reader';
+import { freeGoal } from '../../src/model/document/scene';
+import type { Command } from '../../src/model/document/commands';
 import { PassingStepStore } from '../../src/net/step-store';
 import { crossingJson } from '../helpers';
 import { ScriptedServer } from './server';

@@ -1,6 +1,6 @@
 // Scenes as a whole: copied, renamed, removed and brought back.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { rename, setGoal, setSeed } from '../../src/model/commands';
+import { rename, setGoal, setSeed } from '../../src/model/document/commands';
 import { crossingJson } from '../helpers';
 import { ScriptedServer } from './server';
 import { Tab } from './tab';

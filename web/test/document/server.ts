@@ -1,5 +1,5 @@
 // A server in memory for tests of the page: scenes with ETags, and for each request a fate that the test decides.
-import type { SceneJson } from '../../src/model/json';
+import type { SceneJson } from '../../src/model/document/scene-json';
 
 /** What becomes of a request. Times in milliseconds; the test's clock moves them. */
 export interface Fate {

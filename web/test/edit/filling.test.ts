@@ -7,13 +7,13 @@ import { armHandleAt, armHandles, armName, rateAfter } from '../../src/edit/arm-
 import { ANY_SPEED, Filling, NO_ANSWER, type Arm } from '../../src/edit/filling';
 import { simplified } from '../../src/edit/gestures/filling';
 import { inTheWay } from '../../src/edit/room';
-import type { Vec } from '../../src/model/geometry';
-import { PRESETS } from '../../src/model/kinds';
+import type { Vec } from '../../src/model/base/geometry';
+import { PRESETS } from '../../src/model/base/kinds';
 import { View } from '../../src/draw/view';
-import { motionFrom } from '../../src/model/motion';
-import { comesLater, newcomer, settle, type Newcomer } from '../../src/model/newcomer';
-import { touched } from '../../src/model/scene';
-import { wholeAgentJson } from '../../src/model/write';
+import { motionFrom } from '../../src/model/base/motion';
+import { comesLater, newcomer, settle, type Newcomer } from '../../src/model/document/newcomer';
+import { touched } from '../../src/model/document/scene';
+import { wholeAgentJson } from '../../src/model/document/scene-writer';
 
 const carAt = (x: number, y = 0) => newcomer('car', PRESETS.car[0], { x, y, heading: 0, speed: 10 });
 

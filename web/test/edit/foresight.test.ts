@@ -1,8 +1,8 @@
 // What the others would do, asked while a handle is dragged and taken over by the release.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { setGoal, setOthers, type Command } from '../../src/model/commands';
+import { setGoal, setOthers, type Command } from '../../src/model/document/commands';
 import { outOfReach } from '../../src/edit/goal-verdict';
-import type { ModeJson } from '../../src/model/json';
+import type { ModeJson } from '../../src/model/document/scene-json';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import { judged } from '../standin/judged.mjs';
 import { answered, draftOf, finalOf, finalWith, late, Session, six } from './session';

@@ -1,18 +1,27 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { clearGoal, resetAgent, setGoal, setLength, setOthers, setSeed, setSize } from '../../src/model/commands';
+import {
+  clearGoal,
+  resetAgent,
+  setGoal,
+  setLength,
+  setOthers,
+  setSeed,
+  setSize,
+} from '../../src/model/document/commands';
 import type { Editor } from '../../src/edit/editor';
 import { askedAfter } from '../../src/edit/after-change';
 import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
-import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
-import { asIfNotAsked, thoseWhoAnswer } from '../../src/model/answering';
-import { emptyMotion } from '../../src/model/futures';
-import { readGenerated, readScene } from '../../src/model/read';
-import { generatedJson, writeScene } from '../../src/model/write';
-import { nameAll } from '../../src/model/names';
-import { nameIn, profileOf, withAgents } from '../../src/model/scene';
+import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/document/scene-json';
+import { asIfNotAsked, thoseWhoAnswer } from '../../src/model/document/reaction-records';
+import { emptyMotion } from '../../src/model/document/futures';
+import { readScene } from '../../src/model/document/scene-reader';
+import { readGenerated } from '../../src/model/words/named-futures';
+import { generatedJson, writeScene } from '../../src/model/document/scene-writer';
+import { nameAll } from '../../src/model/words/future-names';
+import { nameIn, profileOf, withAgents } from '../../src/model/document/scene';
 import { judged } from '../standin/judged.mjs';
 import { answered, draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 

@@ -1,7 +1,7 @@
 // From state to state: what a press, a movement and a release become, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { wrapAngle, type Point } from '../../src/model/geometry';
-import { startPose } from '../../src/model/scene';
+import { wrapAngle, type Point } from '../../src/model/base/geometry';
+import { startPose } from '../../src/model/document/scene';
 import { lockAll } from '../../src/edit/several';
 import { TOOLS } from '../../src/edit/gestures/tools';
 import { Pointer } from './pointer';

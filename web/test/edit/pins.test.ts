@@ -1,11 +1,12 @@
 // Pinned futures: they stay while others are drawn anew, are kept with the scene, and can be taken again.
 import { describe, expect, it } from 'vitest';
-import { clearGoal, drawAnew, setGoal, setSeed } from '../../src/model/commands';
-import { motionOf } from '../../src/model/changes';
-import { misfit, MOST_PINS, motionOfPin, takenPin, takePin, unpin } from '../../src/model/pins';
-import { readScene } from '../../src/model/read';
-import { withAgents } from '../../src/model/scene';
-import { writeScene } from '../../src/model/write';
+import { clearGoal, drawAnew, setGoal, setSeed } from '../../src/model/document/commands';
+import { MOST_PINS, motionOfPin, takenPin, takePin, unpin } from '../../src/model/document/pins';
+import { motionOf } from '../../src/model/physics/playback';
+import { misfit } from '../../src/model/words/pin-words';
+import { readScene } from '../../src/model/document/scene-reader';
+import { withAgents } from '../../src/model/document/scene';
+import { writeScene } from '../../src/model/document/scene-writer';
 import { askedAfter } from '../../src/edit/after-change';
 import { pinnedAt, pinsApart, togglePin } from '../../src/edit/pins';
 import { finalOf, finalWith, json, Session, six } from './session';

@@ -4,7 +4,7 @@ import { Editor } from '../../src/edit/editor';
 import { Chart, type Modifiers, type Surface } from '../../src/edit/gestures/chart';
 import { toolOf } from '../../src/edit/gestures/tools';
 import { NOTHING, type Hit } from '../../src/edit/hit';
-import type { Point } from '../../src/model/geometry';
+import type { Point } from '../../src/model/base/geometry';
 import { crossing } from '../helpers';
 
 const PLAIN: Modifiers = { alt: false, shift: false, ctrl: false };

@@ -1,10 +1,10 @@
 // A kerb between a flag and its lane: a road to the east, a divided one to the west, a drive to the south.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { buildMap } from '../../src/model/lanemap';
-import { firstKerb, laneLeadsTo } from '../../src/model/kerbs';
-import type { Vec } from '../../src/model/geometry';
-import { readFutures } from '../../src/model/futures';
-import { startPose } from '../../src/model/scene';
+import { buildMap } from '../../src/model/document/lanemap';
+import { firstKerb, laneLeadsTo } from '../../src/model/physics/kerbs';
+import type { Vec } from '../../src/model/base/geometry';
+import { readFutures } from '../../src/model/words/named-futures';
+import { startPose } from '../../src/model/document/scene';
 import { Resistance } from '../../src/edit/gestures/resistance';
 import { crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';

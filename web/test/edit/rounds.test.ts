@@ -1,10 +1,10 @@
 // Rounds of cards: what is asked, what an undo shows again, what ends them, and what taking a card leaves behind.
 import { describe, expect, it } from 'vitest';
-import { setGoal } from '../../src/model/commands';
-import { reasons } from '../../src/model/feedback-words';
-import { readScene } from '../../src/model/read';
-import { sceneKey } from '../../src/model/scene';
-import { writeScene } from '../../src/model/write';
+import { setGoal } from '../../src/model/document/commands';
+import { reasons } from '../../src/model/words/feedback-words';
+import { readScene } from '../../src/model/document/scene-reader';
+import { sceneKey } from '../../src/model/document/scene';
+import { writeScene } from '../../src/model/document/scene-writer';
 import { Questions } from '../../src/edit/question';
 import { Rounds } from '../../src/edit/rounds/rounds';
 import { pickFuture } from '../../src/edit/moves';

@@ -1,7 +1,7 @@
 // Whose motions are sent to be scored: of all others it is known what they do.
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { setGoal } from '../../src/model/commands';
-import { withAgents } from '../../src/model/scene';
+import { setGoal } from '../../src/model/document/commands';
+import { withAgents } from '../../src/model/document/scene';
 import { scoreOf } from '../../src/edit/scoring';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import { finalWith, json, late, Session } from './session';

@@ -9,8 +9,8 @@ import { Client } from '../../src/net/client';
 import { PassingStepStore } from '../../src/net/step-store';
 import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';
 import type { DraftEvent, FinalEvent, ScoreReply } from '../../src/net/types';
-import { isMapRef, type AgentFuturesJson, type MapJson } from '../../src/model/json';
-import { readScene } from '../../src/model/read';
+import { isMapRef, type AgentFuturesJson, type MapJson } from '../../src/model/document/scene-json';
+import { readScene } from '../../src/model/document/scene-reader';
 import { crossingJson } from '../helpers';
 import { giveWay, reactionTo, sixFutures } from '../standin/futures.mjs';
 

@@ -1,13 +1,13 @@
 // Many at once, and new ones: what the pointer makes of them, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { setGoal } from '../../src/model/commands';
-import type { Vec } from '../../src/model/geometry';
-import { PRESETS } from '../../src/model/kinds';
-import { readTyped } from '../../src/model/units';
-import { startPose, type Agent } from '../../src/model/scene';
+import { setGoal } from '../../src/model/document/commands';
+import type { Vec } from '../../src/model/base/geometry';
+import { PRESETS } from '../../src/model/base/kinds';
+import { readTyped } from '../../src/model/base/units';
+import { startPose, type Agent } from '../../src/model/document/scene';
 import { Copying, removeSelected } from '../../src/edit/copying';
 import { placeGhost } from '../../src/edit/gestures/placing';
-import { touching } from '../../src/model/boxes';
+import { touching } from '../../src/model/physics/boxes';
 import { inTheWay, standing } from '../../src/edit/room';
 import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, swapTwo, withRoom } from '../../src/edit/several';
 import { askedAfter } from '../../src/edit/after-change';

@@ -1,6 +1,6 @@
 // What is said of the others does not flicker.
 import { beforeEach, expect, it, vi } from 'vitest';
-import type { Change } from '../../src/model/changes';
+import type { Change } from '../../src/model/words/change-words';
 import { AGREED_MS, Steady } from '../../src/edit/steady';
 
 const change = (id: string, kind: 'waits' | 'slows', lost = 1): Change =>

@@ -1,11 +1,11 @@
 // What counts as an event: kept with the scene, sent along, and changed without another motion.
 import { describe, expect, it } from 'vitest';
-import { choose, setSeed } from '../../src/model/commands';
-import { readScene } from '../../src/model/read';
-import { resultCode } from '../../src/model/result-code';
-import { NO_THRESHOLDS, sceneKey } from '../../src/model/scene';
-import { readThresholds, resetThresholds, setThreshold, threshold } from '../../src/model/thresholds';
-import { writeScene } from '../../src/model/write';
+import { choose, setSeed } from '../../src/model/document/commands';
+import { readScene } from '../../src/model/document/scene-reader';
+import { resultCode } from '../../src/model/document/result-code';
+import { NO_THRESHOLDS, sceneKey } from '../../src/model/document/scene';
+import { readThresholds, resetThresholds, setThreshold, threshold } from '../../src/model/document/thresholds';
+import { writeScene } from '../../src/model/document/scene-writer';
 import { finalOf, json, Session } from './session';
 
 const ID = '1';

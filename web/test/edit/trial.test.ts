@@ -1,7 +1,7 @@
 // A way out that is pointed at is tried: shown and asked apart, and nothing of it is in the document.
 import { describe, expect, it } from 'vitest';
-import { setGoal } from '../../src/model/commands';
-import { motionOf } from '../../src/model/changes';
+import { setGoal } from '../../src/model/document/commands';
+import { motionOf } from '../../src/model/physics/playback';
 import { Questions } from '../../src/edit/question';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import { Supposing } from '../../src/edit/supposing';

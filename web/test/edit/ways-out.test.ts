@@ -1,9 +1,9 @@
 // Out of a goal that is reached over a median: by the road, or with leave to go over it.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { setGoal } from '../../src/model/commands';
-import { readFutures, withNames } from '../../src/model/futures';
-import type { ModeJson } from '../../src/model/json';
-import { nameIn, startPose, type Agent } from '../../src/model/scene';
+import { setGoal } from '../../src/model/document/commands';
+import { readFutures, withNames } from '../../src/model/words/named-futures';
+import type { ModeJson } from '../../src/model/document/scene-json';
+import { nameIn, startPose, type Agent } from '../../src/model/document/scene';
 import { Editor } from '../../src/edit/editor';
 import { roadGoal } from '../../src/edit/goal-verdict';
 import { edgesInTheWay, leaveGiven, leaveToCross, roadWay } from '../../src/edit/ways-out';

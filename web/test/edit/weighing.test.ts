@@ -1,6 +1,6 @@
 // What comes of the ways out of an event is known before one is taken: each is tried apart, and nothing is changed.
 import { describe, expect, it } from 'vitest';
-import type { TrafficEvent } from '../../src/model/events';
+import type { TrafficEvent } from '../../src/model/words/event-words';
 import { eventRemedies } from '../../src/edit/event-remedies';
 import { Questions } from '../../src/edit/question';
 import { SceneFile } from '../../src/edit/document/scene-file';

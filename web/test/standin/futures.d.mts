@@ -1,4 +1,4 @@
-import type { AgentJson, ConditionJson, ModeJson, ReactionJson } from '../../src/model/json';
+import type { AgentJson, ConditionJson, ModeJson, ReactionJson } from '../../src/model/document/scene-json';
 export function sixFutures(
   agent: AgentJson,
   condition: ConditionJson | undefined,

@@ -1,4 +1,4 @@
-import type { ByRoadJson, GoalJson, ModeJson } from '../../src/model/json';
+import type { ByRoadJson, GoalJson, ModeJson } from '../../src/model/document/scene-json';
 export const MEDIAN: string;
 export function judged(
   modes: ModeJson[],

@@ -1,4 +1,4 @@
-import type { GeneratedJson } from '../../src/model/json';
+import type { GeneratedJson } from '../../src/model/document/scene-json';
 export interface StandInOptions {
   port?: number;
   delay?: number;

@@ -1,6 +1,6 @@
 // The handles of the selected road user, for keys and screen readers. They have no picture of their own.
 import { useComputed } from '@preact/signals';
-import { canMove } from '../../model/scene';
+import { canMove } from '../../model/document/scene';
 import { Later } from '../later';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/access';

@@ -2,8 +2,9 @@
 import { useEffect, useMemo } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import { canChange, hasGoal, startPose, type Agent, type AgentType } from '../../model/scene';
-import { speedLabel } from '../../model/units';
+import { canChange, hasGoal, startPose, type Agent } from '../../model/document/scene';
+import type { AgentType } from '../../model/base/kinds';
+import { speedLabel } from '../../model/base/units';
 import { laneWords } from '../../edit/snap';
 import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';

@@ -1,9 +1,9 @@
 // A slider for each handle of a road user: where it starts, its goal, and the places on its way.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import type { Command } from '../../model/commands';
-import { deg } from '../../model/geometry';
-import { lengthText, lengthUnitWord, num, speedLabel } from '../../model/units';
+import type { Command } from '../../model/document/commands';
+import { deg } from '../../model/base/geometry';
+import { lengthText, lengthUnitWord, num, speedLabel } from '../../model/base/units';
 import type { Field, Part } from '../../edit/editor';
 import * as moves from '../../edit/moves';
 import { laneWords } from '../../edit/snap';

@@ -1,11 +1,11 @@
 // The search for a case: the sentence of what is looked for, how far it is, and what was found.
 import { useRef } from 'preact/hooks';
-import { KINDS, type Sought, type What } from '../../model/cases';
-import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/case-words';
-import { readEvents } from '../../model/events';
+import { KINDS, type Sought, type What } from '../../model/physics/cases';
+import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
+import { readEvents } from '../../model/words/event-words';
 import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/cases/cases';
-import { PLACE_MORE_M } from '../../model/attempts';
-import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/units';
+import { PLACE_MORE_M } from '../../model/physics/attempts';
+import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/base/units';
 import { useAlbum } from '../variants/album';
 import type { Pictured } from '../../edit/variants/cards';
 import { LivePicture } from '../variants/live-picture';

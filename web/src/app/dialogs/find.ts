@@ -1,9 +1,9 @@
 // What the palette finds: actions, and for what is typed road users, scenes and times.
 import type { Group } from '../../actions/action';
 import type { Context } from '../../actions/context';
-import { KINDS, type What } from '../../model/cases';
-import { KIND_WORDS } from '../../model/kinds';
-import { sentenceOf } from '../../model/case-words';
+import { KINDS, type What } from '../../model/physics/cases';
+import { KIND_WORDS } from '../../model/base/kinds';
+import { sentenceOf } from '../../model/words/case-words';
 import { ACTIONS, perform, possible } from '../../actions/registry';
 import { GROUP_TITLES } from '../../texts/groups';
 import { HELPS } from '../../texts/helps';

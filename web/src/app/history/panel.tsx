@@ -1,7 +1,7 @@
 // What was done in the scene, newest on top. A click goes there; what was left by going back hangs beside the line.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
-import type { History, HistoryStep } from '../../model/history';
+import type { History, HistoryStep } from '../../model/document/history';
 import { useApp } from '../parts/app-context';
 import { IconButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';

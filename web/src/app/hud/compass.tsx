@@ -1,6 +1,6 @@
 // Where north is, as soon as it is not up: a click turns the picture back, and taken hold of it turns with the hand.
 import { useComputed, useSignal } from '@preact/signals';
-import { deg, rad, wrapAngle } from '../../model/geometry';
+import { deg, rad, wrapAngle } from '../../model/base/geometry';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { viewTick } from './view-tick';

@@ -1,7 +1,7 @@
 // Everything that floats over the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
 import { Fragment } from 'preact';
 import { useComputed } from '@preact/signals';
-import { typeOfKind } from '../../model/kinds';
+import { typeOfKind } from '../../model/base/kinds';
 import { placedBy } from '../../actions/place';
 import { actionOf } from '../../actions/registry';
 import { TOOLS } from '../../edit/gestures/tools';
@@ -19,7 +19,7 @@ import { LoupeWords } from './loupe-words';
 import { Thumb } from './thumb';
 import { Toast } from './toast';
 import { WayBack } from './way-back';
-import { lengthUnit } from '../../model/units';
+import { lengthUnit } from '../../model/base/units';
 import { TEXTS } from '../../texts/hud';
 
 /** Those that are switched most; all are in the menu beside them. */

@@ -1,8 +1,8 @@
 // What the placing tool puts down: a size, and one or many at once.
 import { useComputed } from '@preact/signals';
-import { rangesOf } from '../../model/domain';
-import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
-import { areaText, lengthUnit, lengthUnitWord, sizeText } from '../../model/units';
+import { rangesOf } from '../../model/base/domain';
+import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/base/kinds';
+import { areaText, lengthUnit, lengthUnitWord, sizeText } from '../../model/base/units';
 import { placedBy } from '../../actions/place';
 import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';

@@ -1,9 +1,10 @@
 // The status line: what the generator is doing, or what happens in the scene.
-import type { Lane } from '../../model/lanemap';
-import { num } from '../../model/units';
-import { counted, summary, worstOf, type TrafficEvent } from '../../model/events';
-import { KIND_WORDS } from '../../model/kinds';
-import { touched } from '../../model/scene';
+import type { Lane } from '../../model/document/lanemap';
+import { num } from '../../model/base/units';
+import { counted, worstOf } from '../../model/physics/events';
+import { summary, type TrafficEvent } from '../../model/words/event-words';
+import { KIND_WORDS } from '../../model/base/kinds';
+import { touched } from '../../model/document/scene';
 import { placedBy } from '../../actions/place';
 import { goToEvent } from '../../actions/time';
 import type { Context } from '../../actions/context';

@@ -1,8 +1,8 @@
 // When nothing of the scene is in view: the way back.
 import { useComputed } from '@preact/signals';
-import { boxesMeet, boxOf, type Box } from '../../model/geometry';
-import type { LaneMap } from '../../model/lanemap';
-import { startPose } from '../../model/scene';
+import { boxesMeet, boxOf, type Box } from '../../model/base/geometry';
+import type { LaneMap } from '../../model/document/lanemap';
+import { startPose } from '../../model/document/scene';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { viewTick } from './view-tick';

@@ -2,9 +2,9 @@
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { seenUntil } from '../../model/changes';
-import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
-import { retold, seconds } from '../../model/units';
+import { seenUntil } from '../../model/physics/playback';
+import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/document/scene';
+import { retold, seconds } from '../../model/base/units';
 import { goalFromLog } from '../../edit/moves';
 import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';

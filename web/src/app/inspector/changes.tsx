@@ -1,6 +1,6 @@
 // Who else does something else since the last change; during a drag, who would if one let go now.
 import { useComputed, useSignal } from '@preact/signals';
-import type { Change } from '../../model/changes';
+import type { Change } from '../../model/words/change-words';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/agent';
 

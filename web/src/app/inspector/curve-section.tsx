@@ -1,9 +1,10 @@
 // A speed that was drawn by hand, in words: its points, and where it stops on the way.
 import { useComputed } from '@preact/signals';
-import { project } from '../../model/geometry';
-import { poseAt, type Motion } from '../../model/motion';
-import { lineOf, stopsOf, type SpeedPoint } from '../../model/profile';
-import { metres, seconds, speedLabel } from '../../model/units';
+import { project } from '../../model/base/geometry';
+import { poseAt, type Motion } from '../../model/base/motion';
+import { lineOf, stopsOf } from '../../model/physics/speed-profile';
+import type { SpeedPoint } from '../../model/document/profile';
+import { metres, seconds, speedLabel } from '../../model/base/units';
 import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';

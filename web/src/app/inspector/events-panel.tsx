@@ -1,12 +1,13 @@
 // The list of events, and the facts of the one that is picked.
 import { useEffect, useMemo } from 'preact/hooks';
-import { counted, worstOf, type TrafficEvent } from '../../model/events';
-import type { Agent } from '../../model/scene';
-import { threshold, type ThresholdName } from '../../model/thresholds';
-import { num } from '../../model/units';
+import { counted, worstOf } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
+import type { Agent } from '../../model/document/scene';
+import { threshold, type ThresholdName } from '../../model/document/thresholds';
+import { num } from '../../model/base/units';
 import type { Editor } from '../../edit/editor';
 import { laneWords } from '../../edit/snap';
-import { poseAt } from '../../model/motion';
+import { poseAt } from '../../model/base/motion';
 import { eventRemedies } from '../../edit/event-remedies';
 import { Weighing } from '../../edit/weighing';
 import { useApp } from '../parts/app-context';

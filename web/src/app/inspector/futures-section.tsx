@@ -1,13 +1,13 @@
 // The six futures of a road user: names, shares, and which one it takes.
 import { useComputed } from '@preact/signals';
-import { markOf, type Mark } from '../../model/about';
-import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
-import type { Command } from '../../model/commands';
-import { takePin, unpin } from '../../model/pins';
-import { endsBefore } from '../../model/motion';
-import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene } from '../../model/scene';
-import { seconds } from '../../model/units';
-import { placeWord } from '../../model/verdict-words';
+import { markOf, type Mark } from '../../model/document/future-facts';
+import { isSettled, LETTERS, percents, type Future } from '../../model/document/futures';
+import type { Command } from '../../model/document/commands';
+import { takePin, unpin } from '../../model/document/pins';
+import { endsBefore } from '../../model/base/motion';
+import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene } from '../../model/document/scene';
+import { seconds } from '../../model/base/units';
+import { placeWord } from '../../model/words/verdict-words';
 import { perform } from '../../actions/registry';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { takeFuture } from '../../edit/moves';

@@ -1,9 +1,9 @@
 // How near the selected ones come to each other, in space and in time.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
-import { closestOf, timeGapOf, type Closest } from '../../model/closest';
-import type { TrafficEvent } from '../../model/events';
-import type { Agent } from '../../model/scene';
-import { metres, seconds } from '../../model/units';
+import { closestOf, timeGapOf, type Closest } from '../../model/physics/proximity';
+import type { TrafficEvent } from '../../model/words/event-words';
+import type { Agent } from '../../model/document/scene';
+import { metres, seconds } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/several-panel';
 

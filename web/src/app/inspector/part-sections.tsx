@@ -1,10 +1,10 @@
 // Start and goal: every field with its value, and whether one decides it or leaves it to the generator.
 import type { ComponentChildren } from 'preact';
 import { useComputed } from '@preact/signals';
-import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/geometry';
-import { rangesOf, topSpeed } from '../../model/domain';
-import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/kinds';
-import { hasGoal, type GoalSpec } from '../../model/scene';
+import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/base/geometry';
+import { rangesOf, topSpeed } from '../../model/base/domain';
+import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/base/kinds';
+import { hasGoal, type GoalSpec } from '../../model/document/scene';
 import {
   fromUnit,
   lengthUnit,
@@ -14,7 +14,7 @@ import {
   sizeText,
   speedText,
   toUnit,
-} from '../../model/units';
+} from '../../model/base/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
 import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
@@ -24,7 +24,7 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
-import { placesAlong } from '../../model/lanemap';
+import { placesAlong } from '../../model/document/lanemap';
 import { TEXTS } from '../../texts/agent';
 import { SAYS_WHERE } from '../../texts/language';
 

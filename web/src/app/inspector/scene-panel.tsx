@@ -1,8 +1,8 @@
 // The inspector with nothing selected: who is here, what happens, what the map holds.
 import { useComputed } from '@preact/signals';
-import type { Agent, Scene } from '../../model/scene';
-import { drivingSide } from '../../model/driving-side';
-import { metres, num } from '../../model/units';
+import type { Agent, Scene } from '../../model/document/scene';
+import { drivingSide } from '../../model/physics/driving-side';
+import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';

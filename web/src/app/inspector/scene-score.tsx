@@ -1,9 +1,10 @@
 // The scene in four figures: how often somebody is hit, how close it gets, how many goals are reached, how far from
 // the log.
-import { counted } from '../../model/events';
-import { comparedWithLog, meetsGoal } from '../../model/changes';
-import { canChange } from '../../model/scene';
-import { metres, num } from '../../model/units';
+import { counted } from '../../model/physics/events';
+import { comparedWithLog } from '../../model/words/change-words';
+import { meetsGoal } from '../../model/physics/playback';
+import { canChange } from '../../model/document/scene';
+import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import type { Editor } from '../../edit/editor';
 import { TEXTS } from '../../texts/inspector';

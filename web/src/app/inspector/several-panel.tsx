@@ -1,12 +1,12 @@
 // The inspector of several: what they have in common, and one value for all of them.
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
-import { KIND_WORDS, kindsWords, PLACED_KINDS } from '../../model/kinds';
-import { doing, hasGoal, touched, type Agent, type AgentType, type Others } from '../../model/scene';
-import { metres, seconds, speedLabel } from '../../model/units';
+import { KIND_WORDS, kindsWords, PLACED_KINDS, type AgentType } from '../../model/base/kinds';
+import { doing, hasGoal, touched, type Agent, type Others } from '../../model/document/scene';
+import { metres, seconds, speedLabel } from '../../model/base/units';
 import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
-import { gapNow, timeToCollision } from '../../model/closest';
+import { gapNow, timeToCollision } from '../../model/physics/proximity';
 import { poseShown } from '../../edit/frame';
 import { shownPose } from '../../edit/moves';
 import { OTHERS_DO } from '../parts/others';

@@ -1,9 +1,9 @@
 // One field for several road users: the value they share, or "mixed" with its range. What is typed goes to all.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
-import { clamp, deg, rad, wrapAngle } from '../../model/geometry';
-import { rangesOf, topSpeed } from '../../model/domain';
-import { startPose, type Agent } from '../../model/scene';
+import { clamp, deg, rad, wrapAngle } from '../../model/base/geometry';
+import { rangesOf, topSpeed } from '../../model/base/domain';
+import { startPose, type Agent } from '../../model/document/scene';
 import {
   fromLength,
   fromUnit,
@@ -19,8 +19,8 @@ import {
   toLength,
   toUnit,
   walkingUnit,
-} from '../../model/units';
-import type { Command } from '../../model/commands';
+} from '../../model/base/units';
+import type { Command } from '../../model/document/commands';
 import type { Editor } from '../../edit/editor';
 import { goalTime } from '../../edit/moves';
 import * as several from '../../edit/several';

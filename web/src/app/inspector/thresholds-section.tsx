@@ -8,9 +8,9 @@ import {
   threshold,
   usual,
   type ThresholdName,
-} from '../../model/thresholds';
-import { THRESHOLDS } from '../../model/domain';
-import { accelerationUnit, lengthText, lengthUnit, num, seconds, type Quantity } from '../../model/units';
+} from '../../model/document/thresholds';
+import { THRESHOLDS } from '../../model/base/domain';
+import { accelerationUnit, lengthText, lengthUnit, num, seconds, type Quantity } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';
 import { TEXTS } from '../../texts/thresholds';

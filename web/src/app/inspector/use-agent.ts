@@ -1,7 +1,7 @@
 // A road user as the document has it now, or in a drag had it a moment ago. It changes with the drag of one's own
 // handles alone: the others stay the same objects while the scene around them changes.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
-import type { Agent, Scene } from '../../model/scene';
+import type { Agent, Scene } from '../../model/document/scene';
 import { useApp } from '../parts/app-context';
 
 export type LiveAgent = ReadonlySignal<Agent>;

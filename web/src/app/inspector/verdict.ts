@@ -1,15 +1,16 @@
 // What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
 import type { Context } from '../../actions/context';
-import { markOf, type Mark } from '../../model/about';
-import { comparedWithLog } from '../../model/changes';
-import { counted, worstOf, type TrafficEvent } from '../../model/events';
-import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
-import { nearestLanes } from '../../model/lanemap';
-import { distances, endPose, endsBefore, hardestBraking, poseAt, STEP_S, type Motion } from '../../model/motion';
-import { goalTimeOf, nameIn, type Agent } from '../../model/scene';
-import { stopsOf } from '../../model/profile';
-import { acceleration, metres, seconds, speedLabel } from '../../model/units';
-import { headline } from '../../model/verdict-words';
+import { markOf, type Mark } from '../../model/document/future-facts';
+import { counted, worstOf } from '../../model/physics/events';
+import { comparedWithLog } from '../../model/words/change-words';
+import type { TrafficEvent } from '../../model/words/event-words';
+import { isJudged, isSettled, LETTERS, type Futures } from '../../model/document/futures';
+import { nearestLanes } from '../../model/document/lanemap';
+import { distances, endPose, endsBefore, hardestBraking, poseAt, STEP_S, type Motion } from '../../model/base/motion';
+import { goalTimeOf, nameIn, type Agent } from '../../model/document/scene';
+import { stopsOf } from '../../model/physics/speed-profile';
+import { acceleration, metres, seconds, speedLabel } from '../../model/base/units';
+import { headline } from '../../model/words/verdict-words';
 import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 import { TEXTS } from '../../texts/agent';

@@ -1,8 +1,8 @@
 // Places on the way: each with where it is, how near it is passed, and when.
 import { useComputed } from '@preact/signals';
-import type { Vec } from '../../model/geometry';
-import { lengthText, lengthUnit, lengthUnitWord, metres, num, seconds } from '../../model/units';
-import { passed, VIA_TOLERANCE } from '../../model/via';
+import type { Vec } from '../../model/base/geometry';
+import { lengthText, lengthUnit, lengthUnitWord, metres, num, seconds } from '../../model/base/units';
+import { passed, VIA_TOLERANCE } from '../../model/document/vias';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/via-times';
 import { changeVia, moveVia, removeVia, viaName, widenVia } from '../../edit/vias';
@@ -10,8 +10,8 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
-import { placesAlong } from '../../model/lanemap';
-import type { Command } from '../../model/commands';
+import { placesAlong } from '../../model/document/lanemap';
+import type { Command } from '../../model/document/commands';
 import { TEXTS } from '../../texts/via';
 import { inSentence } from '../../texts/language';
 import type { LiveAgent } from './use-agent';

@@ -1,9 +1,9 @@
 // The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
-import { armTitle } from '../../model/arm-names';
+import { armTitle } from '../../model/words/arm-names';
 import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
-import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/layouts';
-import { fromUnit, lengthUnit, num, retold, speedText, toLength, toUnit } from '../../model/units';
+import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
+import { fromUnit, lengthUnit, num, retold, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
 import { useApp } from '../parts/app-context';

@@ -1,7 +1,7 @@
 // What a new map can start from: eight small maps, drawn as they are.
 import { useEffect, useRef } from 'preact/hooks';
-import { readScene } from '../../model/read';
-import { TEMPLATES, TEMPLATE_TITLES } from '../../model/layouts';
+import { readScene } from '../../model/document/scene-reader';
+import { TEMPLATES, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { MapPicture } from '../../draw/paint-map';
 import { paintOn } from '../../draw/replay';
 import { View } from '../../draw/view';

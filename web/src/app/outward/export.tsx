@@ -1,5 +1,5 @@
 // Files out of the scene: each with what it loses, before it is chosen.
-import { num } from '../../model/units';
+import { num } from '../../model/base/units';
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
 import { saveAll, whyNot, type ExportedFile } from '../../edit/download';
@@ -13,7 +13,7 @@ import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
 import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
 import '../../styles/outward.css';
-import { resultCode } from '../../model/result-code';
+import { resultCode } from '../../model/document/result-code';
 import { TEXTS } from '../../texts/export';
 import { TEXTS as CODE } from '../../texts/result-code';
 import { inSentence } from '../../texts/language';

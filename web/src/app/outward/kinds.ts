@@ -1,6 +1,6 @@
 // What can go out: the server's formats, and what is made here of what is on screen.
-import { deg } from '../../model/geometry';
-import { num, seconds } from '../../model/units';
+import { deg } from '../../model/base/geometry';
+import { num, seconds } from '../../model/base/units';
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
 import { eventsTable } from '../../edit/outward/events-table';

@@ -1,5 +1,5 @@
 // A link with the whole scene inside: what goes into it, how much that is, and the copy of it.
-import { num } from '../../model/units';
+import { num } from '../../model/base/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import type { Link, Parts } from '../../edit/document/sharing';

@@ -1,12 +1,12 @@
 // What futures are asked with: seed, diversity, and the button that asks.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { setDiversity, setSeed } from '../../model/commands';
-import { DEFAULTS } from '../../model/domain';
+import { setDiversity, setSeed } from '../../model/document/commands';
+import { DEFAULTS } from '../../model/base/domain';
 import { useApp } from './app-context';
 import { ActionButton, IconButton } from './buttons';
 import { Slider } from './slider';
-import { resultCode } from '../../model/result-code';
+import { resultCode } from '../../model/document/result-code';
 import { TEXTS } from '../../texts/parts';
 import { TEXTS as CODE } from '../../texts/result-code';
 

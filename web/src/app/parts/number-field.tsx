@@ -14,7 +14,7 @@ import {
   readTyped,
   toLength,
   type Quantity,
-} from '../../model/units';
+} from '../../model/base/units';
 import { TEXTS } from '../../texts/number-field';
 
 export interface NumberFieldProps {

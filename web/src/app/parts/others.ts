@@ -1,6 +1,6 @@
 // What the others do while one is changed.
 import { useComputed } from '@preact/signals';
-import type { Others } from '../../model/scene';
+import type { Others } from '../../model/document/scene';
 import { TEXTS } from '../../texts/parts';
 import { useApp } from './app-context';
 

@@ -1,6 +1,6 @@
 // A button that makes a change shows what comes of it while the pointer or the focus is on it.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Command } from '../../model/commands';
+import type { Command } from '../../model/document/commands';
 import { useApp } from './app-context';
 
 export function useTrying(command: Command) {

@@ -1,9 +1,9 @@
 // One card of a round: its picture, what it is like, and what is said of it. Pulled up it is kept, down rejected.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
-import { factWords, reasons, wishKey } from '../../model/feedback-words';
-import { LETTERS } from '../../model/futures';
-import { nameIn } from '../../model/scene';
+import { factWords, reasons, wishKey } from '../../model/words/feedback-words';
+import { LETTERS } from '../../model/document/futures';
+import { nameIn } from '../../model/document/scene';
 import type { Hand } from '../../edit/rounds/deck';
 import type { Pictured } from '../../edit/variants/cards';
 import { LivePicture, type Album } from '../variants/live-picture';

@@ -1,10 +1,11 @@
 // What was learned from rounds: wishes with what they rest on, and where answers pull apart.
-import { earlierAnswers, type Answer, type Subject } from '../../model/feedback';
-import { againstWords, restsOn, wishes, wishKey } from '../../model/feedback-words';
-import { nameIn } from '../../model/scene';
+import { earlierAnswers, type Answer } from '../../model/document/feedback';
+import type { Subject } from '../../model/document/feedback-commands';
+import { againstWords, restsOn, wishes, wishKey } from '../../model/words/feedback-words';
+import { nameIn } from '../../model/document/scene';
 import type { Editor } from '../../edit/editor';
 import type { Wished } from '../../edit/rounds/rounds';
-import type { SpeedUnit } from '../../model/units';
+import type { SpeedUnit } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';

@@ -1,9 +1,9 @@
 // A round: six futures of one road user as cards, or six scenes, each to be kept or rejected.
 import { useMemo } from 'preact/hooks';
-import { choose } from '../../model/commands';
-import type { Scene } from '../../model/scene';
-import type { MotionSet } from '../../model/futures';
-import { readEvents } from '../../model/events';
+import { choose } from '../../model/document/commands';
+import type { Scene } from '../../model/document/scene';
+import type { MotionSet } from '../../model/document/futures';
+import { readEvents } from '../../model/words/event-words';
 import type { Hand } from '../../edit/rounds/deck';
 import { useAlbum } from '../variants/album';
 import type { Pictured } from '../../edit/variants/cards';

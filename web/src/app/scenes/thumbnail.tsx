@@ -3,9 +3,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { Client } from '../../net/client';
 import type { SceneListItem } from '../../net/types';
-import { busyBox } from '../../model/busy';
-import { readScene } from '../../model/read';
-import { isRecorded, startPose, type Scene } from '../../model/scene';
+import { busyBox } from '../../model/physics/scene-centre';
+import { readScene } from '../../model/document/scene-reader';
+import { isRecorded, startPose, type Scene } from '../../model/document/scene';
 import { MapPicture } from '../../draw/paint-map';
 import { paintOn } from '../../draw/replay';
 import { stamp } from '../../draw/sprites';

@@ -3,8 +3,8 @@ import type { Opening } from '../../actions/context';
 import { FLAG_HEIGHT } from '../../draw/handles';
 import type { View } from '../../draw/view';
 import { poseShown } from '../../edit/frame';
-import { boxOf, type OnLine, type Vec } from '../../model/geometry';
-import type { Agent } from '../../model/scene';
+import { boxOf, type OnLine, type Vec } from '../../model/base/geometry';
+import type { Agent } from '../../model/document/scene';
 import { endShown, whenItsEndIsKnown } from '../look';
 
 /** This near to the edge of the sheet somebody is as good as under it, pixels. */

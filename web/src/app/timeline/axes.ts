@@ -1,10 +1,10 @@
 // Where seconds and speeds lie in the plot.
-import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/units';
-import { motionOf } from '../../model/changes';
-import type { TrafficEvent } from '../../model/events';
-import type { Motion } from '../../model/motion';
+import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/base/units';
+import { motionOf } from '../../model/physics/playback';
+import type { TrafficEvent } from '../../model/words/event-words';
+import type { Motion } from '../../model/base/motion';
 import { untracked } from '@preact/signals';
-import type { Agent } from '../../model/scene';
+import type { Agent } from '../../model/document/scene';
 import type { Context } from '../../actions/context';
 import { TEXTS } from '../../texts/timeline';
 

@@ -1,10 +1,10 @@
 // What of the speed curve cannot be driven, in words, and what can be done about it: pointed at it is shown, pressed it
 // is one step.
 import { useEffect } from 'preact/hooks';
-import { misfitOf, type Misfit, type Way } from '../../model/curve-fit';
-import { limitsOf, topSpeed } from '../../model/domain';
-import { canMove } from '../../model/scene';
-import { metres, num, speedLabel, type SpeedUnit } from '../../model/units';
+import { misfitOf, type Misfit, type Way } from '../../model/physics/curve-fit';
+import { limitsOf, topSpeed } from '../../model/base/domain';
+import { canMove } from '../../model/document/scene';
+import { metres, num, speedLabel, type SpeedUnit } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/point-fields';

@@ -1,10 +1,10 @@
 // The speed curves of the selected road user: its log, its futures, its start and goal.
 import { untracked } from '@preact/signals';
-import { thinned, type Vec } from '../../model/geometry';
-import { smoothSpeed, STEP_S, stretches, type Motion } from '../../model/motion';
-import { isSettled, type Future, type Futures } from '../../model/futures';
-import { startPose, touched, type Agent } from '../../model/scene';
-import { toUnit } from '../../model/units';
+import { thinned, type Vec } from '../../model/base/geometry';
+import { smoothSpeed, STEP_S, stretches, type Motion } from '../../model/base/motion';
+import { isSettled, type Future, type Futures } from '../../model/document/futures';
+import { startPose, touched, type Agent } from '../../model/document/scene';
+import { toUnit } from '../../model/base/units';
 import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
 import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';

@@ -1,6 +1,7 @@
 // What happens above the plot, each sign at its time. What is in the log is a small grey one and takes no room.
 import { goToEvent } from '../../actions/time';
-import { counted, type TrafficEvent } from '../../model/events';
+import { counted } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
 import { useApp } from '../parts/app-context';
 import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
 import { TEXTS } from '../../texts/timeline';

@@ -1,7 +1,7 @@
 // The grid of the plot with its figures, and the lane of events.
 import { Fragment } from 'preact';
-import { counted } from '../../model/events';
-import { num } from '../../model/units';
+import { counted } from '../../model/physics/events';
+import { num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { eventsShown, LANE, markedSpan, X0, type Axes } from './axes';
 import { TEXTS } from '../../texts/timeline';

@@ -3,8 +3,8 @@
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import { canMove } from '../../model/scene';
-import { fromUnit, num } from '../../model/units';
+import { canMove } from '../../model/document/scene';
+import { fromUnit, num } from '../../model/base/units';
 import { addViaAt } from '../../edit/vias';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';

@@ -1,8 +1,8 @@
 // The point of the speed curve that is in use, in numbers: how fast, for how long, when.
-import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/units';
-import { hardestBraking } from '../../model/motion';
-import { roomOf } from '../../model/profile';
-import { topSpeed } from '../../model/domain';
+import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/base/units';
+import { hardestBraking } from '../../model/base/motion';
+import { roomOf } from '../../model/physics/speed-profile';
+import { topSpeed } from '../../model/base/domain';
 import { useApp } from '../parts/app-context';
 import { CurveMisfit } from './curve-misfit';
 import { Icon } from '../parts/icons';

@@ -1,8 +1,8 @@
 // The points of the speed curve: dragged up and down for speed, sideways for time; pulled to the ground they stick, and
 // pulled on they hold there. Each is a slider for keys.
 import { useRef } from 'preact/hooks';
-import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/units';
-import type { SpeedPoint } from '../../model/profile';
+import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/base/units';
+import type { SpeedPoint } from '../../model/document/profile';
 import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
 import { TEXTS } from '../../texts/timeline';

@@ -1,7 +1,7 @@
 // Transport controls, what is worked out, what the others do, and the speed plot.
 import { useComputed } from '@preact/signals';
-import { LENGTHS, REPLANS } from '../../model/scene';
-import { figure, num } from '../../model/units';
+import { LENGTHS, REPLANS } from '../../model/document/scene';
+import { figure, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';

@@ -1,9 +1,9 @@
 // The view that the pictures of several cards share.
 import { useRef } from 'preact/hooks';
-import { boxOf, type Box, type Vec } from '../../model/geometry';
-import { busyBox } from '../../model/busy';
-import { motionOf } from '../../model/changes';
-import { isRecorded } from '../../model/scene';
+import { boxOf, type Box, type Vec } from '../../model/base/geometry';
+import { busyBox } from '../../model/physics/scene-centre';
+import { motionOf } from '../../model/physics/playback';
+import { isRecorded } from '../../model/document/scene';
 import { Miniatures } from '../../draw/miniature';
 import { MapPicture } from '../../draw/paint-map';
 import { View } from '../../draw/view';

@@ -1,8 +1,9 @@
 // One variant: its picture, its name, what happens in it, and what is thought of it.
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { closeInTime, counted, worstOf, type TrafficEvent } from '../../model/events';
-import { num, seconds } from '../../model/units';
+import { closeInTime, counted, worstOf } from '../../model/physics/events';
+import type { TrafficEvent } from '../../model/words/event-words';
+import { num, seconds } from '../../model/base/units';
 import type { Card, Pictured } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';

@@ -1,7 +1,7 @@
 // What differs between the two variants that are compared: a table, and the moments at which they part.
 import { goToMoment } from '../../actions/variants';
-import { num, seconds } from '../../model/units';
-import type { Moment } from '../../model/parting';
+import { num, seconds } from '../../model/base/units';
+import type { Moment } from '../../model/words/comparison';
 import type { Compared, WholeCard } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';

@@ -1,10 +1,10 @@
 // Two variants beside each other: the left one is the picture itself, the right one another that looks where it looks.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Compared, WholeCard } from '../../edit/variants/cards';
-import { motionOf } from '../../model/changes';
-import { poseAt } from '../../model/motion';
-import { isRecorded, startPose, type Agent } from '../../model/scene';
-import type { Pose } from '../../model/geometry';
+import { motionOf } from '../../model/physics/playback';
+import { poseAt } from '../../model/base/motion';
+import { isRecorded, startPose, type Agent } from '../../model/document/scene';
+import type { Pose } from '../../model/base/geometry';
 import type { Context } from '../../actions/context';
 import { paintBeside } from '../../edit/overlay-beside';
 import { paintEventsAt } from '../../edit/overlay-events';

@@ -1,10 +1,10 @@
 // The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pictured } from '../../edit/variants/cards';
-import { motionOf } from '../../model/changes';
-import { counted } from '../../model/events';
-import { poseAt } from '../../model/motion';
-import { startPose } from '../../model/scene';
+import { motionOf } from '../../model/physics/playback';
+import { counted } from '../../model/physics/events';
+import { poseAt } from '../../model/base/motion';
+import { startPose } from '../../model/document/scene';
 import type { Miniatures } from '../../draw/miniature';
 import type { MapPicture } from '../../draw/paint-map';
 import type { Pen } from '../../draw/pen';

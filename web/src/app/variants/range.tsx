@@ -1,6 +1,6 @@
 // New variants by a number: which one is gone through, from where to where, in what steps.
-import { limitsOfSweep, LEAST_STEP, type Over } from '../../model/sweep';
-import { fromUnit, inTenths, num, type Quantity, toUnit } from '../../model/units';
+import { limitsOfSweep, LEAST_STEP, type Over } from '../../model/physics/sweep';
+import { fromUnit, inTenths, num, type Quantity, toUnit } from '../../model/base/units';
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';

@@ -1,17 +1,17 @@
 // The search for a case: what is looked for, how far it is, and what was found. It is about the scene as it was when it
 // began; the document stays as it is until somebody takes what was found.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
-import { attempt, withAttempt, type MayChange } from '../../model/attempts';
-import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../model/cases';
-import { momentWords } from '../../model/case-words';
-import { findChanges } from '../../model/changes';
-import { choose } from '../../model/commands';
-import { topSpeed } from '../../model/domain';
-import type { MotionSet } from '../../model/futures';
-import type { Motion } from '../../model/motion';
-import { canMove, type Scene } from '../../model/scene';
-import type { Vec } from '../../model/geometry';
-import { stateOfVariant, takeVariant } from '../../model/variants';
+import { attempt, withAttempt, type MayChange } from '../../model/physics/attempts';
+import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../model/physics/cases';
+import { momentWords } from '../../model/words/case-words';
+import { findChanges } from '../../model/words/change-words';
+import { choose } from '../../model/document/commands';
+import { topSpeed } from '../../model/base/domain';
+import type { MotionSet } from '../../model/document/futures';
+import type { Motion } from '../../model/base/motion';
+import { canMove, type Scene } from '../../model/document/scene';
+import type { Vec } from '../../model/base/geometry';
+import { stateOfVariant, takeVariant } from '../../model/document/variants';
 import { Away, Refused } from '../../net/client';
 import type { Beside, Editor, Tries } from '../editor';
 import { Stopped, type Maker, type Take } from '../variants/making';

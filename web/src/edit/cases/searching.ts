@@ -1,6 +1,6 @@
 // The search for a case comes when it is wanted: few need it, and nobody in the first moment.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { What } from '../../model/cases';
+import type { What } from '../../model/physics/cases';
 import type { Editor } from '../editor';
 import type { Maker } from '../variants/making';
 import type { Cases } from './cases';

@@ -1,9 +1,9 @@
 // The document of the open scene: what is committed, with its history, and on top of it the trial of a drag. A trial
 // is never part of what is committed; while one is open, nothing else can be committed.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Command } from '../../model/commands';
-import { History, type Camera, type Committed, type HistoryStep, type KeptHistory } from '../../model/history';
-import type { Scene } from '../../model/scene';
+import type { Command } from '../../model/document/commands';
+import { History, type Camera, type Committed, type HistoryStep, type KeptHistory } from '../../model/document/history';
+import type { Scene } from '../../model/document/scene';
 
 /** Why the document can be looked at only, and the way out. */
 export interface Lock {

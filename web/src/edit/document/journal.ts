@@ -8,11 +8,11 @@ import {
   type DocumentRef,
   type HistoryChange,
   type KeptHistory,
-} from '../../model/history';
-import { isComplete, stateOf, withState, type SceneState } from '../../model/scene-diff';
-import { sceneKey, type Scene } from '../../model/scene';
-import type { GeneratedJson } from '../../model/json';
-import { ofAgents, variantsJson } from '../../model/write';
+} from '../../model/document/history';
+import { isComplete, stateOf, withState, type SceneState } from '../../model/document/scene-diff';
+import { sceneKey, type Scene } from '../../model/document/scene';
+import type { GeneratedJson } from '../../model/document/scene-json';
+import { ofAgents, variantsJson } from '../../model/document/scene-writer';
 import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
 import { TEXTS } from '../../texts/keeping';
 

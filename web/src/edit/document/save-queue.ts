@@ -1,7 +1,7 @@
 // Saves one scene to the server: one request at a time, the newest version waits, and each names the version on the
 // server that it replaces. The queue goes on when another scene is opened.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { SceneJson } from '../../model/json';
+import type { SceneJson } from '../../model/document/scene-json';
 import { Away, Refused, type Client } from '../../net/client';
 import type { Snapshot } from './scene-file';
 

@@ -1,9 +1,9 @@
 // Saving: every step is kept on this computer, and own scenes go to the server after it, each by a queue of its own.
 // Examples stay here until a copy is made of them.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { isMapRef, type SceneJson } from '../../model/json';
-import type { Committed } from '../../model/history';
-import { readScene } from '../../model/read';
+import { isMapRef, type SceneJson } from '../../model/document/scene-json';
+import type { Committed } from '../../model/document/history';
+import { readScene } from '../../model/document/scene-reader';
 import type { Client } from '../../net/client';
 import type { Document } from './document';
 import { isOneOf, versionOf, type Journal, type Standing } from './journal';

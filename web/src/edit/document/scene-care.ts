@@ -1,7 +1,7 @@
 // What one does with scenes as a whole: new ones, copies, names, removing and bringing back.
-import { emptyScene, withoutRoadUsers } from '../../model/blank';
-import { rename } from '../../model/commands';
-import { isMapRef, type SceneJson } from '../../model/json';
+import { emptyScene, withoutRoadUsers } from '../../model/document/blank-scene';
+import { rename } from '../../model/document/commands';
+import { isMapRef, type SceneJson } from '../../model/document/scene-json';
 import { Refused, type Client } from '../../net/client';
 import type { Journal } from './journal';
 import type { Library } from './library';

@@ -1,10 +1,10 @@
 // The open scene as a file: as it came, and as it is written back with the committed changes in it.
-import type { GeneratedJson, MapJson, SceneJson } from '../../model/json';
-import type { MotionSet } from '../../model/futures';
-import type { Committed } from '../../model/history';
-import { rosterOfJson } from '../../model/read';
-import { sceneKey, type Scene } from '../../model/scene';
-import { castJson, generatedJson, variantSample, writeScene } from '../../model/write';
+import type { GeneratedJson, MapJson, SceneJson } from '../../model/document/scene-json';
+import type { MotionSet } from '../../model/document/futures';
+import type { Committed } from '../../model/document/history';
+import { rosterOfJson } from '../../model/document/scene-reader';
+import { sceneKey, type Scene } from '../../model/document/scene';
+import { castJson, generatedJson, variantSample, writeScene } from '../../model/document/scene-writer';
 import type { SceneRef } from '../../net/generator';
 import type { Session } from './session';
 

@@ -1,9 +1,9 @@
 // What documents need of the editing session that they are opened in; the editor is one.
 import type { ReadonlySignal } from '@preact/signals-core';
-import type { Command } from '../../model/commands';
-import type { MotionSet } from '../../model/futures';
-import type { KeptHistory } from '../../model/history';
-import type { Scene } from '../../model/scene';
+import type { Command } from '../../model/document/commands';
+import type { MotionSet } from '../../model/document/futures';
+import type { KeptHistory } from '../../model/document/history';
+import type { Scene } from '../../model/document/scene';
 import type { Toast } from '../notices';
 import type { Document, Lock } from './document';
 

@@ -1,7 +1,7 @@
 // A scene inside a link: packed, deflated, and written in the part of an address that no browser sends anywhere.
-import type { SceneJson } from '../../model/json';
-import type { Camera } from '../../model/history';
-import { pack, PackError, unpack } from '../../model/pack';
+import type { SceneJson } from '../../model/document/scene-json';
+import type { Camera } from '../../model/document/history';
+import { pack, PackError, unpack } from '../../model/document/pack';
 import { MARK } from './share-mark';
 import { TEXTS } from '../../texts/share';
 

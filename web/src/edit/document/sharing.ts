@@ -1,7 +1,7 @@
 // Links with a scene inside: what goes into one, and what is done with one that comes.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Feedback } from '../../model/feedback';
-import { isMapRef, type EditorJson, type SceneJson } from '../../model/json';
+import type { Feedback } from '../../model/document/feedback';
+import { isMapRef, type EditorJson, type SceneJson } from '../../model/document/scene-json';
 import { Away, Refused, type Client } from '../../net/client';
 import type { Library } from './library';
 import type { SceneCare } from './scene-care';

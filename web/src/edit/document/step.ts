@@ -1,6 +1,6 @@
 // A change of the document that was committed, as the parts of the page need it: what kind of change, and of whom.
-import type { Way } from '../../model/scene-diff';
-import { profileOf, type Agent, type Scene } from '../../model/scene';
+import type { Way } from '../../model/document/scene-diff';
+import { profileOf, type Agent, type Scene } from '../../model/document/scene';
 import type { Commit } from './document';
 
 /** A speed curve that a change put out of force: it still `fits` what is asked, or the new goal leaves it `open`. */

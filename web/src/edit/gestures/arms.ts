@@ -1,7 +1,7 @@
 // A map that is being made, under the pointer: arms are turned and made longer, lanes come and go and are connected,
 // kerbs bend wider.
-import { clamp, type Point, type Vec } from '../../model/geometry';
-import { laneOf } from '../../model/layouts';
+import { clamp, type Point, type Vec } from '../../model/base/geometry';
+import { laneOf } from '../../model/document/layouts';
 import type { Arm } from '../../net/types';
 import type { Knob, Layouts, Placed } from '../layouts';
 import type { View } from '../../draw/view';

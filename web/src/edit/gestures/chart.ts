@@ -1,8 +1,8 @@
 // The pointer as a state chart: exactly one state is live, and it alone answers what the pointer does. States know
 // nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own.
-import type { Point } from '../../model/geometry';
+import type { Point } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
-import type { Command } from '../../model/commands';
+import type { Command } from '../../model/document/commands';
 import type { Editor } from '../editor';
 import type { Hit } from '../hit';
 import { FingerTap } from './finger-tap';

@@ -1,7 +1,7 @@
 // Alt drags copies away from where they were made; the originals stay.
-import type { Agent } from '../../model/scene';
-import type { Vec } from '../../model/geometry';
-import { shifted, type Newcomer } from '../../model/newcomer';
+import type { Agent } from '../../model/document/scene';
+import type { Vec } from '../../model/base/geometry';
+import { shifted, type Newcomer } from '../../model/document/newcomer';
 import { ghostsFor, snapNewcomer } from '../placing';
 import { addThem, copiesOf, tooMany, whoWords } from '../several';
 import type { Chart, State } from './chart';

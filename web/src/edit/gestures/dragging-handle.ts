@@ -1,8 +1,8 @@
 // A handle is dragged: the document follows as a preview, the generator shows live futures, the release is one step.
 import { batch } from '@preact/signals-core';
-import { clamp, type Point } from '../../model/geometry';
-import type { Command } from '../../model/commands';
-import { startPose, type Agent } from '../../model/scene';
+import { clamp, type Point } from '../../model/base/geometry';
+import type { Command } from '../../model/document/commands';
+import { startPose, type Agent } from '../../model/document/scene';
 import type { Grip } from '../editor';
 import type { Chart, Modifiers, State } from './chart';
 import type { Press } from './pressed';

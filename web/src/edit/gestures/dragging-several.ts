@@ -1,9 +1,9 @@
 // Several are moved, turned or spread together: the document follows as a preview, the release is one step.
 import { batch } from '@preact/signals-core';
-import { clamp, deg, rad, type Vec } from '../../model/geometry';
+import { clamp, deg, rad, type Vec } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
-import type { Command } from '../../model/commands';
-import { startPose, type Agent } from '../../model/scene';
+import type { Command } from '../../model/document/commands';
+import { startPose, type Agent } from '../../model/document/scene';
 import { sayLocked } from '../copying';
 import type { FrameHandle } from '../hit';
 import { middleOf, moveAll, spreadAll, turnAll } from '../several';

@@ -1,6 +1,6 @@
 // An area to be filled: drawn round with one drag, or corner by corner. Its corners can be moved; a click on somebody
 // of the preview pins it.
-import type { Vec } from '../../model/geometry';
+import type { Vec } from '../../model/base/geometry';
 import { armHandleAt, armHandles, rateAfter, type ArmHandle } from '../arm-handles';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';

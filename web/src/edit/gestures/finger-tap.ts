@@ -1,5 +1,5 @@
 // Several fingers that come down and go up again at once, without moving: two undo, three do again.
-import type { Point } from '../../model/geometry';
+import type { Point } from '../../model/base/geometry';
 
 /** From the first finger that comes to the last that goes, milliseconds. */
 const WITHIN_MS = 450;

@@ -1,9 +1,9 @@
 // What dragging a handle to a place asks of the document: a command, made anew for every place from the state at the
 // beginning of the drag.
-import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../../model/geometry';
-import { setBoth, setGoal, setStart, type Command } from '../../model/commands';
-import { topSpeed } from '../../model/domain';
-import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/scene';
+import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../../model/base/geometry';
+import { setBoth, setGoal, setStart, type Command } from '../../model/document/commands';
+import { topSpeed } from '../../model/base/domain';
+import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/document/scene';
 import { speedForTip } from '../../draw/handles';
 import type { View } from '../../draw/view';
 import type { Editor, Grip } from '../editor';

@@ -1,5 +1,5 @@
 // A line drawn round road users selects them.
-import type { Vec } from '../../model/geometry';
+import type { Vec } from '../../model/base/geometry';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import { click } from './select';

@@ -1,5 +1,5 @@
 // Two fingers pan, zoom and turn at once; the one that stays goes on moving the picture.
-import { rad, wrapAngle, type Point } from '../../model/geometry';
+import { rad, wrapAngle, type Point } from '../../model/base/geometry';
 import { NOTHING } from '../hit';
 import type { Chart, State } from './chart';
 import { Panning } from './panning';

@@ -1,14 +1,14 @@
 // Putting road users into the scene: one a click, or many with one drag.
-import type { Vec } from '../../model/geometry';
-import { KIND_WORDS, countWords, type PlacedKind } from '../../model/kinds';
-import type { Newcomer } from '../../model/newcomer';
-import { startPose } from '../../model/scene';
-import { metres } from '../../model/units';
+import type { Vec } from '../../model/base/geometry';
+import { KIND_WORDS, countWords, type PlacedKind } from '../../model/base/kinds';
+import type { Newcomer } from '../../model/document/newcomer';
+import { startPose } from '../../model/document/scene';
+import { metres } from '../../model/base/units';
 import { alongLine, ghostsFor, overArea, snapNewcomer } from '../placing';
 import { freeShift, inTheWay, standing } from '../room';
 import type { Editor } from '../editor';
 import { addThem, tooMany } from '../several';
-import { shifted } from '../../model/newcomer';
+import { shifted } from '../../model/document/newcomer';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import { TEXTS } from '../../texts/gestures';

@@ -1,5 +1,5 @@
 // The page's pointer and keys, handed to the state chart. Moves are gathered and worked off once a frame.
-import type { Point } from '../../model/geometry';
+import type { Point } from '../../model/base/geometry';
 import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import { agentsAt, hitTest, type HitContext } from '../hit';

@@ -1,6 +1,6 @@
 // Pressed and not yet moved: the release is a click, a movement becomes what the tool makes of it.
-import type { Point } from '../../model/geometry';
-import type { Camera } from '../../model/history';
+import type { Point } from '../../model/base/geometry';
+import type { Camera } from '../../model/document/history';
 import type { Hit } from '../hit';
 import { ask } from './asking';
 import type { Chart, State } from './chart';

@@ -1,7 +1,7 @@
 // A kerb holds a flag back: while one lies between it and the lane it comes from, the flag lags behind the hand.
-import type { Point, Pose, Vec } from '../../model/geometry';
-import { firstKerb, laneLeadsTo } from '../../model/kerbs';
-import type { Lane, LaneMap } from '../../model/lanemap';
+import type { Point, Pose, Vec } from '../../model/base/geometry';
+import { firstKerb, laneLeadsTo } from '../../model/physics/kerbs';
+import type { Lane, LaneMap } from '../../model/document/lanemap';
 
 /** The furthest that the flag lags behind, in pixels. */
 const LONGEST_LAG_PX = 24;

@@ -1,6 +1,6 @@
 // The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
-import { takePin } from '../../model/pins';
-import { canChange, startPose, type Agent } from '../../model/scene';
+import { takePin } from '../../model/document/pins';
+import { canChange, startPose, type Agent } from '../../model/document/scene';
 import { freeOnes, lockedWords } from '../copying';
 import type { Grip } from '../editor';
 import type { FrameHandle } from '../hit';

@@ -1,7 +1,7 @@
 // Taking many at once: a frame drawn over the ground, or a line drawn round them. Whose middle lies inside is taken.
-import { insidePolygon, type Vec } from '../../model/geometry';
+import { insidePolygon, type Vec } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
-import { kindsWords } from '../../model/kinds';
+import { kindsWords } from '../../model/base/kinds';
 import { poseShown } from '../frame';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';

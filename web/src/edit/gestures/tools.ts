@@ -3,7 +3,7 @@
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import type { Help } from '../../texts/helps';
-import type { PlacedKind } from '../../model/kinds';
+import type { PlacedKind } from '../../model/base/kinds';
 import { FILL } from './filling';
 import { LASSO } from './lasso';
 import { MEASURE } from './measuring';

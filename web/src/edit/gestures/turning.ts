@@ -1,8 +1,8 @@
 // Two fingers on the selected road user, or on its goal: turned about each other they turn it; drawn apart or moved
 // they zoom and move the picture, as anywhere else.
-import { wrapAngle, type Point } from '../../model/geometry';
-import { setGoal, setStart, type Command } from '../../model/commands';
-import { canMove, startPose, type Agent } from '../../model/scene';
+import { wrapAngle, type Point } from '../../model/base/geometry';
+import { setGoal, setStart, type Command } from '../../model/document/commands';
+import { canMove, startPose, type Agent } from '../../model/document/scene';
 import type { Part } from '../editor';
 import type { Chart, State } from './chart';
 import { Pinching, turnOf } from './pinching';

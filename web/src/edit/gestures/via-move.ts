@@ -1,12 +1,12 @@
 // What dragging a via point, or its ring, to a place asks of the document.
-import type { Point, Vec } from '../../model/geometry';
-import type { Command } from '../../model/commands';
-import type { Agent } from '../../model/scene';
+import type { Point, Vec } from '../../model/base/geometry';
+import type { Command } from '../../model/document/commands';
+import type { Agent } from '../../model/document/scene';
 import type { View } from '../../draw/view';
 import type { Editor, Grip } from '../editor';
 import { laneWords, snapToLane } from '../snap';
 import { moveVia, widenVia } from '../vias';
-import { inHalves } from '../../model/units';
+import { inHalves } from '../../model/base/units';
 import type { Modifiers } from './chart';
 import type { Move } from './dragging-handle';
 import type { Press } from './pressed';

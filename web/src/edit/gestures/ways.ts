@@ -1,6 +1,6 @@
 // Ways of a map that is being made: pulled from a stop line to an exit, picked, taken away.
-import { project, type Point, type Vec } from '../../model/geometry';
-import { connectionOf, laneOf, type Connection, type LaneOfArm } from '../../model/layouts';
+import { project, type Point, type Vec } from '../../model/base/geometry';
+import { connectionOf, laneOf, type Connection, type LaneOfArm } from '../../model/document/layouts';
 import type { View } from '../../draw/view';
 import type { Knob, Layouts } from '../layouts';
 import type { Chart, State } from './chart';

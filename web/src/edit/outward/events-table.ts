@@ -1,5 +1,5 @@
 // What happens in a scene as a table, for spreadsheets: one row an event.
-import type { TrafficEvent } from '../../model/events';
+import type { TrafficEvent } from '../../model/words/event-words';
 
 const COLUMNS = ['time_s', 'until_s', 'kind', 'who', 'whom', 'words', 'x_m', 'y_m', 'in_log'] as const;
 

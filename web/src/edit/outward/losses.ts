@@ -1,8 +1,8 @@
 // What a file cannot hold of a scene, in plain words and with the numbers of that scene.
-import { num } from '../../model/units';
-import type { Scene } from '../../model/scene';
+import { num } from '../../model/base/units';
+import type { Scene } from '../../model/document/scene';
 import { TEXTS } from '../../texts/losses';
-import { countWords } from '../../model/kinds';
+import { countWords } from '../../model/base/kinds';
 
 export interface Loss {
   /** `Goals` */

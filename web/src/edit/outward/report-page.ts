@@ -1,13 +1,15 @@
 // One page about a scene, to be read and printed: the picture, who is there, what happens, and how it was made.
-import { findChanges, meetsGoal, motionOf } from '../../model/changes';
-import { counted, type TrafficEvent } from '../../model/events';
-import type { MotionSet } from '../../model/futures';
-import type { Vec } from '../../model/geometry';
-import { endPose } from '../../model/motion';
-import { canChange, changedByHand, hasGoal, startPose, type Agent, type Scene } from '../../model/scene';
-import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/units';
+import { counted } from '../../model/physics/events';
+import { findChanges } from '../../model/words/change-words';
+import { meetsGoal, motionOf } from '../../model/physics/playback';
+import type { TrafficEvent } from '../../model/words/event-words';
+import type { MotionSet } from '../../model/document/futures';
+import type { Vec } from '../../model/base/geometry';
+import { endPose } from '../../model/base/motion';
+import { canChange, changedByHand, hasGoal, startPose, type Agent, type Scene } from '../../model/document/scene';
+import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/base/units';
 import { LANGUAGE } from '../../texts/language';
-import { resultCode } from '../../model/result-code';
+import { resultCode } from '../../model/document/result-code';
 import { TEXTS } from '../../texts/report-page';
 import { TEXTS as CODE } from '../../texts/result-code';
 

@@ -1,13 +1,14 @@
 // From an answer to cards, and from a card to what the document becomes when it is taken.
-import { patchScene, type Command } from '../../model/commands';
-import { DEFAULTS } from '../../model/domain';
-import { readEvents } from '../../model/events';
-import type { Subject } from '../../model/feedback';
-import { LETTERS, readFutures, withNames, type MotionSet } from '../../model/futures';
-import { firstPose } from '../../model/read';
-import { sceneKey, type Scene } from '../../model/scene';
-import { nameVariants } from '../../model/variant-names';
-import { stateOfVariant } from '../../model/variants';
+import { patchScene, type Command } from '../../model/document/commands';
+import { DEFAULTS } from '../../model/base/domain';
+import { LETTERS, type MotionSet } from '../../model/document/futures';
+import { readEvents } from '../../model/words/event-words';
+import type { Subject } from '../../model/document/feedback-commands';
+import { readFutures, withNames } from '../../model/words/named-futures';
+import { firstPose } from '../../model/document/scene-reader';
+import { sceneKey, type Scene } from '../../model/document/scene';
+import { nameVariants } from '../../model/words/variant-names';
+import { stateOfVariant } from '../../model/document/variants';
 import type { FinalEvent } from '../../net/types';
 import { motionAfter, naming } from '../motion-after';
 import type { Take } from '../variants/making';

@@ -1,9 +1,9 @@
 // The cards on the table: six futures of one road user that are judged, or six ways that the whole scene could go.
 // Nobody follows them yet.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Asked } from '../../model/feedback';
-import type { Futures, MotionSet } from '../../model/futures';
-import type { RoundJson } from '../../model/json';
+import type { Asked } from '../../model/document/feedback';
+import type { Futures, MotionSet } from '../../model/document/futures';
+import type { RoundJson } from '../../model/document/scene-json';
 
 interface Dealt {
   /** Names what they were drawn by, and the document. */

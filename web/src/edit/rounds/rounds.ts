@@ -2,26 +2,20 @@
 // them taken.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import {
-  addWish,
   docOf,
-  forget,
   hasNews,
-  judge,
-  nextRound,
   presentRound,
-  printOf,
   sameTrait,
-  shortFor,
   type Answer,
   type Asked,
-  type Subject,
   type Verdict,
   type Wish,
-} from '../../model/feedback';
-import { reasons, wishWords } from '../../model/feedback-words';
-import { LETTERS } from '../../model/futures';
-import { canMove, nameIn } from '../../model/scene';
-import { takeDealt, type Command } from '../../model/commands';
+} from '../../model/document/feedback';
+import { reasons, wishWords } from '../../model/words/feedback-words';
+import { LETTERS } from '../../model/document/futures';
+import { printOf, shortFor, canMove, nameIn } from '../../model/document/scene';
+import { addWish, forget, judge, nextRound, type Subject } from '../../model/document/feedback-commands';
+import { takeDealt, type Command } from '../../model/document/commands';
 import type { Generator } from '../../net/generator';
 import { inWords } from '../../net/refusal';
 import type { FinalEvent } from '../../net/types';

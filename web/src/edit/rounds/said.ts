@@ -1,5 +1,6 @@
 // What was said of the cards on the table.
-import { answerTo, everybody, oneSubject, type Answer, type Subject } from '../../model/feedback';
+import { answerTo, type Answer } from '../../model/document/feedback';
+import { everybody, oneSubject, type Subject } from '../../model/document/feedback-commands';
 import type { Editor } from '../editor';
 
 const NONE: readonly null[] = Object.freeze([]);

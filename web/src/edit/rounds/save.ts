@@ -1,7 +1,7 @@
 // What was said in rounds, as a file.
-import { oneSubject } from '../../model/feedback';
-import { feedbackTable } from '../../model/feedback-table';
-import { nameIn } from '../../model/scene';
+import { oneSubject } from '../../model/document/feedback-commands';
+import { feedbackTable } from '../../model/words/feedback-table';
+import { nameIn } from '../../model/document/scene';
 import { save, slug } from '../download';
 import type { Editor } from '../editor';
 import { subjectOf } from './said';

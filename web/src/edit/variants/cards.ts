@@ -1,11 +1,12 @@
 // What is known of each variant, and of two that are compared.
-import { counted, readEvents, worstOf, type TrafficEvent } from '../../model/events';
-import type { MotionSet } from '../../model/futures';
-import { partingOf, type Parting, type Side } from '../../model/parting';
-import { sceneKey, type Agent, type Scene } from '../../model/scene';
-import { nameVariants } from '../../model/variant-names';
-import type { SpeedUnit } from '../../model/units';
-import { sameCast, sceneOfVariant, type Variant, type VariantState } from '../../model/variants';
+import { counted, worstOf } from '../../model/physics/events';
+import type { MotionSet } from '../../model/document/futures';
+import { partingOf, type Parting, type Side } from '../../model/words/comparison';
+import { sceneKey, type Agent, type Scene, type Variant, type VariantState } from '../../model/document/scene';
+import { nameVariants } from '../../model/words/variant-names';
+import type { SpeedUnit } from '../../model/base/units';
+import { sameCast, sceneOfVariant } from '../../model/document/variants';
+import { readEvents, type TrafficEvent } from '../../model/words/event-words';
 
 /** A variant with what is known of it. */
 export interface Card {

@@ -1,12 +1,12 @@
 // How variants come about: of one road user its futures, one after the other, with what the others do about each; else
 // everybody anew with seed after seed. What is asked depends on the document alone, so that it can be asked again.
-import { choose, drawAnew, patchScene } from '../../model/commands';
-import { motionOf } from '../../model/changes';
-import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/futures';
-import { poseAt, STEP_S } from '../../model/motion';
-import { canMove, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
-import { withTaken } from '../../model/pins';
-import { readVariantSample } from '../../model/read';
+import { choose, drawAnew, patchScene } from '../../model/document/commands';
+import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/document/futures';
+import { poseAt, STEP_S } from '../../model/base/motion';
+import { canMove, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/document/scene';
+import { withTaken } from '../../model/document/pins';
+import { motionOf } from '../../model/physics/playback';
+import { readVariantSample } from '../../model/words/named-futures';
 import { Away, Refused } from '../../net/client';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';

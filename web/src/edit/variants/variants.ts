@@ -1,10 +1,10 @@
 // The variants of the open scene: made, shown, kept, named and compared. Which there are stands in the document; what
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
-import { inOneStep } from '../../model/commands';
-import { counted, readEvents, worstOf } from '../../model/events';
-import type { Futures, MotionSet } from '../../model/futures';
-import { sceneKey, type Agent, type Scene } from '../../model/scene';
+import { inOneStep } from '../../model/document/commands';
+import { counted, worstOf } from '../../model/physics/events';
+import type { Futures, MotionSet } from '../../model/document/futures';
+import { sceneKey, type Agent, type Scene, type Variant } from '../../model/document/scene';
 import {
   countOf,
   limitsOfSweep,
@@ -14,7 +14,7 @@ import {
   withValue,
   type Over,
   type Sweep,
-} from '../../model/sweep';
+} from '../../model/physics/sweep';
 import {
   keepAsVariant,
   keepStates,
@@ -26,11 +26,11 @@ import {
   sameCast,
   stateOfVariant,
   takeVariant,
-  type Variant,
-} from '../../model/variants';
+} from '../../model/document/variants';
+import { readEvents } from '../../model/words/event-words';
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
-import type { Parted } from '../../model/parting';
+import type { Parted } from '../../model/words/comparison';
 import {
   cardsOf,
   comparedOf,

@@ -1,0 +1,108 @@
+// What the generator says about a future: what is wrong with it, how it stands to others, what it does.
+import type { FaultJson, FaultKind, Manoeuvre, ModeJson, RelationJson, RelationKind } from './scene-json';
+import type { Vec } from '../base/geometry';
+
+export type { FaultKind, Manoeuvre, RelationKind };
+
+/** One thing that is wrong with a motion. Times in seconds of the scene. */
+export interface Fault {
+  readonly kind: FaultKind;
+  readonly time: number;
+  readonly until: number;
+  /** Where the road user is when it is worst, in metres. */
+  readonly at: Vec;
+  /** In the unit of its kind: m/s (collision, red light), m/s² (braking, steering), else metres. */
+  readonly extent: number | null;
+  /** The other road user. */
+  readonly with: string | null;
+  /** Id of the road edge that it goes over; null where there is none, or the generator does not say. */
+  readonly edge: string | null;
+}
+
+export interface Relation {
+  readonly kind: RelationKind;
+  readonly with: string;
+  readonly time: number;
+}
+
+export interface About {
+  /** The worst first. */
+  readonly faults: readonly Fault[];
+  readonly relations: readonly Relation[];
+  readonly manoeuvre: Manoeuvre | null;
+}
+
+export const NOTHING_SAID: About = { faults: [], relations: [], manoeuvre: null };
+
+/** All kinds, the worst first. */
+export const FAULT_KINDS: readonly FaultKind[] = [
+  'collision',
+  'red_light',
+  'wrong_way',
+  'over_median',
+  'off_road',
+  'harsh_braking',
+  'harsh_steering',
+  'near_miss',
+  'via_missed',
+  'goal_missed',
+];
+
+/** A future has one mark, the worst of its verdicts; `ok` where nothing is wrong. */
+export type Mark = 'collision' | 'rule' | 'near' | 'short' | 'ok';
+
+const MARKS: readonly Mark[] = ['collision', 'rule', 'near', 'short', 'ok'];
+
+const KIND_MARKS: Partial<Record<FaultKind, Mark>> = {
+  collision: 'collision',
+  near_miss: 'near',
+  via_missed: 'short',
+  goal_missed: 'short',
+};
+const kindMark = (kind: FaultKind): Mark => KIND_MARKS[kind] ?? 'rule';
+
+export const faultMark = (f: Pick<Fault, 'kind'>): Mark => kindMark(f.kind);
+
+export const markOf = (about: About): Mark => (about.faults.length ? faultMark(about.faults[0]) : 'ok');
+
+/** Below 0: the first is worse. */
+export const compareMarks = (a: Mark, b: Mark): number => MARKS.indexOf(a) - MARKS.indexOf(b);
+
+/** Did it leave where its kind belongs: over a median, off the road, against the traffic? */
+export const leavesRoad = (f: Pick<Fault, 'kind'>): boolean =>
+  f.kind === 'over_median' || f.kind === 'off_road' || f.kind === 'wrong_way';
+
+/** Null where the generator says nothing about its futures. */
+export function readAbout(m: Pick<ModeJson, 'faults' | 'relations' | 'manoeuvre'>): About | null {
+  if (!m.faults && !m.relations && !m.manoeuvre) return null;
+  const faults = (m.faults ?? []).filter((f) => FAULT_KINDS.includes(f.kind)).map(readFault);
+  const rank = (f: Fault): number => FAULT_KINDS.indexOf(f.kind);
+  return {
+    faults: faults.sort((a, b) => rank(a) - rank(b) || a.time - b.time),
+    relations: (m.relations ?? []).map((r) => ({ kind: r.kind, with: r.with, time: r.time_s })),
+    manoeuvre: m.manoeuvre ?? null,
+  };
+}
+
+const readFault = (f: FaultJson): Fault => ({
+  kind: f.kind,
+  time: f.time_s,
+  until: Math.max(f.time_s, f.until_s),
+  at: [f.x_m, f.y_m],
+  extent: f.extent ?? null,
+  with: f.with ?? null,
+  edge: f.edge ?? null,
+});
+
+/** As it was sent, for a scene that is saved with its futures. */
+export interface SentAbout {
+  readonly faults?: FaultJson[];
+  readonly relations?: RelationJson[];
+  readonly manoeuvre?: Manoeuvre;
+}
+
+export const sentAbout = ({ faults, relations, manoeuvre }: ModeJson): SentAbout => ({
+  ...(faults ? { faults } : {}),
+  ...(relations ? { relations } : {}),
+  ...(manoeuvre ? { manoeuvre } : {}),
+});

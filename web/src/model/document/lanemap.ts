@@ -1,0 +1,257 @@
+// The lane map as the editor uses it: lines with running lengths, a grid to find them, and routes.
+import type { AreaJson, LineJson, MapJson, Point } from './scene-json';
+import {
+  boxOf,
+  emptyBox,
+  growBox,
+  makeLine,
+  pointAt,
+  project,
+  sliceLine,
+  wrapAngle,
+  type Box,
+  type Line,
+  type Projection,
+  type Vec,
+} from '../base/geometry';
+
+export type LaneKind = 'road' | 'bike' | 'walk' | 'other';
+
+export interface Lane {
+  readonly id: string;
+  readonly kind: LaneKind;
+  readonly type: string;
+  readonly line: Line;
+  readonly width: number;
+  readonly limit: number | null;
+  readonly next: readonly string[];
+  readonly prev: readonly string[];
+  readonly inside: boolean;
+}
+export interface MapLine {
+  readonly id: string;
+  readonly type: string;
+  readonly line: Line;
+}
+export interface LaneMap {
+  readonly lanes: ReadonlyMap<string, Lane>;
+  readonly lines: readonly MapLine[];
+  readonly edges: readonly MapLine[];
+  readonly crosswalks: readonly (readonly Vec[])[];
+  readonly driveways: readonly (readonly Vec[])[];
+  readonly bumps: readonly (readonly Vec[])[];
+  readonly drivable: readonly { outer: readonly Vec[]; holes: readonly (readonly Vec[])[] }[];
+  readonly stopSigns: readonly Vec[];
+  readonly box: Box;
+  readonly grid: Grid;
+}
+
+/** So far beyond the map somebody may be, metres: logs and goals end there now and then. */
+const BEYOND_M = 200;
+
+/** Between which places of an axis somebody may be, metres. */
+export const placesAlong = ({ box }: LaneMap, axis: 0 | 1): readonly [number, number] =>
+  axis ? [box.y0 - BEYOND_M, box.y1 + BEYOND_M] : [box.x0 - BEYOND_M, box.x1 + BEYOND_M];
+
+const WIDTH: Record<LaneKind, number> = { road: 3.5, bike: 1.8, walk: 2, other: 3 };
+const flat = (pts: readonly Point[] | undefined): Vec[] => (pts ?? []).map((p): Vec => [p[0], p[1]]);
+
+function laneKind(type: string | undefined): LaneKind {
+  switch (type) {
+    case 'bike_lane':
+      return 'bike';
+    case 'sidewalk':
+      return 'walk';
+    case 'parking':
+      return 'other';
+    default:
+      return 'road';
+  }
+}
+
+export function buildMap(json: MapJson): LaneMap {
+  const lanes = new Map<string, Lane>();
+  for (const l of json.lanes ?? []) {
+    const kind = laneKind(l.type);
+    const line = makeLine(flat(l.points_m));
+    if (line.pts.length < 2) continue;
+    // A lane inside a crossing turns or is short and joins two others; it carries no markings of its own.
+    const inside =
+      !!l.interpolating ||
+      (line.length < 45 && (l.predecessors?.length ?? 0) > 0 && (l.successors?.length ?? 0) > 0 && bend(line) > 0.6);
+    lanes.set(l.id, {
+      id: l.id,
+      kind,
+      type: l.type ?? 'undefined',
+      line,
+      width: l.width_m ?? WIDTH[kind],
+      limit: l.speed_limit_mps ?? null,
+      next: l.successors ?? [],
+      prev: l.predecessors ?? [],
+      inside,
+    });
+  }
+  const lines = (list: LineJson[] | undefined): MapLine[] =>
+    (list ?? [])
+      .map((l) => ({ id: l.id ?? '', type: l.type ?? '', line: makeLine(flat(l.points_m)) }))
+      .filter((l) => l.line.pts.length > 1);
+  const areas = (list: AreaJson[] | undefined) =>
+    (list ?? []).map((a) => flat(a.polygon_m)).filter((p) => p.length > 2);
+  const box = emptyBox();
+  for (const l of lanes.values()) for (const p of l.line.pts) growBox(box, p[0], p[1]);
+  const drivable = (json.drivable ?? []).map((a) => ({ outer: flat(a.polygon_m), holes: (a.holes_m ?? []).map(flat) }));
+  for (const a of drivable) for (const p of a.outer) growBox(box, p[0], p[1]);
+  if (!Number.isFinite(box.x0)) {
+    box.x0 = box.y0 = -50;
+    box.x1 = box.y1 = 50;
+  }
+  return {
+    lanes,
+    lines: lines(json.road_lines),
+    edges: lines(json.road_edges),
+    crosswalks: areas(json.crosswalks),
+    driveways: areas(json.driveways),
+    bumps: areas(json.speed_bumps),
+    drivable,
+    stopSigns: (json.stop_signs ?? []).map((s): Vec => [s.position_m[0], s.position_m[1]]),
+    box,
+    grid: new Grid(lanes.values()),
+  };
+}
+
+/** Change of direction over a lane, in radians; positive to the left. */
+export function turnOf(line: Line): number {
+  const p = line.pts,
+    n = p.length;
+  const a = Math.atan2(p[1][1] - p[0][1], p[1][0] - p[0][0]);
+  const b = Math.atan2(p[n - 1][1] - p[n - 2][1], p[n - 1][0] - p[n - 2][0]);
+  return wrapAngle(b - a);
+}
+const bend = (line: Line): number => Math.abs(turnOf(line));
+
+/** Lanes by 16 m cells, so that a drag asks only the few near the pointer. */
+export class Grid {
+  private readonly cells = new Map<string, Set<Lane>>();
+  private static readonly SIZE = 16;
+
+  constructor(lanes: Iterable<Lane>) {
+    for (const lane of lanes) {
+      const { pts } = lane.line;
+      for (let i = 1; i < pts.length; i++) {
+        const b = boxOf([pts[i - 1], pts[i]]);
+        this.each(b, (key) => {
+          const cell = this.cells.get(key);
+          if (cell) cell.add(lane);
+          else this.cells.set(key, new Set([lane]));
+        });
+      }
+    }
+  }
+
+  near(x: number, y: number, radius: number): Set<Lane> {
+    const out = new Set<Lane>();
+    this.each({ x0: x - radius, y0: y - radius, x1: x + radius, y1: y + radius }, (key) => {
+      for (const lane of this.cells.get(key) ?? []) out.add(lane);
+    });
+    return out;
+  }
+
+  private each(b: Box, visit: (key: string) => void): void {
+    const k = Grid.SIZE;
+    for (let i = Math.floor(b.x0 / k); i <= Math.floor(b.x1 / k); i++)
+      for (let j = Math.floor(b.y0 / k); j <= Math.floor(b.y1 / k); j++) visit(`${i},${j}`);
+  }
+}
+
+export interface LaneHit extends Projection {
+  lane: Lane;
+  score: number;
+}
+
+/** Lanes near a pose, best first: distance plus 2 m for a right angle of difference. */
+export function nearestLanes(
+  map: LaneMap,
+  x: number,
+  y: number,
+  heading: number | null,
+  radius: number,
+  fits: (l: Lane) => boolean,
+): LaneHit[] {
+  const hits: LaneHit[] = [];
+  for (const lane of map.grid.near(x, y, radius)) {
+    if (!fits(lane)) continue;
+    const p = project(lane.line, x, y);
+    if (p.d > radius) continue;
+    const turn = heading === null ? 0 : Math.abs(wrapAngle(heading - p.heading));
+    hits.push({ ...p, lane, score: p.d + (2 * turn) / (Math.PI / 2) });
+  }
+  return hits.sort((a, b) => a.score - b.score);
+}
+
+export interface Route {
+  readonly line: Line;
+  readonly length: number;
+  readonly lanes: readonly Lane[];
+}
+
+/** Shortest way along the lanes from one hit to another, lane changes to a parallel lane not included. */
+export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400): Route | null {
+  if (from.lane === to.lane && to.s >= from.s - 0.5)
+    return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane]);
+  interface Node {
+    lane: Lane;
+    cost: number;
+    back: Node | null;
+  }
+  const open: Node[] = [{ lane: from.lane, cost: from.lane.line.length - from.s, back: null }];
+  const seen = new Set<string>();
+  for (let n = 0; open.length && n < limit; n++) {
+    let best = 0;
+    for (let i = 1; i < open.length; i++) if (open[i].cost < open[best].cost) best = i;
+    const node = open.splice(best, 1)[0];
+    if (seen.has(node.lane.id)) continue;
+    if (node.back) seen.add(node.lane.id);
+    for (const id of node.lane.next) {
+      const lane = map.lanes.get(id);
+      if (!lane || seen.has(id)) continue;
+      if (lane === to.lane) return join(from, { lane, cost: 0, back: node }, to);
+      open.push({ lane, cost: node.cost + lane.line.length, back: node });
+    }
+  }
+  return null;
+
+  function join(a: LaneHit, end: Node, b: LaneHit): Route {
+    const chain: Lane[] = [];
+    for (let n: Node | null = end; n; n = n.back) chain.unshift(n.lane);
+    const pts: Vec[] = [];
+    chain.forEach((lane, i) => {
+      const piece = sliceLine(lane.line, i === 0 ? a.s : 0, i === chain.length - 1 ? b.s : lane.line.length);
+      pts.push(...(i ? piece.slice(1) : piece));
+    });
+    return routeOf(pts, chain);
+  }
+}
+
+function routeOf(pts: Vec[], lanes: readonly Lane[]): Route {
+  const line = makeLine(pts);
+  return { line, length: line.length, lanes };
+}
+
+/** Sharpest bend of a line as a radius, measured over stretches of about 4 m. */
+export function tightestRadius(line: Line): number {
+  let best = Infinity;
+  const n = Math.max(2, Math.floor(line.length / 2));
+  const at = (i: number): Vec => {
+    const p = pointAt(line, (line.length * i) / n);
+    return [p.x, p.y];
+  };
+  for (let i = 2; i <= n; i++) {
+    const a = at(i - 2),
+      b = at(i - 1),
+      c = at(i);
+    const t = Math.abs(wrapAngle(Math.atan2(c[1] - b[1], c[0] - b[0]) - Math.atan2(b[1] - a[1], b[0] - a[0])));
+    const d = line.length / n;
+    if (t > 1e-3) best = Math.min(best, d / t);
+  }
+  return best;
+}

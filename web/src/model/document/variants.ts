@@ -1,0 +1,167 @@
+// Variants: ways that the scene could go, side by side. A variant is what was asked and which numbers the generator
+// drew with; its motion is worked out from that like any other and not part of the document.
+import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
+import { durationOf, sceneKey, touched, type Agent, type Length, type Others, type Replan, type Scene } from './scene';
+import { TEXTS } from '../../texts/variants';
+
+/** How a variant is called and what is thought of it. */
+export interface Variant {
+  /** Counts up in a scene and is never used twice. */
+  readonly id: number;
+  /** The name that was given by hand; null where what differs is the name. */
+  readonly called: string | null;
+  /** Stays when others are made. */
+  readonly kept: boolean;
+  readonly starred: boolean;
+}
+
+/** What a variant consists of. */
+export interface VariantState {
+  readonly seed: number;
+  readonly diversity: number;
+  readonly others: Others;
+  readonly length: Length;
+  readonly replan: Replan;
+  readonly drawn: number;
+  /** Whose futures the variants made with it were; null where everybody was worked out anew. */
+  readonly subject: string | null;
+  /** Who was in the scene, as `Scene.roster` has it. */
+  readonly roster: string;
+  /** What is asked of whom; of everybody else nothing is. */
+  readonly asked: Readonly<Record<string, Asked>>;
+}
+
+export type Asked = Required<
+  Pick<
+    AgentPatch,
+    'start' | 'goal' | 'chosen' | 'dealt' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'
+  >
+>;
+
+/** So many are made at most, and so many a scene holds with those that were kept. */
+export const MOST_NEW = 10;
+export const MOST_VARIANTS = 30;
+
+/** The document as it is now, as a variant of it. */
+export function stateOfVariant(scene: Scene, subject: string | null): VariantState {
+  const { seed, diversity, others, length, replan, drawn, roster } = scene;
+  const asked = [...scene.agents.values()].filter((a) => touched(a) || a.does !== null);
+  return Object.freeze({
+    seed,
+    diversity,
+    others,
+    length,
+    replan,
+    drawn,
+    subject,
+    roster,
+    asked: Object.freeze(Object.fromEntries(asked.map((a) => [a.id, askedOf(a)]))),
+  });
+}
+
+export const askedOf = ({
+  start,
+  goal,
+  chosen,
+  dealt,
+  profile,
+  length,
+  width,
+  type,
+  kind,
+  subtype,
+  does,
+}: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
+
+/** Are the road users of a variant those that are here? */
+export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.roster;
+
+const NOTHING = { does: null } as const;
+
+/** Makes the document that of a variant. */
+export function takeVariant(scene: Scene, state: VariantState, name: string): Command {
+  const { seed, diversity, others, length, replan, drawn } = state;
+  const patches = new Map<string, AgentPatch>();
+  for (const a of scene.agents.values()) {
+    const asked = state.asked[a.id];
+    if (asked) patches.set(a.id, asked);
+    else if (touched(a) || a.does !== null)
+      patches.set(a.id, { ...recorded(a), chosen: null, profile: null, ...NOTHING });
+  }
+  const duration = durationOf(length, scene.steps);
+  return {
+    ...inOneStep(
+      patchScene(name, { seed, diversity, others, length, replan, drawn, duration }),
+      patchAgents(name, patches),
+    ),
+    fold: 'variant',
+  };
+}
+
+export const sceneOfVariant = (scene: Scene, state: VariantState): Scene => takeVariant(scene, state, '').apply(scene);
+
+/** Text that names the answer to a variant: that of the document it stands for. */
+export const keyOfVariant = (scene: Scene, state: VariantState): string => sceneKey(sceneOfVariant(scene, state));
+
+// -------------------------------------------------------------- commands
+
+type States = Scene['variantStates'];
+
+const put = (name: string, variants: readonly Variant[], variantStates: States): Command =>
+  patchScene(name, { variants: Object.freeze(variants), variantStates: Object.freeze(variantStates) });
+
+/** New ones take the place of all that nobody kept. */
+export function replaceVariants(scene: Scene, fresh: readonly VariantState[]): Command {
+  const stay = scene.variants.filter((v) => v.kept || v.starred);
+  const first = nextVariant(scene);
+  const come = fresh
+    .slice(0, MOST_VARIANTS - stay.length)
+    .map((_, i): Variant => ({ id: first + i, called: null, kept: false, starred: false }));
+  const states: Record<number, VariantState> = {};
+  for (const v of stay) states[v.id] = scene.variantStates[v.id];
+  come.forEach((v, i) => (states[v.id] = fresh[i]));
+  const n = come.length;
+  return put(TEXTS.oneVariantMade(n), [...stay, ...come], states);
+}
+
+/** The number of the next one: larger than any before it. */
+const nextVariant = (scene: Scene): number => 1 + Math.max(0, ...scene.variants.map((v) => v.id));
+
+export type VariantPatch = Partial<Omit<Variant, 'id'>>;
+
+export const patchVariant = (scene: Scene, id: number, patch: VariantPatch, name: string): Command =>
+  patchScene(name, {
+    variants: Object.freeze(scene.variants.map((v) => (v.id === id ? Object.freeze({ ...v, ...patch }) : v))),
+  });
+
+/** The document as it is joins the variants, kept. */
+export const keepAsVariant = (scene: Scene, name: string): Command | null =>
+  keepStates(scene, [stateOfVariant(scene, null)], name);
+
+/** Others join them, kept; null where there is no room for all. */
+export function keepStates(
+  scene: Scene,
+  fresh: readonly VariantState[],
+  name: string,
+  starred: readonly boolean[] = [],
+): Command | null {
+  if (scene.variants.length + fresh.length > MOST_VARIANTS) return null;
+  const first = nextVariant(scene);
+  const come = fresh.map((_, i): Variant => ({
+    id: first + i,
+    called: null,
+    kept: true,
+    starred: starred[i] ?? false,
+  }));
+  const states = Object.fromEntries(fresh.map((state, i) => [first + i, state]));
+  return put(name, [...scene.variants, ...come], { ...scene.variantStates, ...states });
+}
+
+export function removeVariant(scene: Scene, id: number, name: string): Command {
+  const states = Object.fromEntries(Object.entries(scene.variantStates).filter(([k]) => Number(k) !== id));
+  return put(
+    name,
+    scene.variants.filter((v) => v.id !== id),
+    states,
+  );
+}

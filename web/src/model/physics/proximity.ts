@@ -1,0 +1,141 @@
+// When several come closest to each other.
+import { gapAtLeast, gapBetween, type Footprint } from './boxes';
+import type { Pose } from '../base/geometry';
+import { poseAtStep, STEP_S, type Motion } from '../base/motion';
+import type { Agent } from '../document/scene';
+
+/** Two road users at the moment at which they are closest. */
+export interface Closest {
+  readonly a: Agent;
+  readonly b: Agent;
+  /** Between their boxes, metres. */
+  readonly gap: number;
+  /** Seconds of the scene. */
+  readonly time: number;
+}
+
+/** Beyond so many it is not looked for. */
+const MOST = 80;
+
+export type Moving = readonly [Agent, Motion];
+
+function boxAt([agent, motion]: Moving, step: number): Footprint | null {
+  const pose = poseAtStep(motion, step);
+  return pose && { pose, length: agent.length, width: agent.width };
+}
+
+/**
+ * The two that come closest, with the moment. Where the road users are of more than one type, those of unlike types
+ * are compared: that a crowd walks close together is no news. Null where there are not two to compare, or too many.
+ */
+export function closestOf(all: readonly Moving[], duration: number): Closest | null {
+  if (all.length < 2 || all.length > MOST) return null;
+  const mixed = new Set(all.map(([a]) => a.type)).size > 1;
+  const steps = Math.round(duration / STEP_S);
+  let best: Closest | null = null;
+  for (let step = 0; step <= steps; step++) {
+    const boxes = all.map((m) => boxAt(m, step));
+    for (let i = 0; i < all.length; i++)
+      for (let j = i + 1; j < all.length; j++) {
+        const p = boxes[i],
+          q = boxes[j];
+        if (!p || !q || (mixed && all[i][0].type === all[j][0].type)) continue;
+        const known = best?.gap ?? Infinity;
+        if (gapAtLeast(p, q) >= known) continue;
+        const gap = gapBetween(p, q);
+        if (gap < known) best = { a: all[i][0], b: all[j][0], gap, time: step * STEP_S };
+      }
+  }
+  return best;
+}
+
+/** Who of the others comes closest to one of them, and when; at equal gaps the earliest. Null where none is near. */
+export function closestTo(one: Moving, others: readonly Moving[], duration: number): Closest | null {
+  const steps = Math.round(duration / STEP_S);
+  let best: Closest | null = null;
+  for (let step = 0; step <= steps; step++) {
+    const p = boxAt(one, step);
+    for (const other of p ? others : []) {
+      const q = boxAt(other, step);
+      const known = best?.gap ?? Infinity;
+      if (!q || gapAtLeast(p!, q) >= known) continue;
+      const gap = gapBetween(p!, q);
+      if (gap < known) best = { a: one[0], b: other[0], gap, time: step * STEP_S };
+    }
+  }
+  return best;
+}
+
+/** One is where the other was a moment before. */
+export interface TimeGap {
+  readonly first: Agent;
+  readonly second: Agent;
+  /** From the first leaving the ground that they share to the second coming to it, seconds. */
+  readonly gap: number;
+  /** When the second comes, seconds of the scene. */
+  readonly time: number;
+}
+
+/** Who goes less far than this uses no ground that another could come to after it, metres: as the engine has it. */
+const LEAST_WAY_M = 2;
+
+/**
+ * Post-encroachment time of two: the least shift in time at which their boxes would meet, as the engine's score has it
+ * of ways that cross; of one behind the other it is the time between them. Null where their ways share no ground, where
+ * one hardly moves, and where they touch.
+ */
+export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap | null {
+  const steps = Math.round(duration / STEP_S);
+  const [p, q] = [one, other].map((m) => Array.from({ length: steps + 1 }, (_, step) => boxAt(m, step)));
+  if (wayOf(p) < LEAST_WAY_M || wayOf(q) < LEAST_WAY_M) return null;
+  for (let shift = 0; shift <= steps; shift++)
+    for (let step = shift; step <= steps; step++) {
+      const oneFirst = share(p[step - shift], q[step]);
+      if (!oneFirst && !share(q[step - shift], p[step])) continue;
+      const [first, second] = oneFirst ? [one[0], other[0]] : [other[0], one[0]];
+      return shift ? { first, second, gap: shift * STEP_S, time: step * STEP_S } : null;
+    }
+  return null;
+}
+
+/** A box on its way. */
+export interface Driven extends Footprint {
+  readonly pose: Pose;
+}
+
+/** Nobody looks further ahead than this, seconds. */
+const LOOKS_S = 10;
+
+/** Seconds until two would touch if both went straight on as they go; null where they touch already or would not. */
+export function timeToCollision(p: Driven, q: Driven): number | null {
+  const on = ({ pose, ...box }: Driven, t: number): Footprint => {
+    const { x, y, heading, speed } = pose;
+    const way = speed * t;
+    return { ...box, pose: { ...pose, x: x + way * Math.cos(heading), y: y + way * Math.sin(heading) } };
+  };
+  for (let step = 0; step * STEP_S <= LOOKS_S; step++)
+    if (share(on(p, step * STEP_S), on(q, step * STEP_S))) return step ? step * STEP_S : null;
+  return null;
+}
+
+const share = (p: Footprint | null, q: Footprint | null): boolean =>
+  p !== null && q !== null && gapAtLeast(p, q) <= 0 && gapBetween(p, q) <= 0;
+
+function wayOf(boxes: readonly (Footprint | null)[]): number {
+  let way = 0;
+  boxes.reduce((before, box) => {
+    if (before && box) way += Math.hypot(box.pose.x - before.pose.x, box.pose.y - before.pose.y);
+    return box ?? before;
+  }, null);
+  return way;
+}
+
+/** The same at one moment: how far the two closest are apart, metres. */
+export function gapNow(boxes: readonly Footprint[]): number | null {
+  if (boxes.length < 2 || boxes.length > MOST) return null;
+  let best = Infinity;
+  boxes.forEach((p, i) => {
+    for (const q of boxes.slice(i + 1)) if (gapAtLeast(p, q) < best) best = Math.min(best, gapBetween(p, q));
+  });
+  return best;
+}

@@ -1,0 +1,243 @@
+// Local reachability while dragging: no network, a fraction of a millisecond. The generator's own verdict
+// replaces it when it arrives.
+import {
+  curveBetween,
+  makeLine,
+  pointAt,
+  sliceLine,
+  wrapAngle,
+  type Line,
+  type Pose,
+  type Vec,
+} from '../base/geometry';
+import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
+import { metres, seconds, speedLabel, type SpeedUnit } from '../base/units';
+import { limitsOf, type Limits } from '../base/domain';
+import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
+import { TEXTS } from '../../texts/reach';
+
+/** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
+export function furthestReach(l: Limits, v: number, t: number): number {
+  const { accel_mps2: accel, speed_mps: top } = l;
+  if (v >= top) return v * t;
+  const t1 = (top - v) / accel;
+  return t <= t1 ? v * t + (accel * t * t) / 2 : v * t1 + (accel * t1 * t1) / 2 + top * (t - t1);
+}
+
+/** Shortest distance in `t` seconds: braking as hard as it goes. */
+export function leastReach(l: Limits, v: number, t: number): number {
+  const { brake_mps2: brake } = l;
+  const ts = v / brake;
+  return t <= ts ? v * t - (brake * t * t) / 2 : (v * v) / (2 * brake);
+}
+
+export type ReachKind = 'ok' | 'far' | 'near' | 'sharp';
+
+export interface LocalReach {
+  readonly kind: ReachKind;
+  readonly path: Line;
+  readonly onLanes: boolean;
+  readonly along: number;
+  readonly max: number;
+  readonly min: number;
+  readonly nearest: Pose | null;
+  readonly title: string;
+  readonly words: string;
+  /** What would make it work: seconds, start speed in m/s. */
+  readonly time: number | null;
+  readonly speed: number | null;
+}
+
+const fitsAgent =
+  (a: Pick<Agent, 'type'>) =>
+  (l: Lane): boolean =>
+    a.type === 'cyclist' ? l.kind === 'bike' || l.kind === 'road' : l.kind === 'road';
+
+/** The way to the goal: along the lanes when both ends lie on lanes that join up, else a plain curve. */
+export function pathTo(
+  map: LaneMap,
+  a: Pick<Agent, 'type'>,
+  start: Pose,
+  goal: { x: number; y: number; heading: number },
+): { line: Line; onLanes: boolean } {
+  if (a.type !== 'pedestrian') {
+    const fit = fitsAgent(a);
+    const from = nearestLanes(map, start.x, start.y, start.heading, 3, fit).slice(0, 4);
+    const to = nearestLanes(map, goal.x, goal.y, goal.heading, 3, fit).slice(0, 2);
+    for (const b of to)
+      for (const f of from) {
+        const r = findRoute(map, f, b);
+        if (r && r.line.pts.length > 1 && r.length < 1.9 * Math.hypot(goal.x - start.x, goal.y - start.y) + 12)
+          return { line: r.line, onLanes: true };
+      }
+  }
+  if (a.type === 'pedestrian')
+    return {
+      line: makeLine([
+        [start.x, start.y],
+        [goal.x, goal.y],
+      ]),
+      onLanes: false,
+    };
+  return { line: makeLine(curveBetween(start, goal)), onLanes: false };
+}
+
+export function localReach(
+  map: LaneMap,
+  a: Agent,
+  start: Pose,
+  goal: GoalSpec,
+  unit: SpeedUnit,
+  latest = GOAL_TIME,
+): LocalReach | null {
+  if (!goal.pos) return null;
+  const l = limitsOf(a),
+    t = goal.time,
+    v = start.speed;
+  const heading = goal.heading ?? Math.atan2(goal.pos[1] - start.y, goal.pos[0] - start.x);
+  const target: Pose = { x: goal.pos[0], y: goal.pos[1], heading, speed: goal.speed ?? v };
+  const { line, onLanes } = pathTo(map, a, start, target);
+  const along = line.length;
+  const max = furthestReach(l, v, t),
+    min = leastReach(l, v, t);
+  const who = {
+    car: TEXTS.thisCar,
+    truck: TEXTS.thisTruck,
+    bus: TEXTS.thisBus,
+    motorcycle: TEXTS.thisMotorcycle,
+    cyclist: TEXTS.thisCyclist,
+    pedestrian: TEXTS.thisPerson,
+    other: TEXTS.it,
+  }[a.kind];
+  const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
+  const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
+  // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
+  const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
+  if (straight > max + 0.5) {
+    return {
+      ...base,
+      kind: 'far',
+      nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
+      time: timeFor(l, v, along, latest),
+      speed: speedFor(l, t, along),
+      title: TEXTS.tooFarFor(seconds(t)),
+      words:
+        (onLanes ? TEXTS.theGoalIsAway(metres(along, 0)) : TEXTS.theGoalIsAwayStraight(metres(along, 0))) +
+        TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), who, metres(max, 0)),
+    };
+  }
+  if (along < min - 1 && along > 0.5) {
+    return {
+      ...base,
+      kind: 'near',
+      nearest: {
+        x: start.x + Math.cos(start.heading) * min,
+        y: start.y + Math.sin(start.heading) * min,
+        heading: start.heading,
+        speed: 0,
+      },
+      speed: Math.sqrt(Math.max(0, 2 * l.brake_mps2 * along)),
+      title: TEXTS.cannotStopThat,
+      words: TEXTS.fromItNeedsThe(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
+    };
+  }
+  const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
+  const needed = Math.max(0, (along / t) * 0.6);
+  if (radius < Infinity && needed * needed > l.lateral_mps2 * radius) {
+    const ok = Math.sqrt(l.lateral_mps2 * radius);
+    return {
+      ...base,
+      kind: 'sharp',
+      speed: ok,
+      title: TEXTS.tooTightAtThis,
+      words: TEXTS.wouldDo(speedLabel(ok, unit)),
+    };
+  }
+  const mean = speedLabel(along / t, unit);
+  return {
+    ...base,
+    kind: 'ok',
+    title: TEXTS.reachable,
+    words:
+      a.type === 'pedestrian'
+        ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t))
+        : TEXTS.onAverageIsEnough(mean),
+  };
+}
+
+/**
+ * How far it gets and how much is missing, from whoever gave the verdict: the generator measures straight from the
+ * start, the quick look along the way. The two are never mixed, or the numbers on one screen contradict each other.
+ */
+export function shortfall(
+  start: Pose,
+  goal: readonly [number, number],
+  nearest: { x: number; y: number } | null,
+  local: LocalReach | null,
+): { gets: number; beyond: number } | null {
+  if (nearest && nearest !== local?.nearest) {
+    const gets = Math.hypot(nearest.x - start.x, nearest.y - start.y);
+    return { gets, beyond: Math.hypot(goal[0] - start.x, goal[1] - start.y) - gets };
+  }
+  return local?.kind === 'far' ? { gets: local.max, beyond: local.along - local.max } : null;
+}
+
+const walk = (v: number): string =>
+  v < 0.6 ? TEXTS.aStroll : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
+
+function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
+  for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;
+  return null;
+}
+
+function speedFor(l: Limits, t: number, d: number): number | null {
+  for (let v = 0; v <= l.speed_mps; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
+  return null;
+}
+
+// -------------------------------------------------------------- all that it reaches
+
+/** A stretch of lane, with the lane's width in metres. */
+export interface Stretch {
+  readonly pts: readonly Vec[];
+  readonly width: number;
+}
+
+/** Who stands so near to a lane can take it, metres and radians. */
+const TAKES_M = 5;
+const TAKES_RAD = 0.6;
+/** No more lanes than this are followed. */
+const MOST_LANES = 400;
+
+/** Least and most that it can have gone by a time, metres. */
+export const reachBetween = (a: Agent, start: Pose, t: number): readonly [number, number] => [
+  leastReach(limitsOf(a), start.speed, t),
+  furthestReach(limitsOf(a), start.speed, t),
+];
+
+/** Where it can be at a time, along the lanes that it is on or beside; nothing for somebody on foot. */
+export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): Stretch[] {
+  if (a.type === 'pedestrian') return [];
+  const [least, most] = reachBetween(a, start, t);
+  const turned = (heading: number): number => Math.abs(wrapAngle(heading - start.heading));
+  const open = nearestLanes(map, start.x, start.y, start.heading, TAKES_M, fitsAgent(a))
+    .filter((h) => turned(h.heading) < TAKES_RAD)
+    .map((h) => ({ lane: h.lane, at: -h.s }));
+  const seen = new Set<string>();
+  const out: Stretch[] = [];
+  // The shortest way to a lane is followed first, so that a lane met again adds nothing.
+  for (let n = 0; open.length && n < MOST_LANES; n++) {
+    open.sort((p, q) => q.at - p.at);
+    const { lane, at } = open.pop()!;
+    if (seen.has(lane.id)) continue;
+    seen.add(lane.id);
+    const [from, to] = [Math.max(0, least - at, -at), Math.min(lane.line.length, most - at)];
+    if (to > from + 0.1) out.push({ pts: sliceLine(lane.line, from, to), width: lane.width });
+    const end = at + lane.line.length;
+    for (const id of end < most ? lane.next : []) {
+      const next = map.lanes.get(id);
+      if (next && !seen.has(id)) open.push({ lane: next, at: end });
+    }
+  }
+  return out;
+}

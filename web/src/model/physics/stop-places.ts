@@ -1,0 +1,79 @@
+// Where one stops on a way: at a stop line, before a crosswalk, behind somebody who stands.
+import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
+import { alongOf, lineOf, type Path } from './speed-profile';
+import { TEXTS } from '../../texts/places';
+import { startPose, type Agent, type Scene } from '../document/scene';
+
+/** A place along a way, in metres from its beginning, to which the front comes. */
+export interface StopPlace {
+  readonly s: number;
+  readonly words: string;
+}
+
+/** The front stands so far before a line, and so far behind somebody, metres. */
+const BEFORE_LINE_M = 0.3;
+const GAP_M = 2;
+/** A stop line lies on the way when its lane ends so near to it, and leads the same way, metres and radians. */
+const ON_WAY_M = 1.5;
+const ALONG_RAD = 0.5;
+/** Somebody stands on the way when its middle is so near to it, metres. */
+const IN_WAY_M = 1.2;
+/** Places closer together than this are one: the line before the crosswalk is meant. */
+const APART_M = 1;
+
+export function stopPlaces(scene: Scene, a: Agent, path: Path): StopPlace[] {
+  if (path.x.length < 2) return [];
+  const all = [...stopLines(scene, path), ...queueEnds(scene, a, path), ...crosswalks(scene, path)];
+  return all.filter((p, i) => p.s > 0 && !all.slice(0, i).some((q) => Math.abs(q.s - p.s) < APART_M));
+}
+
+function stopLines({ map, signals }: Scene, path: Path): StopPlace[] {
+  const line = lineOf(path);
+  const lit = new Set(signals.map((g) => g.lane));
+  const out: StopPlace[] = [];
+  for (const lane of map.lanes.values()) {
+    const end = pointAt(lane.line, lane.line.length);
+    const signed = map.stopSigns.some(([x, y]) => Math.hypot(x - end.x, y - end.y) < 4);
+    if (lane.inside || !(signed || lit.has(lane.id) || lane.next.some((id) => lit.has(id)))) continue;
+    const on = project(line, end.x, end.y);
+    const along = Math.abs(wrapAngle(pointAt(line, on.s).heading - end.heading)) < ALONG_RAD;
+    if (on.d < ON_WAY_M && along) out.push({ s: on.s - BEFORE_LINE_M, words: TEXTS.atTheStopLine });
+  }
+  return out;
+}
+
+function crosswalks({ map }: Scene, path: Path): StopPlace[] {
+  const along = alongOf(path);
+  return map.crosswalks.flatMap((area) => {
+    const on = path.x.map((x, i) => insidePolygon(x, path.y[i], area));
+    const i = on.findIndex((inside, k) => inside && k > 0 && !on[k - 1]);
+    return i < 0 ? [] : [{ s: edgeOf(path, along, i, area) - BEFORE_LINE_M, words: TEXTS.beforeTheCrosswalk }];
+  });
+}
+
+/** Where between two places of a path an area begins. */
+function edgeOf(path: Path, along: readonly number[], i: number, area: readonly Vec[]): number {
+  let [out, into] = [0, 1];
+  const at = (k: number): Vec => [
+    path.x[i - 1] + (path.x[i] - path.x[i - 1]) * k,
+    path.y[i - 1] + (path.y[i] - path.y[i - 1]) * k,
+  ];
+  for (let n = 0; n < 6; n++) {
+    const k = (out + into) / 2;
+    if (insidePolygon(...at(k), area)) into = k;
+    else out = k;
+  }
+  return along[i - 1] + (along[i] - along[i - 1]) * out;
+}
+
+function queueEnds(scene: Scene, a: Agent, path: Path): StopPlace[] {
+  const line = lineOf(path);
+  const out: StopPlace[] = [];
+  for (const b of scene.agents.values()) {
+    const p = b.id === a.id || b.type === 'pedestrian' ? null : startPose(b);
+    if (!p || b.parked || Math.abs(p.speed) > 0.5) continue;
+    const on = project(line, p.x, p.y);
+    if (on.d < IN_WAY_M && on.s > a.length) out.push({ s: on.s - b.length / 2 - GAP_M, words: TEXTS.behind(b.name) });
+  }
+  return out;
+}

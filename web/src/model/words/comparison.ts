@@ -1,0 +1,178 @@
+// What differs between two variants: who does another thing, since when, and what comes of it.
+import { compareMarks } from '../document/future-facts';
+import { meetsGoal, motionOf } from '../physics/changes';
+import { summary, counted, type TrafficEvent } from '../physics/events';
+import type { MotionSet } from '../document/futures';
+import { toLocal, type Vec } from '../base/geometry';
+import { poseAt, STEP_S, type Motion } from '../base/motion';
+import { deedOf, type Deed } from './variant-names';
+import type { Agent, Scene } from '../document/scene';
+import { metres, num, seconds } from '../base/units';
+import { TEXTS } from '../../texts/parting';
+
+export interface Side {
+  /** What it is called in a sentence: its number. */
+  readonly label: string;
+  readonly scene: Scene;
+  readonly set: MotionSet;
+  readonly events: readonly TrafficEvent[];
+}
+
+/** A moment at which they part, in a sentence. */
+export interface Moment {
+  readonly time: number;
+  readonly words: string;
+  readonly at: Vec;
+}
+
+export interface Row {
+  readonly what: string;
+  readonly left: string;
+  readonly right: string;
+  readonly differs: boolean;
+}
+
+/** One who does another thing. */
+export interface Parted {
+  readonly agent: Agent;
+  readonly left: Motion;
+  readonly right: Motion;
+  /** Metres between both where they are furthest apart. */
+  readonly far: number;
+  /** When they are first apart. */
+  readonly since: number;
+}
+
+export interface Parting {
+  /** Those furthest apart first. */
+  readonly parted: readonly Parted[];
+  readonly rows: readonly Row[];
+  readonly moments: readonly Moment[];
+  /** How many do the same in both. */
+  readonly same: number;
+  readonly all: number;
+}
+
+/** Apart by more than this is another motion, metres. */
+const APART_M = 1;
+const MOST_MOMENTS = 6;
+const MOST_ROWS = 5;
+/** Within so many seconds after they part somebody stops, or slows. */
+const SOON_S = 4;
+const STANDS_MPS = 0.3;
+const SLOWS_MPS = 1;
+
+export function partingOf(left: Side, right: Side): Parting {
+  const all = [...left.scene.agents.values()].filter((a) => a.type !== 'other');
+  const parted = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
+  return {
+    parted,
+    rows: rowsOf(left, right, parted),
+    moments: momentsOf(left, right, parted),
+    same: all.length - parted.length,
+    all: all.length,
+  };
+}
+
+function partedOf(left: Side, right: Side, agent: Agent): Parted | null {
+  const other = right.scene.agents.get(agent.id);
+  if (!other) return null;
+  const m = motionOf(left.scene, left.set, agent),
+    n = motionOf(right.scene, right.set, other);
+  if (m === n) return null;
+  let far = 0,
+    since = -1;
+  for (let t = 0; t <= left.scene.duration + STEP_S / 2; t += STEP_S) {
+    const p = poseAt(m, t),
+      q = poseAt(n, t);
+    if (!p || !q) continue;
+    const d = Math.hypot(p.x - q.x, p.y - q.y);
+    if (d > APART_M && since < 0) since = t;
+    far = Math.max(far, d);
+  }
+  return since < 0 ? null : { agent, left: m, right: n, far, since };
+}
+
+// -------------------------------------------------------------- the table
+
+const row = (what: string, left: string, right: string): Row => ({ what, left, right, differs: left !== right });
+
+function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
+  const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
+  const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
+  const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
+  return [
+    row(TEXTS.events, events(left), events(right)),
+    ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
+    row(TEXTS.smallestGap, gap(left), gap(right)),
+    row(TEXTS.leastTimeToCollision, closing(left), closing(right)),
+    ...goals(left, right),
+  ];
+}
+
+function deeds(scene: Scene, { agent, left, right }: Parted): Row {
+  const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
+  const [p, q] = [deedWords(a), deedWords(b)];
+  return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
+}
+
+const TURNS = { left: TEXTS.turnsLeft, right: TEXTS.turnsRight } as const;
+
+function deedWords(d: Deed): string {
+  if (d.waits >= 1) return d.stands ? TEXTS.standsS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
+  return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TURNS[d.turn];
+}
+
+function goals(left: Side, right: Side): Row[] {
+  const words = (s: Side, id: string): string => {
+    const a = s.scene.agents.get(id);
+    const met = a ? meetsGoal(s.set, a) : null;
+    return met === null ? TEXTS.notKnown : met ? TEXTS.reached : TEXTS.missed;
+  };
+  return [...left.scene.agents.values()]
+    .filter((a) => a.goal.pos)
+    .slice(0, 2)
+    .map((a) => row(TEXTS.goalOf(a.name), words(left, a.id), words(right, a.id)));
+}
+
+// -------------------------------------------------------------- the moments
+
+function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
+  const said = (e: TrafficEvent): string =>
+    e.what === 'collision' && e.b ? TEXTS.meets(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
+  // Where there are too many the worst are told, and of these the first, whichever side they are on.
+  const events = [left, right]
+    .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))
+    .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time);
+  // What happens in both, if not quite as close, is no parting.
+  const alone = events.filter((m) => !events.some((o) => o !== m && sameMeeting(o.e, m.e)));
+  const own = alone.map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
+  const ways = parted.map((p) => wayOf(left, right, p));
+  return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
+}
+
+/** The same happens to the same ones at about the same time. */
+const sameMeeting = (p: TrafficEvent, q: TrafficEvent): boolean =>
+  p.what === q.what && p.a.id === q.a.id && p.b?.id === q.b?.id && Math.abs(p.time - q.time) < 0.5;
+
+function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Parted): Moment {
+  const p = poseAt(m, t)!,
+    q = poseAt(n, t)!;
+  const at: Vec = [(p.x + q.x) / 2, (p.y + q.y) / 2];
+  const [along, aside] = toLocal(p, q.x, q.y);
+  const say = (words: string): Moment => ({ time: t, words: `${agent.name} ${words}`, at });
+  if (Math.abs(aside) > Math.abs(along))
+    return say(aside > 0 ? TEXTS.keepsFurther(right.label) : TEXTS.keepsFurtherRight(right.label));
+  // Whoever is behind there has slowed, or the other one goes on.
+  const [slow, motion, other] = along < 0 ? [right, n, m] : [left, m, n];
+  const least = (of: Motion): number => {
+    let v = Infinity;
+    for (let s = t; s <= Math.min(left.scene.duration, t + SOON_S); s += STEP_S) v = Math.min(v, speedAt(of, s));
+    return v;
+  };
+  if (least(motion) < STANDS_MPS && least(other) >= STANDS_MPS) return say(TEXTS.stopsOnlyIn(slow.label));
+  if (speedAt(motion, 0) - speedAt(motion, t) > SLOWS_MPS) return say(TEXTS.slowsOnlyIn(slow.label));
+  return say(TEXTS.goesFasterIn((slow === left ? right : left).label));
+}
+
+const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? Infinity);

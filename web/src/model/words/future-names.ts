@@ -1,0 +1,498 @@
+// Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
+// the same. No two in one list are alike.
+import { faultMark, leavesRoad, type About, type RelationKind } from '../document/future-facts';
+import { wrapAngle } from '../base/geometry';
+import {
+  distances,
+  endPose,
+  furthestApart,
+  hardestBraking,
+  lastStep,
+  pathLength,
+  poseAt,
+  STEP_S,
+  type Motion,
+} from '../base/motion';
+import { TEXTS as KINDS } from '../../texts/kinds';
+import { TEXTS } from '../../texts/names';
+
+/** What a name is made from. */
+export interface Nameable {
+  readonly motion: Motion;
+  readonly about?: About | null;
+}
+
+/** Who is named, and what the others are called. */
+export interface Naming {
+  readonly onFoot: boolean;
+  readonly nameOf: (id: string) => string | null;
+  /** What was recorded of it; null where nothing was. */
+  readonly log?: Motion | null;
+}
+
+/** A name and what it rests on: `after:12`, or a manner such as `Turns left`. */
+export interface Named {
+  readonly name: string;
+  readonly basis: string;
+}
+
+export const LETTERS = 'ABCDEF';
+
+/** Letters that a row of the list has room for. */
+const LONGEST = 24;
+
+/** Words for one thing to say of a future, the best first, shorter ones after it. */
+interface Candidate {
+  readonly basis: string;
+  readonly forms: readonly string[];
+}
+
+const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
+  before: TEXTS.before,
+  after: TEXTS.after,
+  follows: TEXTS.behind,
+  gives_way_to: TEXTS.waitsFor,
+};
+
+const nameless: Naming['nameOf'] = () => null;
+
+/** A name for each. What all share says nothing and is not used. */
+export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): Named[] =>
+  nameRest(
+    modes,
+    who,
+    modes.map(() => null),
+  );
+
+/** Names for those that have none yet, told apart from the others, which keep theirs. */
+export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (Named | null)[]): Named[] {
+  const list = new NameList(modes, kept);
+  const said = candidates(modes, who);
+  // What says most first; who cannot be told apart by it is named by something else.
+  for (let rank = 0; list.unnamed.length; rank++) {
+    const groups = new Map<string, number[]>();
+    for (const i of list.unnamed) {
+      const c = said[i][rank];
+      if (c) groups.set(c.basis, [...(groups.get(c.basis) ?? []), i]);
+    }
+    if (!groups.size) break;
+    for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
+  }
+  // A small difference that is so says more than whom it is like.
+  for (const part of SMALL) for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c, part));
+  for (const i of list.unnamed) list.likenToOther(i, said[i][0]);
+  return list.names;
+}
+
+/** The names given so far. */
+class NameList {
+  readonly #names: (Named | null)[];
+
+  constructor(
+    private readonly modes: readonly Nameable[],
+    kept: readonly (Named | null)[],
+  ) {
+    this.#names = [...kept];
+  }
+
+  get unnamed(): number[] {
+    return this.#names.flatMap((n, i) => (n ? [] : [i]));
+  }
+
+  get names(): Named[] {
+    return this.#names.map((n) => n!);
+  }
+
+  #give(i: number, c: Candidate, end: string): boolean {
+    const said = (o: Named | null): boolean => !!end && o?.basis === c.basis && o.name.endsWith(`, ${end}`);
+    if (this.#names.some(said)) return false;
+    const taken = (n: string): boolean => this.#names.some((o) => o?.name === n);
+    const names = c.forms.map((f) => (end ? `${f}, ${end}` : f));
+    const name = names.find((n) => n.length <= LONGEST && !taken(n));
+    if (name === undefined) return false;
+    this.#names[i] = { name, basis: c.basis };
+    return true;
+  }
+
+  /** The first of a group is called what all of it do; each other one by what tells it from all the rest. */
+  tellApart(group: readonly number[], c: Candidate): void {
+    const named = this.#names.flatMap((n, i) => (n?.basis === c.basis ? [i] : []));
+    const left = [...group];
+    if (!named.length && this.#give(left[0], c, '')) named.push(left.shift()!);
+    if (!left.length) return;
+    const all = [...named, ...left];
+    const { traits, halfway } = traitsOf(this.modes, all, c.basis);
+    const take = (claims: readonly Claim[]): void => {
+      for (const { i, word } of [...claims].sort((p, q) => q.margins - p.margins))
+        if (left.includes(i) && this.#give(i, c, word)) left.splice(left.indexOf(i), 1);
+    };
+    const [pace] = traits;
+    // Of two the plainest difference is said. Several are told apart by their pace first.
+    if (all.length > 2) take(scaleOf(pace, all));
+    take(traits.flatMap((t) => extremesOf(t, all)));
+    // Those of one pace, beside each other and the first.
+    for (const i of [...left]) {
+      const same = all.filter((j) => j === all[0] || Math.abs(pace.values.get(j)! - pace.values.get(i)!) < pace.least);
+      take([...traits, halfway].flatMap((t) => extremesOf(t, same)).filter((claim) => claim.i === i));
+    }
+  }
+
+  /** By what it differs a little from the first of those that do the same; `part` of what can be seen is enough. */
+  tellSlightly(i: number, c: Candidate, part: number): boolean {
+    const named = this.#names.flatMap((n, j) => (n?.basis === c.basis ? [j] : []));
+    if (!named.length) return false;
+    const [first] = named;
+    const { traits, halfway } = traitsOf(this.modes, [...named, i], c.basis);
+    const differs = [...new Set([...traits, halfway, brakingTime(this.modes, [...named, i])])]
+      .map((t) => ({ t, by: (t.values.get(i)! - t.values.get(first)!) / t.least }))
+      .filter(({ by }) => Math.abs(by) >= part)
+      .sort((p, q) => Math.abs(q.by) - Math.abs(p.by));
+    for (const { t, by } of differs) {
+      const word = by > 0 ? t.more : lessOf(t, i);
+      const beyond = (j: number): number => Math.sign(by) * (t.values.get(j)! - t.values.get(i)!);
+      const ends = (j: number, end: string): boolean => this.#names[j]!.name.endsWith(end);
+      const inOrder = (end: string): boolean =>
+        named.every(
+          (j) => !ends(j, ` ${word}`) || (end === word && ends(j, TEXTS.aBit(word)) ? beyond(j) < 0 : beyond(j) > 0),
+        );
+      if ([TEXTS.aBitFirst(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
+      const short = by > 0 || word === t.less ? t.short?.[by > 0 ? 0 : 1] : undefined;
+      if (short && this.#give(i, c, short)) return true;
+    }
+    return false;
+  }
+
+  /** Of one that nothing tells from another, to which it is likened: to one that is called by what it does. */
+  likenToOther(i: number, c: Candidate): void {
+    const others = this.#names.flatMap((n, j) => (n && j !== i && !isLikened(n.name) ? [j] : []));
+    const far = new Map(others.map((j) => [j, furthestApart(this.modes[j].motion, this.modes[i].motion)]));
+    others.sort((a, b) => far.get(a)! - far.get(b)!);
+    for (const j of others) {
+      const likes = LIKES.map((like) => like(LETTERS[j]));
+      if (likes.some((like) => this.#give(i, c, like))) return;
+      const alone = likes.slice(1).map((like) => like.charAt(0).toUpperCase() + like.slice(1));
+      if (alone.some((like) => this.#give(i, { basis: c.basis, forms: [like] }, ''))) return;
+    }
+  }
+}
+
+/** Parts of what can be seen that are named where nothing else tells. */
+const SMALL = [0.5, 0.2] as const;
+
+const LIKES = [TEXTS.like, TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
+
+const isLikened = (name: string): boolean => LIKES.some((like) => [...LETTERS].some((l) => name.endsWith(like(l))));
+
+// -------------------------------------------------------------- what can be said of each
+
+function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
+  const relations = modes.map((m) => relationsOf(m, who));
+  const count = new Map<string, number>();
+  const kinds = new Map<string, Set<string>>();
+  for (const list of relations)
+    for (const r of list) {
+      count.set(r.basis, (count.get(r.basis) ?? 0) + 1);
+      kinds.set(r.other, (kinds.get(r.other) ?? new Set()).add(r.basis));
+    }
+  const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.basis)! < modes.length;
+  // Somebody that one future is before and another is after says most about both.
+  const contrast = (r: RelationCandidate): number => Number(kinds.get(r.other)!.size > 1);
+  const onRoad = modes.map((m) => !!m.about && m.about.faults.every((f) => faultMark(f) === 'near'));
+  const alone = onRoad.filter(Boolean).length === 1 && modes.some((m) => m.about?.faults.some(leavesRoad));
+  const stops = modes.map((m) => endsStanding(m, who.onFoot));
+  const stopTells = modes.length === 1 || stops.some((s) => !s);
+  return modes.map((m, i) => [
+    ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
+    ...(alone && onRoad[i] ? [{ basis: TEXTS.byTheRoad, forms: [TEXTS.byTheRoad] }] : []),
+    ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
+    // One that stops is not called by how it goes on.
+    stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
+  ]);
+}
+
+/** Never further from what was recorded than this is like it, metres; one that hardly moves is not compared. */
+const LIKE_LOG_M = 2;
+const MOVES_M = 4;
+
+function isLike(m: Motion, log: Motion): boolean {
+  if (pathLength(log) < MOVES_M) return false;
+  for (let t = 0; t <= lastStep(m) * STEP_S + 1e-6; t += 5 * STEP_S) {
+    const [p, q] = [poseAt(m, t), poseAt(log, t)];
+    // Where it was not seen there is nothing to be like.
+    if (!q) continue;
+    if (!p || Math.hypot(p.x - q.x, p.y - q.y) > LIKE_LOG_M) return false;
+  }
+  return true;
+}
+
+const STOPS = TEXTS.stops;
+
+interface RelationCandidate extends Candidate {
+  readonly other: string;
+}
+
+function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
+  const out = new Map<string, RelationCandidate>();
+  // Nobody waits for whom it hits.
+  const hit = new Set(m.about?.faults.flatMap((f) => (f.kind === 'collision' && f.with !== null ? [f.with] : [])));
+  for (const r of m.about?.relations ?? []) {
+    const name = hit.has(r.with) ? null : who.nameOf(r.with);
+    const basis = `${r.kind}:${r.with}`;
+    if (!name || out.has(basis)) continue;
+    // Who gives way at speed does not wait.
+    const rolls = r.kind === 'gives_way_to' && !waitsBy(m.motion, r.time, who.onFoot);
+    const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
+    const short = shortName(name);
+    const forms = [`${word} ${name}`, `${word} ${short}`];
+    if (r.kind === 'gives_way_to') forms.push(TEXTS.letsGo(short));
+    if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
+  }
+  return [...out.values()];
+}
+
+/** Slower than walking pace is waiting, m/s. */
+const CRAWLS_M_S = 1.4;
+
+/** Has it stood or crept by a scene time? */
+function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
+  const slow = onFoot ? STANDING_M_S : CRAWLS_M_S;
+  return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
+}
+
+/** A name of its own with the long word cut. */
+const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
+const SHORT = [
+  [KINDS.pedestrian, TEXTS.ped],
+  [KINDS.motorcycle, TEXTS.moto],
+  [KINDS.cyclist, TEXTS.cycl],
+] as const;
+
+/** Slower than this is standing, m/s. */
+const STANDING_M_S = 0.25;
+const standing = (onFoot: boolean): number => (onFoot ? STANDING_M_S : 0.5);
+/** Less than this is no way at all, metres. */
+const STAYS_M = 1.5;
+/** Less than this is not seen, metres. */
+const CREEPS_M = 0.4;
+
+function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
+  const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
+  if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
+  // One that rolls on into the other lane has not stopped in this one.
+  const changesLane = manoeuvre === 'lane_left' || manoeuvre === 'lane_right';
+  return Math.abs(endPose(m).speed) < (changesLane ? STANDING_M_S : standing(onFoot));
+}
+
+function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
+  const forms = mannerWords(motion, about?.manoeuvre ?? shapeOf(motion, onFoot), onFoot);
+  return { basis: forms[0], forms };
+}
+
+function mannerWords(m: Motion, manoeuvre: NonNullable<About['manoeuvre']>, onFoot: boolean): string[] {
+  switch (manoeuvre) {
+    case 'left':
+    case 'right': {
+      const turn = manoeuvre === 'left' ? TEXTS.turnsLeft : TEXTS.turnsRight;
+      return !onFoot && shiftsFirst(m) ? [TEXTS.otherLaneThen[manoeuvre], TEXTS.laneThen[manoeuvre], turn] : [turn];
+    }
+    case 'lane_left':
+    case 'lane_right': {
+      const side = manoeuvre === 'lane_left' ? 'left' : 'right';
+      return onFoot ? [TEXTS.bears[side]] : [TEXTS.toTheLane[side], side === 'left' ? TEXTS.leftLane : TEXTS.rightLane];
+    }
+    case 'turn_round':
+      return [TEXTS.turnsRound];
+    case 'stays':
+      if (pathLength(m) >= CREEPS_M) return [onFoot ? TEXTS.aStepOrTwo : TEXTS.creepsOn];
+      return [onFoot ? TEXTS.stays : TEXTS.standsStill];
+    case 'reverse':
+      return [TEXTS.backsUp];
+    case 'straight':
+      return onFoot ? [TEXTS.straight] : [TEXTS.straightOn, TEXTS.straight];
+  }
+}
+
+// -------------------------------------------------------------- shapes
+
+/** What it does, from its shape alone. */
+function shapeOf(m: Motion, onFoot: boolean): NonNullable<About['manoeuvre']> {
+  const n = m.x.length - 1;
+  if (n < 2 || pathLength(m) < STAYS_M) return 'stays';
+  const turn = totalTurn(m);
+  if (Math.abs(turn) > 2.5) return 'turn_round';
+  if (Math.abs(turn) > 0.6) return turn > 0 ? 'left' : 'right';
+  // Sideways without a turn; a long road that bends a little is still straight on.
+  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2;
+  const far = Math.hypot(m.x[n] - m.x[0], m.y[n] - m.y[0]);
+  const left = sideways(m, n, h);
+  const limit = onFoot ? Math.max(1, 0.18 * far) : Math.max(2.2, 0.07 * far);
+  return Math.abs(left) > limit ? (left > 0 ? 'lane_left' : 'lane_right') : 'straight';
+}
+
+function totalTurn(m: Motion): number {
+  let t = 0;
+  for (let i = 1; i < m.heading.length; i++) t += wrapAngle(m.heading[i] - m.heading[i - 1]);
+  return t;
+}
+
+/** Metres to the left of the start, seen along a heading. */
+const sideways = (m: Motion, i: number, heading: number): number =>
+  -(m.x[i] - m.x[0]) * Math.sin(heading) + (m.y[i] - m.y[0]) * Math.cos(heading);
+
+/** About a lane's width, and a heading that is a turn and no change of lanes, radians. */
+const LANE_M = 2.4;
+const TURNING = 0.3;
+
+/** Has it changed lanes before it turns? */
+function shiftsFirst(m: Motion): boolean {
+  const i = m.heading.findIndex((h) => Math.abs(wrapAngle(h - m.heading[0])) > TURNING);
+  return i > 0 && Math.abs(sideways(m, i, m.heading[0])) > LANE_M;
+}
+
+// -------------------------------------------------------------- what tells one from another
+
+/** Something that can be seen of each of a group. */
+interface Trait {
+  readonly values: ReadonlyMap<number, number>;
+  /** Less than this is not seen. */
+  readonly least: number;
+  readonly more: string;
+  readonly less: string;
+  /** Shorter words for more and for less of it. */
+  readonly short?: readonly [more: string, less: string];
+  /** What is said, in place of less, of one that has next to nothing of it. */
+  readonly none?: { readonly below: number; readonly word: string };
+}
+
+const lessOf = ({ values, less, none }: Trait, i: number): string =>
+  none && values.get(i)! < none.below ? none.word : less;
+
+interface Claim {
+  readonly i: number;
+  readonly word: string;
+  /** By how many times what can be seen it differs. */
+  readonly margins: number;
+}
+
+/** Who has most and least of a trait: each beyond all of the others. */
+function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
+  const { values, least, more } = trait;
+  const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
+  const gap = (a: number, b: number): number => (values.get(order[a])! - values.get(order[b])!) / least;
+  const last = order.length - 1;
+  return [
+    { i: order[0], word: more, margins: gap(0, 1) },
+    { i: order[last], word: lessOf(trait, order[last]), margins: gap(last - 1, last) },
+  ].filter((claim) => claim.margins >= 1);
+}
+
+/** Words of a scale, from the first of a group outwards: one on each level that can be seen apart. */
+const SCALE: Readonly<Record<number, readonly string[]>> = {
+  1: ['', ''],
+  2: ['', '', TEXTS.much],
+  3: ['', TEXTS.aBitPrefix, '', TEXTS.much],
+};
+
+/** More and less of a trait than the first has, level by level. */
+function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): Claim[] {
+  const [first] = all;
+  const out: Claim[] = [];
+  for (const [sign, word] of [
+    [1, more],
+    [-1, less],
+  ] as const) {
+    const beyond = (i: number): number => (sign * (values.get(i)! - values.get(first)!)) / least;
+    const levels: number[] = [];
+    for (const i of [...all].sort((a, b) => beyond(a) - beyond(b)))
+      if (beyond(i) >= 1 + (levels.length ? beyond(levels.at(-1)!) : 0)) levels.push(i);
+    // Of more levels than there are words the outermost have them.
+    const kept = levels.length > 3 ? [levels[0], levels[levels.length >> 1], levels.at(-1)!] : levels;
+    kept.forEach((i, k) => out.push({ i, word: SCALE[kept.length][k + 1] + word, margins: beyond(i) }));
+  }
+  return out;
+}
+
+/** Less than this is no braking, m/s². */
+const BRAKES_MPS2 = 0.4;
+
+/** When it brakes hardest, seconds; nobody is told from those that hardly brake. */
+function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trait {
+  const at = (m: Motion): number => {
+    let most = 1,
+      when = NaN;
+    for (let i = 5; i < m.speed.length; i++) {
+      const braking = (Math.abs(m.speed[i - 5]) - Math.abs(m.speed[i])) / 0.5;
+      if (braking > most) [most, when] = [braking, i * STEP_S];
+    }
+    return when;
+  };
+  const values = new Map(group.map((i) => [i, at(modes[i].motion)]));
+  return { values, least: 1, more: TEXTS.brakesLater, less: TEXTS.brakesSooner };
+}
+
+interface Traits {
+  /** The pace first. */
+  readonly traits: readonly Trait[];
+  /** Who is ahead halfway. */
+  readonly halfway: Trait;
+}
+
+/** Everything by which the members of a group may differ in what is seen of them. */
+function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
+  const motion = (i: number): Motion => modes[i].motion;
+  const gone = new Map(group.map((i) => [i, distances(motion(i))]));
+  const n = Math.min(...[...gone.values()].map((d) => d.length)) - 1;
+  const trait = (of: (i: number) => number, least: number, more: string, less: string): Trait => ({
+    values: new Map(group.map((i) => [i, of(i)])),
+    least,
+    more,
+    less,
+  });
+  const at = (part: number) => (i: number) => gone.get(i)![Math.round(n * part)];
+  const ends = group.map(at(1));
+  const far = Math.max(1, 0.03 * Math.max(...ends));
+  const together = Math.max(...ends) - Math.min(...ends) < far;
+  const halfway = trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later);
+  const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
+  // With a goal all get as far in the end; then it is told on the way who is ahead.
+  const pace = together ? halfway : trait(at(1), far, more, less);
+  const [first] = group;
+  const turn = totalTurn(motion(first));
+  const turns = Math.abs(turn) > 0.4;
+  // Positive outwards in a turn, else to the left.
+  const side = new Map(group.map((i) => [i, (turns ? -Math.sign(turn) : 1) * sideOf(motion(first), motion(i), n)]));
+  const offset = (i: number): number => side.get(i)!;
+  const traits: Trait[] = [
+    pace,
+    trait(at(0.25), 0.8, TEXTS.fasterStart, TEXTS.slowerStart),
+    trait((i) => Math.abs(motion(i).speed[n]), 1.5, TEXTS.fasterEnd, TEXTS.slowerEnd),
+    {
+      ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.harderBraking, TEXTS.softerBraking),
+      short: [TEXTS.brakesMore, TEXTS.brakesLess],
+      none: { below: BRAKES_MPS2, word: TEXTS.noBraking },
+    },
+    turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
+  ];
+  return { traits, halfway };
+}
+
+/** The furthest that the second path lies to the left of the first, metres; negative to the right. */
+function sideOf(a: Motion, b: Motion, n: number): number {
+  let most = 0;
+  for (let i = 2; i <= n; i += 2) {
+    // Beside the nearest point of the first path, so that pace is not taken for width.
+    let best = Infinity,
+      at = 0;
+    for (let k = 0; k < a.x.length; k += 2) {
+      const d = (a.x[k] - b.x[i]) ** 2 + (a.y[k] - b.y[i]) ** 2;
+      if (d < best) {
+        best = d;
+        at = k;
+      }
+    }
+    if (at === 0 || at >= a.x.length - 2) continue;
+    const left = -(b.x[i] - a.x[at]) * Math.sin(a.heading[at]) + (b.y[i] - a.y[at]) * Math.cos(a.heading[at]);
+    if (Math.abs(left) > Math.abs(most)) most = left;
+  }
+  return most;
+}
