@@ -8,7 +8,7 @@ import { motionFrom, type Motion } from '../src/model/base/motion';
 import { sceneKey, startPose, withAgents, type Scene } from '../src/model/document/scene';
 import { Cases } from '../src/edit/cases/cases';
 import { Questions } from '../src/edit/question';
-import { SceneFile } from '../src/edit/scene-file';
+import { SceneFile } from '../src/edit/document/scene-file';
 import { Maker } from '../src/edit/variants/making';
 import { car, crossing } from './helpers';
 import { finalOf, InMemoryGenerator, json, Session } from './edit/session';

@@ -145,23 +145,6 @@ describe('commands', () => {
 });
 
 describe('history', () => {
-  it('writes one step for a drag and none for a cancelled one', () => {
-    const scene = crossing(),
-      a = scene.agents.get('1')!;
-    const h = new History(scene);
-    h.begin();
-    for (let i = 0; i < 50; i++) h.preview(setGoal(a, { ...a.goal, pos: [i, 0] }));
-    h.commit(setGoal(a, { ...a.goal, pos: [50, 0] }));
-    expect(h.depth).toBe(1);
-    h.undo();
-    expect(face(h.scene)).toBe(face(scene));
-    h.begin();
-    h.preview(setGoal(a, { ...a.goal, pos: [1, 2] }));
-    h.cancel();
-    expect(face(h.scene)).toBe(face(scene));
-    expect(h.depth).toBe(0);
-  });
-
   it('folds repeats of one field within 600 ms', () => {
     let now = 0;
     const scene = crossing(),

@@ -1,6 +1,6 @@
 // Steps there and back, branches, what is kept of them, and how a scene goes on from it.
 import { describe, expect, it } from 'vitest';
-import { Journal, resume } from '../src/edit/journal';
+import { Journal, resume } from '../src/edit/document/journal';
 import { rename, setGoal, setSeed } from '../src/model/document/commands';
 import { History, MOST_STEPS, replay } from '../src/model/document/history';
 import type { GeneratedJson } from '../src/model/document/scene-json';
@@ -10,7 +10,7 @@ import { applyDiff, diffOf, isEmptyDiff, stateOf, withState } from '../src/model
 import { PassingStepStore } from '../src/net/step-store';
 import { crossingJson } from './helpers';
 
-const file = (): Scene => readScene(crossingJson());
+const file = (): Scene => readScene({ ...crossingJson(), id: 'x' });
 const someone = (s: Scene): Agent => [...s.agents.values()].find((a) => a.logStart)!;
 const goal = (s: Scene, x: number) => setGoal(someone(s), { ...freeGoal(), pos: [x, 3] });
 const without = (s: Scene, id: string): Scene => {
@@ -66,18 +66,6 @@ describe('history', () => {
     expect([h.redo()?.name, h.redo()?.name, h.redo()?.name, h.redo()]).toEqual(['Seed 1', 'Seed 2', 'Seed 3', null]);
   });
 
-  it('keeps where the picture looked before a drag and after it', () => {
-    const h = new History(file());
-    let cx = 0;
-    h.camera = () => ({ cx, cy: 0, z: 8 });
-    h.begin();
-    h.preview(goal(h.scene, 5));
-    cx = 300;
-    h.commit(goal(h.scene, 6));
-    const step = h.undo()!;
-    expect([step.from?.cx, step.to?.cx]).toEqual([0, 300]);
-  });
-
   it('forgets the oldest steps in bunches, and the document before the first moves on', () => {
     const h = new History(file(), () => 0);
     let shorter = 0;
@@ -91,6 +79,20 @@ describe('history', () => {
     expect(h.first().seed).toBe(last - h.depth);
     while (h.undo());
     expect(h.scene.seed).toBe(last - h.line().length);
+  });
+
+  it('forgets the branch that was left longest ago before the one that was left last', () => {
+    const h = new History(file(), () => 0);
+    const branch = (first: number, steps: number): void => {
+      for (let i = 0; i < steps; i++) h.run(setSeed(first + i));
+      h.goTo(null);
+    };
+    branch(1000, 50);
+    branch(2000, 105);
+    for (let i = 0; h.kept().steps.length > MOST_STEPS || i === 0 || i < 395; i++) h.run(setSeed(3000 + i));
+    const left = (from: number) =>
+      h.kept().steps.filter(({ diff }) => Math.floor(diff.forth.seed! / 1000) * 1000 === from).length;
+    expect([left(1000), left(2000), left(3000)]).toEqual([0, 105, 395]);
   });
 
   it('is the same after it was stored', () => {
@@ -118,7 +120,7 @@ describe('a scene that is opened again', () => {
     journal.follow(h, 'x', null, own);
     h.run(goal(h.scene, 4));
     h.run(setSeed(5));
-    if (etag) journal.synced(etag, h.head);
+    if (etag) journal.synced(h.committed, etag);
     await journal.flush();
     return { store, journal, h, kept: async () => (await store.read('x'))! };
   }
@@ -185,10 +187,10 @@ describe('a scene that is opened again', () => {
     const r = resume(theirs, before, true, '"2"');
     expect(r.standing).toBe('behind');
     const again = new History(r.scene, undefined, r.history);
-    again.adopt('Changed elsewhere', theirs);
+    expect([r.scene.name, again.undoName]).toEqual(['Theirs', 'Changed elsewhere']);
     journal.follow(again, 'x', before, true);
     void journal.retry();
-    journal.synced('"2"', again.head);
+    journal.synced(again.committed, '"2"');
     await journal.flush();
     const next = resume(theirs, await kept(), true, '"2"');
     expect([next.standing, next.scene.name]).toEqual(['same', 'Theirs']);

@@ -1,47 +1,7 @@
 // Tabs take turns at a scene.
 import { describe, expect, it, vi } from 'vitest';
 import { SceneTurns, type TurnEvents } from '../src/net/scene-lock';
-
-/** Locks as browsers give them, for one name at a time. */
-class Locks {
-  #held: { release: (reason?: unknown) => void } | null = null;
-  readonly #line: (() => void)[] = [];
-
-  request(_: string, options: LockOptions, grant: (lock: Lock | null) => Promise<void> | undefined): Promise<void> {
-    if (options.ifAvailable && this.#held) return Promise.resolve(grant(null));
-    if (options.steal) this.#held?.release(new DOMException('stolen', 'AbortError'));
-    return new Promise((resolve, reject) => {
-      const take = () => {
-        const mine = {
-          release: (reason?: unknown) => {
-            if (this.#held === mine) this.#held = null;
-            if (reason) reject(reason);
-            else resolve();
-            if (!reason) this.#line.shift()?.();
-          },
-        };
-        this.#held = mine;
-        void grant({ mode: 'exclusive', name: _ } as Lock)?.then(() => mine.release());
-      };
-      options.signal?.addEventListener('abort', () => {
-        const at = this.#line.indexOf(take);
-        if (at >= 0) this.#line.splice(at, 1);
-        reject(options.signal!.reason);
-      });
-      if (this.#held && !options.steal) this.#line.push(take);
-      else take();
-    });
-  }
-}
-
-/** Channels of tabs of one browser: each hears the others. */
-function channels(n: number): BroadcastChannel[] {
-  const hearers: ((e: { data: unknown }) => void)[] = [];
-  return Array.from({ length: n }, (_, i) => ({
-    addEventListener: (_type: string, hear: (e: { data: unknown }) => void) => (hearers[i] = hear),
-    postMessage: (data: unknown) => hearers.forEach((hear, j) => j !== i && hear({ data })),
-  })) as unknown as BroadcastChannel[];
-}
+import { channels, Locks } from './locks';
 
 function tabs() {
   const locks = new Locks() as unknown as LockManager;
@@ -74,11 +34,13 @@ describe('two tabs at one scene', () => {
     await vi.waitFor(() => expect(a.said).toEqual(['leaving', 'lost', 'got']));
   });
 
-  it('the second gets it when the first goes elsewhere', async () => {
+  it('the second gets it when the first has left it for another', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
     await b.turns.goTo('s');
-    await a.turns.goTo('other');
+    expect(await a.turns.goTo('other')).toBe(true);
+    expect(b.said).toEqual([]);
+    a.turns.left();
     await vi.waitFor(() => expect(b.said).toEqual(['got']));
     expect(a.said).toEqual([]);
   });

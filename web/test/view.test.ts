@@ -9,7 +9,7 @@ import { Recording, Vocabulary } from '../src/draw/recording';
 import { View } from '../src/draw/view';
 import { agentsAt, hitTest, type HitContext } from '../src/edit/hit';
 import { lockAll } from '../src/edit/several';
-import { readLink, writeLink } from '../src/edit/share-link';
+import { readLink, writeLink } from '../src/edit/document/share-link';
 import { Pointer } from './edit/pointer';
 
 const coordinate = fc.double({ min: -2000, max: 2000, noNaN: true });

@@ -83,7 +83,7 @@ const moved = (a: Camera, b: Camera): boolean =>
  */
 export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
-  editor.camera = () => stage.view.camera;
+  editor.document.camera = () => stage.view.camera;
   editor.onTravel = (step: HistoryStep, way) => {
     const there = way === 'back' ? step.from : step.to;
     if (!there || !step.from || !step.to || !moved(there, stage.view.camera)) return;

@@ -3,7 +3,7 @@ import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { rename } from '../model/document/commands';
 import { isRecorded } from '../model/document/scene';
-import type { SaveState } from '../edit/saving';
+import type { SaveState } from '../edit/document/saving';
 import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';
 import { Controls } from './parts/asking';

@@ -4,7 +4,8 @@ import type { MotionSet } from '../model/document/futures';
 import { takenPin } from '../model/document/pins';
 import { STEP_S } from '../model/base/motion';
 import { canChange, doing, GOAL_TIME, touchedIn, type Agent, type Scene } from '../model/document/scene';
-import type { Editor, Step } from './editor';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
 import type { Wanted } from './question';
 
 /** `nothing`: nobody is asked anything any more. `known`: the motions are there and only to be scored. */

@@ -4,7 +4,7 @@ import type { SceneJson } from '../net/types';
 import type { Scene } from '../model/document/scene';
 import type { Editor } from './editor';
 import type { Loss } from './outward/losses';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 import { TEXTS } from '../texts/keeping';
 
 interface Source {

@@ -1,27 +1,29 @@
-// The editing session: the document with its history, what is selected and pointed at, and its parts (answers,
-// playhead, notices). What a panel shows is a signal here, to be read; it changes by the named methods alone.
+// The editing session: what is selected and pointed at, and its parts (document, answers, playhead, notices). What a
+// panel shows is a signal here, to be read; it changes by the named methods alone.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { History, type Camera, type HistoryStep, type KeptHistory } from '../model/document/history';
+import type { HistoryStep, KeptHistory } from '../model/document/history';
 import type { Command } from '../model/document/commands';
 import { startPose, touched, touchedIn, type Agent, type Scene } from '../model/document/scene';
 import type { Futures, MotionSet } from '../model/document/futures';
-import { motionOf } from '../model/physics/playback';
 import { endPose, poseAtStep } from '../model/base/motion';
 import type { Way } from '../model/document/scene-diff';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/base/geometry';
+import { motionOf } from '../model/physics/playback';
 import { eventsOf, readEvents, type TrafficEvent } from '../model/words/event-words';
 import { localReach, type LocalReach } from '../model/words/reach-words';
 import { type SpeedUnit, toldIn, walkingUnit } from '../model/base/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Calm } from './calm';
+import { Document, type Commit, type Lock, type Travel } from './document/document';
+import { onlyPicked, stepOf, type Step } from './document/step';
 import { Filling } from './filling';
 import { Layouts } from './layouts';
 import type { ToolName } from './gestures/tools';
 import { Layers, type LayerName } from './layers';
 import { Notices } from './notices';
 import { Placement } from './placement';
-import { lostCurve, SpeedCurve, type LostCurve } from './speed-curve';
+import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
 import { Deck } from './rounds/deck';
 import { TEXTS } from '../texts/generation';
@@ -77,30 +79,6 @@ export interface Sweep {
   readonly ids: readonly string[];
 }
 
-/** A change of the document that was committed: its name, whom it is about, and whether undo or redo made it. */
-export interface Step {
-  readonly name: string;
-  readonly agent: string | null;
-  /** Whom it is about, where that is not one alone. */
-  readonly several?: readonly string[];
-  readonly undo: boolean;
-  /** Everybody is to be worked out anew. */
-  readonly everybody?: boolean;
-  /** The motions stand, only what counts in them is another thing. */
-  readonly counting?: boolean;
-  /** What is left to chance is drawn otherwise. */
-  readonly chance?: boolean;
-  /** The speed curve of whom it is about has gone out of force with it. */
-  readonly curve?: LostCurve;
-}
-
-/** Why the document can be looked at only, and the way out. */
-export interface Lock {
-  readonly words: string;
-  readonly label: string;
-  run(): void;
-}
-
 /** A document with what everybody does in it, and who of them does another thing than on the picture. */
 export interface Beside {
   readonly scene: Scene;
@@ -127,6 +105,7 @@ const NO_TRIES: Tries = Object.freeze([]);
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
 export class Editor {
+  readonly document = new Document();
   readonly answers = new Answers();
   readonly playhead = new Playhead();
   readonly notices = new Notices();
@@ -139,8 +118,6 @@ export class Editor {
   readonly deck = new Deck();
   readonly #layers = new Layers();
 
-  readonly #scene = signal<Scene | null>(null);
-  readonly #resting = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
   readonly #hover = signal<string | null>(null);
   readonly #hoverFuture = signal<number | null>(null);
@@ -157,19 +134,14 @@ export class Editor {
   readonly #drag = signal<DragInfo | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
   readonly #speedUnit = signal<SpeedUnit>(toldIn(recall<SpeedUnit>('speed-unit') ?? 'km/h'));
-  readonly #undoName = signal<string | null>(null);
-  readonly #redoName = signal<string | null>(null);
   readonly #beside = signal<Beside | null>(null);
   readonly #tries = signal<Tries>(NO_TRIES);
-  readonly #lock = signal<Lock | null>(null);
-  readonly #historyTick = signal(0);
   /** Goal headings that came from a lane and may follow the next one, as `part:id`. */
   readonly #snappedHeadings = new Set<string>();
-  #history: History | null = null;
 
-  readonly scene: ReadonlySignal<Scene | null> = this.#scene;
-  /** The same, but for a drag: while a hand moves it stays as it was, and so does what is worked out from it. */
-  readonly resting: ReadonlySignal<Scene | null> = this.#resting;
+  readonly scene: ReadonlySignal<Scene | null> = this.document.shown;
+  /** The committed one: while a hand moves it stays as it was, and so does what is worked out from it. */
+  readonly resting: ReadonlySignal<Scene | null> = this.document.scene;
   /** Is there a scene? It changes less often than the scene does. */
   readonly isOpen = computed(() => this.resting.value !== null);
   /** Ids of all that are selected, in the order in which they were taken. */
@@ -204,14 +176,11 @@ export class Editor {
   readonly beside: ReadonlySignal<Beside | null> = this.#beside;
   /** Ways that a search has tried so far, pale on the picture. */
   readonly tries: ReadonlySignal<Tries> = this.#tries;
-  readonly undoName: ReadonlySignal<string | null> = this.#undoName;
-  readonly redoName: ReadonlySignal<string | null> = this.#redoName;
-  /** Null while the document can be changed. */
-  readonly lock: ReadonlySignal<Lock | null> = this.#lock;
-  /** Rises with every change of the history. */
-  readonly historyTick: ReadonlySignal<number> = this.#historyTick;
 
   // The parts' signals under short names, for reading.
+  readonly undoName = this.document.undoName;
+  readonly redoName = this.document.redoName;
+  readonly lock = this.document.lock;
   readonly motion = this.answers.motion;
   readonly draft = this.answers.draft;
   readonly changes = this.answers.changes;
@@ -230,9 +199,6 @@ export class Editor {
   onTravel: ((step: HistoryStep, way: Way) => void) | null = null;
   /** A map that was being made has given way to a scene; what is handed over goes on with it. */
   onMapPutAway: ((reopen: () => void) => void) | null = null;
-  /** Where the picture looks; kept with every step. */
-  camera: () => Camera | null = () => null;
-
   readonly agent = computed<Agent | null>(() => {
     const id = this.selection.value;
     return (id && this.scene.value?.agents.get(id)) || null;
@@ -316,19 +282,11 @@ export class Editor {
 
   // -------------------------------------------------------------- the document
 
-  /** The history of the open scene, to be read. */
-  get history(): History | null {
-    return this.#history;
-  }
-
   open(scene: Scene, saved: MotionSet | null = null, kept: KeptHistory | null = null): void {
     const reopenMap = this.layouts.close();
     batch(() => {
-      this.#history = new History(scene, undefined, kept);
-      this.#history.camera = () => this.camera();
-      this.#lock.value = null;
+      this.document.open(scene, kept);
       this.#snappedHeadings.clear();
-      this.#show(scene);
       this.#selected.value = NOBODY;
       this.#hover.value = null;
       this.#drag.value = null;
@@ -342,112 +300,94 @@ export class Editor {
       this.#beside.value = null;
       this.#tries.value = NO_TRIES;
       this.notices.hide();
-      this.#nameSteps();
     });
     if (reopenMap) this.onMapPutAway?.(reopenMap);
   }
 
-  #show(scene: Scene): void {
-    batch(() => {
-      this.#scene.value = scene;
-      this.#resting.value = scene;
-    });
-  }
-
-  /** Does a command as one undo step. */
+  /** Does a command as one undo step. A drag that goes on is released first: the command may go on from its preview. */
   run(command: Command): void {
-    if (!this.#history || this.#refused()) return;
-    const before = this.#history.scene;
-    const after = this.#history.run(command);
-    this.#committed(after, before, this.#history.undoName ?? command.name, null);
+    this.#commit(null, () => this.document.run(command));
   }
 
   undo(): void {
-    this.#travel((h) => h.undo(), 'back');
+    this.#travel('back', () => this.document.undo());
   }
 
   redo(): void {
-    this.#travel((h) => h.redo(), 'forth');
+    this.#travel('forth', () => this.document.redo());
   }
 
   /** To any step of the history; null for how the scene was before the first. */
   goTo(id: number | null): void {
-    const h = this.#history;
-    if (!h || id === h.head || this.#refused()) return;
-    const before = h.scene;
-    const name = h.step(id)?.name ?? TEXTS.backToTheBeginning;
-    this.#committed(h.goTo(id), before, name, 'there');
-    this.notices.say(TEXTS.nowAt(name));
+    if (id === this.document.history?.head && !this.dragging.peek()) return;
+    const name = this.document.history?.step(id)?.name ?? TEXTS.backToTheBeginning;
+    const commit = this.#commit('there', () => {
+      const there = this.document.goTo(id);
+      return there && { ...there, name };
+    });
+    if (commit) this.notices.say(TEXTS.nowAt(name));
   }
 
   /** Another version of the same scene takes the place of this one; undo brings this one back. */
   adopt(name: string, scene: Scene): void {
-    const h = this.#history;
-    if (!h) return;
-    const before = h.scene;
-    h.adopt(name, scene);
-    this.#committed(h.scene, before, name, 'there');
-  }
-
-  /** Calls a step by a name of its own. */
-  entitle(id: number, title: string | null): void {
-    this.#history?.entitle(id, title);
-    this.#historyTick.value++;
+    this.#commit('there', () => this.document.adopt(name, scene));
   }
 
   /** The document is only to be looked at from now on; a drag that goes on is put back. */
   lockWith(lock: Lock | null): void {
     if (lock && this.dragging.peek()) this.cancelDrag();
-    this.#lock.value = lock;
+    this.document.lockWith(lock);
   }
 
   /** A change was tried that cannot be made now: says why. */
   #refused(): boolean {
-    const lock = this.#lock.peek();
+    const lock = this.lock.peek();
     if (lock) this.notices.show({ text: lock.words, action: lock });
     return lock !== null;
   }
 
-  #travel(move: (h: History) => HistoryStep | null, way: Way): void {
-    const before = this.#history?.scene;
-    const step = this.#history && !this.#refused() ? move(this.#history) : null;
-    if (!step || !this.#history || !before) return;
-    this.#committed(this.#history.scene, before, step.name, way);
-    this.onTravel?.(step, way);
+  #travel(way: Way, move: () => Travel | null): void {
+    const travel = this.#commit(way, move);
+    if (!travel) return;
+    this.onTravel?.(travel.step, way);
     const word = way === 'back' ? TEXTS.undone : TEXTS.doneAgain;
-    this.notices.show({ text: `${word}: ${step.name}.` });
-    this.notices.say(`${word}: ${step.name}.`);
+    this.notices.show({ text: `${word}: ${travel.name}.` });
+    this.notices.say(`${word}: ${travel.name}.`);
   }
 
-  /** `way`: where one travelled in the history to come here; null for a new step. */
-  #committed(scene: Scene, before: Scene, name: string, way: Way | 'there' | null): void {
-    const undo = way !== null;
-    const changed = changedAgents(before, scene);
-    const agent = changed.length === 1 ? changed[0] : null;
-    const several = changed.length > 1 ? changed : undefined;
-    const counting = before.thresholds !== scene.thresholds && !this.motion.peek().stale;
-    batch(() => {
-      this.#show(scene);
-      this.#followCast(before, scene);
-      this.#nameSteps();
+  /**
+   * `way`: where one travels in the history; null for a new step. A drag that goes on is released before `move`, so
+   * that nothing of it is lost.
+   */
+  #commit<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
+    if (!this.document.scene.peek() || this.#refused()) return null;
+    const trial = this.document.trial.peek();
+    if (trial) this.endDrag(trial.command);
+    return this.#follow(way, move);
+  }
+
+  /** Everything else follows a commit, all at once. */
+  #follow<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
+    const done = batch(() => {
+      const commit = move();
+      if (!commit) return null;
+      const { before, after } = commit;
+      const counting = before.thresholds !== after.thresholds && !this.motion.peek().stale;
+      const step = stepOf(commit, way, counting);
+      this.#followCast(before, after);
       this.#selectedEvent.value = null;
       // A scene may have become shorter.
-      this.playhead.moveTo(Math.min(this.time.peek(), scene.duration));
-      if (counting) this.answers.countsOtherwise(scene);
+      this.playhead.moveTo(Math.min(this.time.peek(), after.duration));
+      if (counting) this.answers.countsOtherwise(after);
       else {
-        const fresh = agent && onlyPicked(before, scene, agent) ? agent : null;
-        this.answers.documentChanged(scene, fresh, way === 'forth' || way === null);
+        const fresh = step.agent && onlyPicked(commit, step.agent) ? step.agent : null;
+        this.answers.documentChanged(after, fresh, way === 'forth' || way === null);
       }
+      return { commit, step };
     });
-    const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
-    const curve = agent === null || undo ? null : lostCurve(before.agents.get(agent), scene.agents.get(agent));
-    this.onCommit?.(scene, {
-      ...{ name, agent, several, undo },
-      ...(curve ? { curve } : {}),
-      ...(everybody && !counting ? { everybody } : {}),
-      ...(counting ? { counting } : {}),
-      ...(before.seed !== scene.seed || before.diversity !== scene.diversity ? { chance: true } : {}),
-    });
+    if (!done) return null;
+    this.onCommit?.(done.commit.after, done.step);
+    return done.commit;
   }
 
   /** Who has come is selected, who has gone is not. */
@@ -463,12 +403,6 @@ export class Editor {
     if (hovered && !scene.agents.has(hovered)) this.#hover.value = null;
   }
 
-  #nameSteps(): void {
-    this.#undoName.value = this.#history?.undoName ?? null;
-    this.#redoName.value = this.#history?.redoName ?? null;
-    this.#historyTick.value++;
-  }
-
   // -------------------------------------------------------------- a drag
 
   beginDrag(grip: Grip): void {
@@ -477,20 +411,17 @@ export class Editor {
       this.playhead.pause();
       this.#focusPart.value = grip.part;
       this.#viaInHand.value = grip.index ?? null;
-      this.#history?.begin();
+      this.document.begin();
       this.#drag.value = { grip, laneName: null, laneId: null, stop: null, lag: null };
       this.answers.dragBegan();
       this.notices.hide();
     });
   }
 
-  /** A frame of the drag: the document as it would be. */
+  /** A frame of the drag: the document as it would be. Nothing, where the drag has ended without the hand. */
   previewDrag(command: Command): void {
-    const preview = this.#lock.peek() ? null : this.#history?.preview(command);
-    if (!preview) return;
     batch(() => {
-      this.#scene.value = preview;
-      this.answers.dragMoved();
+      if (this.document.preview(command)) this.answers.dragMoved();
     });
   }
 
@@ -505,24 +436,22 @@ export class Editor {
 
   /** The release: one undo step, or none where nothing was moved. */
   endDrag(command: Command | null): void {
-    if (!this.#history) return;
     this.#drag.value = null;
-    if (!command || this.#lock.peek()) {
-      this.#show(this.#history.cancel());
-      return;
-    }
-    const before = this.#history.scene;
-    this.#committed(this.#history.commit(command), before, command.name, null);
+    if (command) this.#follow(null, () => this.document.commit(command));
+    else this.document.cancel();
+    this.document.settle();
   }
 
   /** Everything back to where it was before the drag. */
   cancelDrag(): void {
+    if (!this.document.trial.peek()) return;
     batch(() => {
       this.#drag.value = null;
-      if (this.#history) this.#show(this.#history.cancel());
+      this.document.cancel();
       this.answers.dragPutBack();
     });
     this.notices.say(TEXTS.putBack);
+    this.document.settle();
   }
 
   /** May a lane set this heading? It may where a lane set it before. */
@@ -543,7 +472,7 @@ export class Editor {
 
   selectAll(wanted: readonly string[]): void {
     const now = this.#selected.peek();
-    const here = this.#scene.peek()?.agents;
+    const here = this.scene.peek()?.agents;
     const ids = wanted.filter((id) => here?.has(id));
     if (ids.length === now.length && ids.every((id, i) => id === now[i])) return;
     batch(() => {
@@ -626,7 +555,7 @@ export class Editor {
       this.#tool.value = tool;
       this.#measure.value = null;
       this.placement.stop();
-      if (tool === 'fill') this.filling.open(this.#scene.peek()?.seed ?? 0);
+      if (tool === 'fill') this.filling.open(this.scene.peek()?.seed ?? 0);
       else this.filling.close();
     });
   }
@@ -660,7 +589,7 @@ export class Editor {
   }
 
   setTime(t: number): void {
-    const s = this.#scene.peek();
+    const s = this.scene.peek();
     if (s) this.playhead.moveTo(Math.min(s.duration, Math.max(0, t)));
   }
 
@@ -699,31 +628,4 @@ export class Editor {
   touchedIds(scene = this.scene.peek()): string[] {
     return scene ? touchedIn(scene) : [];
   }
-}
-
-/** Was nothing changed but the choice among its futures? */
-function onlyPicked(before: Scene, after: Scene, id: string): boolean {
-  const a = before.agents.get(id),
-    b = after.agents.get(id);
-  return (
-    !!a &&
-    !!b &&
-    a.start === b.start &&
-    a.goal === b.goal &&
-    a.length === b.length &&
-    a.width === b.width &&
-    a.does === b.does &&
-    (a.chosen !== b.chosen || a.dealt !== b.dealt) &&
-    before.roster === after.roster &&
-    before.seed === after.seed &&
-    before.diversity === after.diversity &&
-    before.others === after.others &&
-    before.length === after.length &&
-    before.replan === after.replan
-  );
-}
-
-function changedAgents(before: Scene, after: Scene): string[] {
-  const gone = [...before.agents.keys()].filter((id) => !after.agents.has(id));
-  return [...[...after.agents].filter(([id, a]) => before.agents.get(id) !== a).map(([id]) => id), ...gone];
 }

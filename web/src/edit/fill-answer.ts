@@ -12,7 +12,7 @@ import { typesOf } from './fill-mix';
 import { recast, thinned } from './fill-recast';
 import { ANY_SPEED, type Arm, type FillAnswer, type FillWish } from './filling';
 import { inTheWay, standing } from './room';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 import { MOST_AT_ONCE } from './several';
 import { TEXTS } from '../texts/keeping';
 

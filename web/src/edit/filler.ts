@@ -6,7 +6,7 @@ import { Away, Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
 import type { Answers } from './fill-answer';
 import { NO_ANSWER, type FillWish } from './filling';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 import { addThem, tooMany } from './several';
 import { TEXTS } from '../texts/keeping';
 

@@ -13,13 +13,14 @@ import { Absence } from './absence';
 import { askedAfter, changedBy, whoReacts } from './after-change';
 import { rejudged } from './motion-after';
 import { followed, scoreOf } from './scoring';
-import type { Editor, Step } from './editor';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
 import { Foresight, type Known } from './foresight';
 import type { Previews } from './gestures/chart';
 import { Questions, type Wanted } from './question';
 import { Reception } from './reception';
-import type { Saving } from './saving';
-import type { SceneFile } from './scene-file';
+import type { Saving } from './document/saving';
+import type { SceneFile } from './document/scene-file';
 import { sketchFutures } from './sketch';
 import { judgedCurves, withCurves } from './speed-curve';
 import { TEXTS } from '../texts/generation';
@@ -171,7 +172,7 @@ export class Generation implements Previews {
 
   #committed(scene: Scene, step: Step): void {
     const { editor } = this;
-    this.saving.changed(scene);
+    this.saving.changed();
     clearTimeout(this.#rest);
     this.#rested();
     if (editor.motion.peek().stale && !this.#absence.now && this.#takeOver(scene, step)) return;
@@ -196,8 +197,7 @@ export class Generation implements Previews {
   }
 
   #keep(): void {
-    const scene = this.editor.scene.peek();
-    if (scene) this.saving.answered(scene);
+    this.saving.answered();
   }
 
   /** The Generate button: everybody anew. */

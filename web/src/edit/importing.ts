@@ -9,8 +9,8 @@ import type { ImportReply, Problem } from '../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
-import type { Library } from './library';
-import { countAll, type SceneList } from './scene-list';
+import type { Library } from './document/library';
+import { countAll, type SceneList } from './document/scene-list';
 import { TEXTS } from '../texts/importing';
 
 export interface ImportedScene {

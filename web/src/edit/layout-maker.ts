@@ -12,8 +12,8 @@ import { keep, recall } from '../net/storage';
 import type { Layout, Parameters, TemplateName } from '../net/types';
 import type { Editor } from './editor';
 import type { MapWish } from './layouts';
-import type { SceneCare } from './scene-care';
-import type { SceneFile } from './scene-file';
+import type { SceneCare } from './document/scene-care';
+import type { SceneFile } from './document/scene-file';
 import { TEXTS } from '../texts/keeping';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';

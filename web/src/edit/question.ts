@@ -15,8 +15,9 @@ import {
 } from '../model/document/scene-writer';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
-import type { Editor, Step } from './editor';
-import type { SceneFile } from './scene-file';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
+import type { SceneFile } from './document/scene-file';
 import { shownFuture } from './shown';
 import { withCurve } from './speed-curve';
 

@@ -20,7 +20,8 @@ import { whyAnother, whyNot } from '../model/words/verdict-words';
 import type { Handlers } from '../net/generator';
 import { inWords } from '../net/refusal';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
-import type { Editor, Step } from './editor';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
 import { FrozenNames } from './frozen-names';
 import { futuresOf, motionAfter, naming, type Keep } from './motion-after';
 import type { Wanted } from './question';
@@ -58,6 +59,8 @@ export class Reception {
   readonly #rest = new Rest(RESTS_MS);
   /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
   #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
+  /** The road user whose speed curve is off since a change that was answered during a drag. */
+  #curveOff: string | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -316,9 +319,11 @@ export class Reception {
     const changes = editor.changes.peek();
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent || step.several ? changes.length : null });
     if (step.undo) return;
-    const { agent, curve } = step;
+    const { agent } = step;
+    const curve = step.curve ?? (agent !== null && agent === this.#curveOff ? 'open' : undefined);
     // Its own answer says what came of both.
-    if (agent && curve === 'fits' && editor.curve.takeUp(agent, true)) return;
+    if (agent && curve === 'fits' && this.#takeUp(agent)) return;
+    if (agent && curve) this.#curveOff = null;
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();
     const keep =
@@ -332,6 +337,23 @@ export class Reception {
     editor.notices.say(said.filter(Boolean).join(' '));
     const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
+  }
+
+  /**
+   * Draws the speed curve of a change within its step. During a drag it waits for the end: a drag that is put back
+   * leaves the step as it is, and after a drag that is not, the curve is offered with the answer to that.
+   */
+  #takeUp(agent: string): boolean {
+    const { curve, document } = this.editor;
+    if (!document.trial.peek()) return curve.takeUp(agent, true);
+    const at = document.committed.peek();
+    this.#curveOff = agent;
+    document.afterTrial(() => {
+      if (document.committed.peek() !== at) return;
+      this.#curveOff = null;
+      curve.takeUp(agent, true);
+    });
+    return true;
   }
 
   #refused(p: Problem): void {

@@ -1,11 +1,12 @@
 // What a change led to, in sentences for the toast and for screen readers.
-import type { Change } from '../model/words/change-words';
 import { counted } from '../model/physics/events';
+import type { Change } from '../model/words/change-words';
 import type { TrafficEvent } from '../model/words/event-words';
 import { goalTimeOf, nameIn, type Scene } from '../model/document/scene';
 import { num, seconds } from '../model/base/units';
 import { headline } from '../model/words/verdict-words';
-import type { Editor, Step } from './editor';
+import type { Step } from './document/step';
+import type { Editor } from './editor';
 import { TEXTS } from '../texts/generation';
 
 /** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */

@@ -6,7 +6,7 @@ import { motionOf } from '../model/physics/playback';
 import { trackJson } from '../model/base/motion';
 import type { Generator } from '../net/generator';
 import { readScore } from './read-answer';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 
 /** What everybody does by the document: those asked something follow their futures where there are any. */
 export function followed(scene: Scene, set: MotionSet): MotionSet {

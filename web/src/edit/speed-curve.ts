@@ -37,18 +37,6 @@ const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?
 const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPlace | undefined =>
   all.filter((p) => Math.abs(p.s - s) <= within).sort((p, q) => Math.abs(p.s - s) - Math.abs(q.s - s))[0];
 
-/** A curve that has gone out of force: it still fits what is asked, or the new goal says otherwise. */
-export type LostCurve = 'fits' | 'open';
-
-/** What a change of somebody has done to its speed curve; null where nothing. */
-export function lostCurve(was: Agent | undefined, now: Agent | undefined): LostCurve | null {
-  if (!was || !now?.profile || !profileOf(was) || profileOf(now)) return null;
-  const [p, q] = [was.goal, now.goal];
-  const sameGoal = p.pos === q.pos && p.heading === q.heading && p.speed === q.speed && p.time === q.time;
-  const sameStart = was.start.pos === now.start.pos && was.start.heading === now.start.heading;
-  return sameGoal && (sameStart || !q.pos) ? 'fits' : 'open';
-}
-
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
   readonly #point = signal<number | null>(null);

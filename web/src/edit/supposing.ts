@@ -9,7 +9,7 @@ import { askedAfter } from './after-change';
 import type { Editor } from './editor';
 import { motionAfter, rejudged } from './motion-after';
 import type { Questions } from './question';
-import type { SceneFile } from './scene-file';
+import type { SceneFile } from './document/scene-file';
 import { followed, scoreOf } from './scoring';
 
 /** A document with one change more, and whom it is about. */

@@ -29,6 +29,8 @@ export class SceneTurns {
   #holds = false;
   #waiting: AbortController | null = null;
   #letGo: (() => void) | null = null;
+  /** Releases the scenes before this one. */
+  #before: (() => void)[] = [];
 
   constructor(
     private readonly on: TurnEvents,
@@ -42,15 +44,30 @@ export class SceneTurns {
     channel?.addEventListener('message', (e) => void this.#heard((e as MessageEvent<Word>).data));
   }
 
-  /** Goes over to a scene; true when it is this tab's turn at once. Without locks everybody has a turn. */
+  /** Is it this tab's turn? Without locks every tab has a turn. */
+  get holds(): boolean {
+    return this.#holds || !this.#locks;
+  }
+
+  /** Goes over to a scene; true when it is this tab's turn at once. The one before stays held until `left`. */
   async goTo(scene: string): Promise<boolean> {
-    if (scene === this.#scene) return this.#holds || !this.#locks;
-    this.leave();
+    if (scene === this.#scene) return this.holds;
+    this.#waiting?.abort();
+    this.#waiting = null;
+    if (this.#letGo) this.#before.push(this.#letGo);
+    this.#letGo = null;
+    this.#holds = false;
     this.#scene = scene;
     if (!this.#locks) return true;
     const free = await this.#request(scene, { ifAvailable: true });
     if (!free && this.#scene === scene) this.#queue(scene);
     return free;
+  }
+
+  /** Nothing of the scenes before this one is open any more: other tabs may have them. */
+  left(): void {
+    for (const letGo of this.#before) letGo();
+    this.#before = [];
   }
 
   leave(): void {
@@ -60,6 +77,7 @@ export class SceneTurns {
     this.#letGo = null;
     this.#holds = false;
     this.#scene = null;
+    this.left();
   }
 
   /** Asks the holder for it. One that does not let go in time has hung, and is passed over. */

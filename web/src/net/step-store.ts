@@ -1,13 +1,12 @@
 // What was done in which scene, kept on this computer: one entry a step, added as it is done, and beside them where
 // one is among them, the document before the first, and what everybody does where one is.
 import type { GeneratedJson } from '../model/document/scene-json';
-import type { HistoryStep, KeptHistory } from '../model/document/history';
+import type { DocumentRef, HistoryStep, KeptHistory } from '../model/document/history';
 import type { SceneState } from '../model/document/scene-diff';
 
-/** The version on the server that a step is known to equal. */
-export interface Synced {
+/** The document that a version on the server is known to equal. */
+export interface Synced extends DocumentRef {
   readonly etag: string;
-  readonly step: number | null;
 }
 
 export interface Place extends Omit<KeptHistory, 'steps'> {
@@ -17,9 +16,8 @@ export interface Place extends Omit<KeptHistory, 'steps'> {
   readonly synced: Synced | null;
 }
 
-/** What everybody did in the document after a step. */
-export interface KeptAnswers {
-  readonly step: number | null;
+/** What all road users did in a document. */
+export interface KeptAnswers extends DocumentRef {
   readonly generated: GeneratedJson;
 }
 
@@ -35,6 +33,8 @@ export interface StepStore {
   read(scene: string): Promise<KeptScene | null>;
   /** A step more, or none, and where one is now. */
   append(place: Place, step: HistoryStep | null): Promise<void>;
+  /** Changes the place of a scene where it has one, with nothing written between the reading and the writing. */
+  update(scene: string, change: (place: Place) => Place): Promise<void>;
   /** All of it anew, but for the answers. */
   rewrite(kept: Omit<KeptScene, 'answers'>): Promise<void>;
   keepAnswers(scene: string, answers: KeptAnswers | null): Promise<void>;
@@ -115,6 +115,16 @@ export class BrowserStepStore implements StepStore {
     });
   }
 
+  update(scene: string, change: (place: Place) => Place): Promise<void> {
+    return this.#write((t) => {
+      const places = t.objectStore(PLACES);
+      const asked = places.get(scene);
+      asked.onsuccess = () => {
+        if (asked.result) places.put(change(asked.result as Place));
+      };
+    });
+  }
+
   rewrite({ place, steps, base }: Omit<KeptScene, 'answers'>): Promise<void> {
     const { scene } = place;
     return this.#write((t) => {
@@ -169,6 +179,11 @@ export class PassingStepStore implements StepStore {
     const others = (old?.steps ?? []).filter((s) => s.id !== step?.id);
     const steps = step ? [...others, structuredClone(step)] : others;
     this.#kept.set(place.scene, { place, steps, base: old?.base ?? null, answers: old?.answers ?? null });
+  }
+
+  async update(scene: string, change: (place: Place) => Place): Promise<void> {
+    const old = this.#kept.get(scene);
+    if (old) this.#kept.set(scene, { ...old, place: change(old.place) });
   }
 
   async rewrite(kept: Omit<KeptScene, 'answers'>): Promise<void> {

@@ -18,6 +18,8 @@ export const TEXTS = table('hud', {
   thisSceneWas: 'This scene was changed elsewhere.',
   keepThisVersion: 'Keep this version',
   openTheOther: 'Open the other one',
+  thisSceneWasDeleted: 'This scene was deleted elsewhere.',
+  itIsMadeAgain: 'Keep this version to save the scene again.',
   youCanLookPlay: 'You can look, play and select.',
   exportTheScene: 'Export the scene to be safe, or forget the steps of other scenes that are saved.',
   stepsOfOther: (n: number) =>

@@ -36,9 +36,16 @@ beforeEach(() => {
 });
 
 const rest = () => vi.advanceTimersByTime(100);
-const goalFor = (id: string) => {
+const goalOf = (id: string) => {
   const a = editor.scene.peek()!.agents.get(id)!;
-  editor.run(setGoal(a, { ...a.goal, pos: [10, 10] }));
+  return setGoal(a, { ...a.goal, pos: [10, 10] });
+};
+const goalFor = (id: string) => editor.run(goalOf(id));
+/** The same by hand. */
+const dragGoal = (id: string) => {
+  editor.beginDrag({ part: 'goal', handle: 'body' });
+  editor.previewDrag(goalOf(id));
+  editor.endDrag(goalOf(id));
 };
 
 describe('a look', () => {
@@ -134,26 +141,72 @@ describe('a speed curve', () => {
   });
 
   it('is drawn on the new way when a change asks nothing else of the speed, within the same step', () => {
-    const { depth } = editor.history!;
+    const { depth } = editor.document.history!;
     editor.run(setSize(editor.agent.peek()!, 5, 2));
     expect(speeds()).toBeUndefined();
     answered();
     expect(speeds()).toHaveLength(3);
-    expect([editor.history!.depth, editor.undoName.peek()]).toEqual([depth + 1, 'Size of Car 1 changed']);
+    expect([editor.document.history!.depth, editor.undoName.peek()]).toEqual([depth + 1, 'Size of Car 1 changed']);
     editor.undo();
     expect([speeds()?.length, editor.agent.peek()!.length]).not.toEqual([3, 5]);
     editor.redo();
     expect([speeds()?.length, editor.agent.peek()!.length]).toEqual([3, 5]);
   });
 
-  it('that a new goal speaks against is off, which is said, and can be kept', () => {
-    goalFor('1');
+  it.each([
+    ['typed', () => goalFor('1')],
+    ['dragged', () => dragGoal('1')],
+  ])('that a new goal speaks against is off, which is said, and can be kept: %s', (_, newGoal) => {
+    newGoal();
     answered();
     expect(speeds()).toBeUndefined();
     const { text, action } = editor.notices.toast.peek()!;
     expect(text).toMatch(/Its speed curve is off\.$/);
     action!.run();
     expect(speeds()).toHaveLength(3);
+  });
+});
+
+describe('a speed curve whose change is answered while a hand drags', () => {
+  const curved = () => profileOf(editor.scene.peek()!.agents.get('1')!) !== null;
+
+  beforeEach(() => {
+    editor.select('1');
+    generator.last.on.final(finalOf('1'), 5);
+    editor.curve.add(4, 0, 2);
+    rest();
+    generator.last.on.final(finalOf('1'), 5);
+    editor.run(setSize(editor.agent.peek()!, 5, 2));
+    rest();
+    editor.beginDrag({ part: 'goal', handle: 'body' });
+    generator.last.on.final(finalOf('1'), 5);
+  });
+
+  it('is drawn once the drag is put back, within the step of the change', () => {
+    expect(curved()).toBe(false);
+    editor.cancelDrag();
+    expect(curved()).toBe(true);
+    expect(editor.undoName.peek()).toBe('Size of Car 1 changed');
+  });
+
+  it('is off where the drag changes the goal, and no step names a document that never was', () => {
+    editor.endDrag(goalOf('1'));
+    expect([editor.scene.peek()!.agents.get('1')!.goal.pos, curved()]).toEqual([[10, 10], false]);
+    editor.undo();
+    editor.undo();
+    expect(curved()).toBe(true);
+    editor.redo();
+    expect([editor.scene.peek()!.agents.get('1')!.length, curved()]).toEqual([5, false]);
+  });
+
+  it('is offered once more when the drag is answered', () => {
+    editor.endDrag(goalOf('1'));
+    rest();
+    generator.last.on.final(finalOf('1'), 5);
+    expect(curved()).toBe(false);
+    expect(editor.notices.toast.peek()!.text).toMatch(/Its speed curve is off\.$/);
+    editor.notices.toast.peek()!.action!.run();
+    expect(curved()).toBe(true);
   });
 });
 

@@ -8,7 +8,7 @@ import { writeScene } from '../../src/model/document/scene-writer';
 import { Questions } from '../../src/edit/question';
 import { Rounds } from '../../src/edit/rounds/rounds';
 import { pickFuture } from '../../src/edit/moves';
-import { SceneFile } from '../../src/edit/scene-file';
+import { SceneFile } from '../../src/edit/document/scene-file';
 import type { FinalEvent, Problem } from '../../src/net/types';
 import { finalOf, InMemoryGenerator, json, late, Session, six, uneventful } from './session';
 

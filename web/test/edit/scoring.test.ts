@@ -3,7 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { withAgents } from '../../src/model/document/scene';
 import { scoreOf } from '../../src/edit/scoring';
-import { SceneFile } from '../../src/edit/scene-file';
+import { SceneFile } from '../../src/edit/document/scene-file';
 import { finalWith, json, late, Session } from './session';
 
 describe('a score', () => {

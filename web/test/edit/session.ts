@@ -1,10 +1,10 @@
 // An editing session without a page or a server: its generators live in the test.
 import { Editor } from '../../src/edit/editor';
 import { Generation } from '../../src/edit/generation';
-import { Journal } from '../../src/edit/journal';
-import { SceneFile } from '../../src/edit/scene-file';
-import { SceneList } from '../../src/edit/scene-list';
-import { Saving } from '../../src/edit/saving';
+import { Journal } from '../../src/edit/document/journal';
+import { SceneFile } from '../../src/edit/document/scene-file';
+import { SceneList } from '../../src/edit/document/scene-list';
+import { Saving } from '../../src/edit/document/saving';
 import { Client } from '../../src/net/client';
 import { PassingStepStore } from '../../src/net/step-store';
 import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';
@@ -87,7 +87,13 @@ export class Session {
     const { editor } = this;
     const file = new SceneFile(editor);
     const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
-    const saving = new Saving(editor, file, new SceneList(client), client, new Journal(new PassingStepStore()));
+    const saving = new Saving(
+      editor.document,
+      file,
+      new SceneList(client),
+      client,
+      new Journal(new PassingStepStore()),
+    );
     this.generation = new Generation(editor, file, saving, this.generator, this.others);
     file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
     editor.open(readScene(json));

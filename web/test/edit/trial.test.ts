@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { motionOf } from '../../src/model/physics/playback';
 import { Questions } from '../../src/edit/question';
-import { SceneFile } from '../../src/edit/scene-file';
+import { SceneFile } from '../../src/edit/document/scene-file';
 import { Supposing } from '../../src/edit/supposing';
 import { Trial } from '../../src/edit/trial';
 import { finalOf, InMemoryGenerator, json, late, finalWith, six, Session } from './session';

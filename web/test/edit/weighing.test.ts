@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import type { TrafficEvent } from '../../src/model/words/event-words';
 import { eventRemedies } from '../../src/edit/event-remedies';
 import { Questions } from '../../src/edit/question';
-import { SceneFile } from '../../src/edit/scene-file';
+import { SceneFile } from '../../src/edit/document/scene-file';
 import { Supposing } from '../../src/edit/supposing';
 import { Weighing } from '../../src/edit/weighing';
 import type { FinalEvent } from '../../src/net/types';

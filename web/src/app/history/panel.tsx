@@ -44,11 +44,11 @@ export function HistoryPanel() {
   const { editor } = useApp();
   const most = useSignal(SHOWN);
   const rows = useComputed(() => {
-    void editor.historyTick.value;
-    return editor.history ? rowsOf(editor.history) : [];
+    void editor.document.historyTick.value;
+    return editor.document.history ? rowsOf(editor.document.history) : [];
   }).value;
-  const head = editor.history?.head ?? null;
-  const line = editor.history?.line() ?? [];
+  const head = editor.document.history?.head ?? null;
+  const line = editor.document.history?.line() ?? [];
   const at = line.findIndex((s) => s.id === head) + 1;
   return (
     <section class="drawer card history" aria-label={TEXTS.history} data-group="history">
@@ -137,7 +137,7 @@ function StepTitle({ step, done }: { step: HistoryStep; done: () => void }) {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const keep = () => {
-    editor.entitle(step.id, input.current!.value.trim() || null);
+    editor.document.entitle(step.id, input.current!.value.trim() || null);
     done();
   };
   return (

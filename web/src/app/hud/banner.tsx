@@ -75,10 +75,16 @@ function Away() {
 
 function Conflict() {
   const { library, saving } = useApp();
-  const words = TEXTS.nothingIsOverwritten;
+  const keep = <Button label={TEXTS.keepThisVersion} run={() => void saving.keepMine()} />;
+  if (saving.conflict.value?.etag === null)
+    return (
+      <Box icon="warn" title={TEXTS.thisSceneWasDeleted} words={TEXTS.itIsMadeAgain}>
+        {keep}
+      </Box>
+    );
   return (
-    <Box icon="warn" title={TEXTS.thisSceneWas} words={words}>
-      <Button label={TEXTS.keepThisVersion} run={() => void saving.keepMine()} />
+    <Box icon="warn" title={TEXTS.thisSceneWas} words={TEXTS.nothingIsOverwritten}>
+      {keep}
       <Button label={TEXTS.openTheOther} run={() => void library.takeTheirs()} />
     </Box>
   );

@@ -2,8 +2,8 @@
 import { num } from '../../model/base/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
-import type { Link, Parts } from '../../edit/sharing';
-import { MOST_LINK_BYTES } from '../../edit/share-link';
+import type { Link, Parts } from '../../edit/document/sharing';
+import { MOST_LINK_BYTES } from '../../edit/document/share-link';
 import { download } from '../../edit/download';
 import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';

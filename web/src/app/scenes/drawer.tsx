@@ -4,7 +4,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import type { SceneListItem } from '../../net/types';
 import { isRecorded } from '../../model/document/scene';
-import { countAll, isExample } from '../../edit/scene-list';
+import { countAll, isExample } from '../../edit/document/scene-list';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';

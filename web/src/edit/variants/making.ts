@@ -11,11 +11,12 @@ import { Away, Refused } from '../../net/client';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
 import { askedAfter } from '../after-change';
-import type { Editor, Step } from '../editor';
+import type { Step } from '../document/step';
+import type { Editor } from '../editor';
 import { motionAfter, rejudged } from '../motion-after';
 import { followed, scoreOf } from '../scoring';
 import type { Questions, Wanted } from '../question';
-import type { SceneFile } from '../scene-file';
+import type { SceneFile } from '../document/scene-file';
 import { TEXTS } from '../../texts/variants';
 
 /** A document and what everybody does in it. */

@@ -1,5 +1,5 @@
-// Undo and redo. A drag is a transaction: previews replace each other, the release commits one step. Steps form a
-// tree: what is done after going back starts a branch, and nothing that was done is lost by it.
+// Undo and redo of committed changes. Steps form a tree: a change made after going back starts a branch, and no step
+// is lost by it.
 import type { Command } from './commands';
 import type { Scene } from './scene';
 import { applyDiff, diffOf, isEmptyDiff, type SceneDiff } from './scene-diff';
@@ -28,6 +28,23 @@ export interface HistoryStep {
   readonly to: Camera | null;
   /** What somebody called it. */
   readonly title?: string;
+  /** How often a later change became part of it; absent for never. */
+  readonly revision?: number;
+}
+
+/** Names a document of a scene exactly: the step that led to it, null before the first, and the step's revision. */
+export interface DocumentRef {
+  readonly step: number | null;
+  readonly revision?: number;
+}
+
+export const isSameDocument = (a: DocumentRef, b: DocumentRef): boolean =>
+  a.step === b.step && (a.revision ?? 0) === (b.revision ?? 0);
+
+/** What the user has done, as opposed to what a drag previews. Every change gives it a higher version. */
+export interface Committed extends DocumentRef {
+  readonly scene: Scene;
+  readonly version: number;
 }
 
 /** All that is needed to go on where one was: plain data. */
@@ -35,6 +52,8 @@ export interface KeptHistory {
   readonly steps: readonly HistoryStep[];
   /** The step that is in force; null before the first. */
   readonly head: number | null;
+  /** Revision of that step. */
+  readonly revision?: number;
   /** Where redo leads from a step that more than one follow: pairs of the step and the one after. */
   readonly ahead: readonly (readonly [number | null, number])[];
 }
@@ -57,8 +76,7 @@ export class History {
   readonly #ahead = new Map<number | null, number>();
   #head: number | null = null;
   #next = 1;
-  #base: Scene | null = null;
-  #baseCamera: Camera | null = null;
+  #committed: Committed;
   #folds: { readonly id: number; readonly fold: string; readonly at: number } | null = null;
 
   /** Called after every change of the steps or of where one is among them. */
@@ -66,15 +84,30 @@ export class History {
   /** Where the picture looks now. */
   camera: () => Camera | null = () => null;
 
+  /** `version`: the one before the first of this history. */
   constructor(
-    public scene: Scene,
+    scene: Scene,
     private readonly now: () => number = () => Date.now(),
     kept: KeptHistory | null = null,
+    version = 0,
   ) {
     for (const s of kept?.steps ?? []) this.#steps.set(s.id, s);
     for (const [from, to] of kept?.ahead ?? []) this.#ahead.set(from, to);
     this.#head = kept?.head ?? null;
     this.#next = Math.max(0, ...this.#steps.keys()) + 1;
+    this.#committed = { scene, version: version + 1, ...this.ref };
+  }
+
+  get committed(): Committed {
+    return this.#committed;
+  }
+  get scene(): Scene {
+    return this.#committed.scene;
+  }
+  /** Where one is. */
+  get ref(): DocumentRef {
+    const revision = this.step(this.#head)?.revision;
+    return { step: this.#head, ...(revision ? { revision } : {}) };
   }
 
   get undoName(): string | null {
@@ -96,7 +129,8 @@ export class History {
   }
 
   kept(): KeptHistory {
-    return { steps: [...this.#steps.values()], head: this.#head, ahead: [...this.#ahead] };
+    const { step: head, ...revision } = this.ref;
+    return { steps: [...this.#steps.values()], head, ...revision, ahead: [...this.#ahead] };
   }
 
   /** The line one is on, oldest first: what undo takes back, then what redo does again. */
@@ -115,6 +149,11 @@ export class History {
     return this.#path(this.#head).reduceRight((s, step) => applyDiff(s, step.diff, 'back'), this.scene);
   }
 
+  /** The document is another one from now on; where one is among the steps is known already. */
+  #put(scene: Scene): void {
+    this.#committed = { scene, version: this.#committed.version + 1, ...this.ref };
+  }
+
   /** Does a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {
     const joined = command.joins ? this.#last() : null;
@@ -122,16 +161,20 @@ export class History {
     return this.#done(name, command.apply(this.scene), this.camera(), command.fold, joined);
   }
 
+  /** Does a command as a step of its own; `from`: where the picture looked when it began. */
+  commit(command: Command, from: Camera | null): Scene {
+    return this.#done(command.name, command.apply(this.scene), from);
+  }
+
   /** The document as it is elsewhere takes the place of this one, as a step that can be taken back. */
   adopt(name: string, scene: Scene): void {
-    if (isEmptyDiff(diffOf(this.scene, scene))) this.scene = scene;
+    if (isEmptyDiff(diffOf(this.scene, scene))) this.#put(scene);
     else this.#done(name, scene, this.camera());
   }
 
   #done(name: string, after: Scene, from: Camera | null, fold?: string, joined: HistoryStep | null = null): Scene {
     const before = this.scene;
     if (after === before) return before;
-    this.scene = after;
     const at = this.now();
     const last = joined ?? (fold === undefined ? null : this.#foldInto(fold, at));
     const diff = diffOf(last ? applyDiff(before, last.diff, 'back') : before, after);
@@ -144,10 +187,12 @@ export class History {
       diff,
       from: last ? last.from : from,
       to: this.camera(),
+      ...(last ? { revision: (last.revision ?? 0) + 1 } : {}),
     };
     this.#steps.set(added.id, added);
     this.#ahead.set(added.parent, added.id);
     this.#head = added.id;
+    this.#put(after);
     this.#folds = fold === undefined ? null : { id: added.id, fold, at };
     const shorter = this.#steps.size >= MOST_STEPS + SLACK;
     if (shorter) this.#drop();
@@ -166,33 +211,6 @@ export class History {
     const last = this.#last();
     const f = this.#folds;
     return last && f?.id === last.id && f.fold === fold && at - f.at < FOLD_MS ? last : null;
-  }
-
-  // -------------------------------------------------------------- a drag
-
-  begin(): void {
-    this.#base = this.scene;
-    this.#baseCamera = this.camera();
-  }
-
-  preview(command: Command): Scene {
-    if (!this.#base) this.begin();
-    this.scene = command.apply(this.#base!);
-    return this.scene;
-  }
-
-  /** Ends the transaction with one undo step; nothing is written when nothing changed. */
-  commit(command: Command): Scene {
-    const from = this.#base ? this.#baseCamera : this.camera();
-    if (this.#base) this.scene = this.#base;
-    this.#base = null;
-    return this.#done(command.name, command.apply(this.scene), from);
-  }
-
-  cancel(): Scene {
-    if (this.#base) this.scene = this.#base;
-    this.#base = null;
-    return this.scene;
   }
 
   // -------------------------------------------------------------- going there and back
@@ -234,16 +252,16 @@ export class History {
   }
 
   #back(step: HistoryStep): void {
-    this.scene = applyDiff(this.scene, step.diff, 'back');
     this.#ahead.set(step.parent, step.id);
     this.#head = step.parent;
+    this.#put(applyDiff(this.scene, step.diff, 'back'));
     this.#folds = null;
   }
 
   #forth(step: HistoryStep): void {
-    this.scene = applyDiff(this.scene, step.diff, 'forth');
     this.#ahead.set(step.parent, step.id);
     this.#head = step.id;
+    this.#put(applyDiff(this.scene, step.diff, 'forth'));
     this.#folds = null;
   }
 
@@ -256,17 +274,15 @@ export class History {
 
   // -------------------------------------------------------------- the oldest go
 
-  /** Makes room: ends of branches first, the oldest before others, then the beginning of the line one is on. */
+  /** Makes room: the branch left longest ago first, from its end, then the beginning of the line one is on. */
   #drop(): void {
-    const mine = new Set(this.line().map((s) => s.id));
-    const drop = (id: number) => {
+    const drop = (id: number): void => {
+      const parent = this.#steps.get(id)?.parent;
+      if (parent !== undefined && this.#ahead.get(parent) === id) this.#ahead.delete(parent);
       this.#steps.delete(id);
       this.#ahead.delete(id);
     };
-    for (const s of [...this.#steps.values()].filter((s) => !mine.has(s.id)).sort((a, b) => b.id - a.id)) {
-      const branch = [...this.#steps.values()].some((other) => other.parent === s.id);
-      if (this.#steps.size > MOST_STEPS && !branch && !s.title) drop(s.id);
-    }
+    for (let end = this.#oldestEnd(); end !== null && this.#steps.size > MOST_STEPS; end = this.#oldestEnd()) drop(end);
     while (this.#steps.size > MOST_STEPS) {
       const first = this.line()[0];
       if (!first || first.id === this.#head) break;
@@ -275,9 +291,16 @@ export class History {
       for (const id of this.#under(first.id)) this.#steps.set(id, { ...this.#steps.get(id)!, parent: null });
       const after = this.#ahead.get(first.id);
       drop(first.id);
-      if (after === undefined) this.#ahead.delete(null);
-      else this.#ahead.set(null, after);
+      if (after !== undefined) this.#ahead.set(null, after);
     }
+  }
+
+  /** The step with the lowest id that ends a branch, away from the line one is on and without a title. */
+  #oldestEnd(): number | null {
+    const stays = new Set<number | null>(this.line().map((s) => s.id));
+    for (const s of this.#steps.values()) stays.add(s.parent);
+    const ends = [...this.#steps.values()].filter((s) => !stays.has(s.id) && !s.title);
+    return ends.length ? Math.min(...ends.map((s) => s.id)) : null;
   }
 
   #under(id: number | null): number[] {

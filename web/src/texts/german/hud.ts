@@ -20,6 +20,8 @@ export const german: Said<typeof TEXTS> = {
   thisSceneWas: 'Diese Szene wurde anderswo geändert.',
   keepThisVersion: 'Diese behalten',
   openTheOther: 'Die andere öffnen',
+  thisSceneWasDeleted: 'Diese Szene wurde anderswo gelöscht.',
+  itIsMadeAgain: '„Diese behalten“ sichert die Szene neu.',
   youCanLookPlay: 'Ansehen, abspielen und auswählen geht.',
   exportTheScene: 'Die Szene sicherheitshalber exportieren, oder die Schritte anderer, gesicherter Szenen vergessen.',
   stepsOfOther: (n) =>

@@ -1,15 +1,15 @@
 // Links with a scene inside: what goes into one, and what is done with one that comes.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Feedback } from '../model/document/feedback';
-import { isMapRef, type EditorJson, type SceneJson } from '../model/document/scene-json';
-import { Away, Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
+import type { Feedback } from '../../model/document/feedback';
+import { isMapRef, type EditorJson, type SceneJson } from '../../model/document/scene-json';
+import { Away, Refused, type Client } from '../../net/client';
 import type { Library } from './library';
 import type { SceneCare } from './scene-care';
 import type { SceneFile } from './scene-file';
+import type { Session } from './session';
 import type { ShownAt } from './share-link';
 import { isShareLink } from './share-mark';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../../texts/keeping';
 
 /** What of a scene goes into the link. */
 export interface Parts {
@@ -35,7 +35,7 @@ export class Sharing {
   onOpened: ((at: ShownAt | null) => void) | null = null;
 
   constructor(
-    private readonly editor: Editor,
+    private readonly session: Session,
     private readonly file: SceneFile,
     private readonly library: Library,
     private readonly care: SceneCare,
@@ -85,7 +85,7 @@ export class Sharing {
   /** From now on it is one's own. */
   async #copy(name: string): Promise<void> {
     await this.care.saveAs(name);
-    if (this.editor.lock.peek() === null) history.replaceState(null, '', location.pathname + location.search);
+    if (this.session.document.lock.peek() === null) history.replaceState(null, '', location.pathname + location.search);
   }
 }
 

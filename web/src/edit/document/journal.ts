@@ -1,11 +1,20 @@
 // What was done in the open scene, kept on this computer step by step, so that undo and redo outlive the page.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import { History, replay, type HistoryChange, type KeptHistory } from '../model/document/history';
-import { isComplete, stateOf, withState, type SceneState } from '../model/document/scene-diff';
-import { sceneKey, type Scene } from '../model/document/scene';
-import type { GeneratedJson } from '../model/document/scene-json';
-import { ofAgents, variantsJson } from '../model/document/scene-writer';
-import { isFull, type KeptScene, type StepStore, type Synced } from '../net/step-store';
+import {
+  History,
+  isSameDocument,
+  replay,
+  type Committed,
+  type DocumentRef,
+  type HistoryChange,
+  type KeptHistory,
+} from '../../model/document/history';
+import { isComplete, stateOf, withState, type SceneState } from '../../model/document/scene-diff';
+import { sceneKey, type Scene } from '../../model/document/scene';
+import type { GeneratedJson } from '../../model/document/scene-json';
+import { ofAgents, variantsJson } from '../../model/document/scene-writer';
+import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
+import { TEXTS } from '../../texts/keeping';
 
 /** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
 export type Keeping = 'kept' | 'full' | 'off';
@@ -15,7 +24,7 @@ const MOST_SCENES = 60;
 
 /**
  * How a scene goes on from what is kept of it. `ahead`: with changes that the server does not have. `conflict`: with
- * such, and the server has others. `behind`: the server has a newer one.
+ * such, and the server has others. `behind`: with the newer version of the server, as a step.
  */
 export type Standing = 'fresh' | 'same' | 'ahead' | 'behind' | 'conflict';
 
@@ -29,15 +38,29 @@ export interface Resumed {
 export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: string | null): Resumed {
   const fresh: Resumed = { scene: file, history: null, standing: 'fresh' };
   if (!kept?.steps.length || !isWhole(kept)) return fresh;
-  const { head, ahead, synced } = kept.place;
-  const history = { steps: kept.steps, head, ahead };
+  const { head, revision, ahead, synced } = kept.place;
+  const history = { steps: kept.steps, head, revision, ahead };
   const scene = replay(kept.base ? withState(file, kept.base) : file, history);
   if (!isComplete(scene)) return fresh;
   if (!own) return { scene, history, standing: head === null ? 'same' : 'ahead' };
-  const unsaved = synced?.step !== head || synced === null;
+  const unsaved = !isSynced(kept.place);
   if (synced !== null && synced.etag === etag) return { scene, history, standing: unsaved ? 'ahead' : 'same' };
-  if (!unsaved) return { scene, history, standing: 'behind' };
-  return { scene, history, standing: standingOf(file, scene, history) };
+  if (!unsaved) {
+    const newer = new History(scene, undefined, history);
+    newer.adopt(TEXTS.changedElsewhere, file);
+    return { scene: file, history: newer.kept(), standing: 'behind' };
+  }
+  return { scene, history, standing: standingOf(file, scene, history, synced) };
+}
+
+/** Does the server have the document that the kept steps lead to? */
+const isSynced = ({ head, revision, synced }: Place): boolean =>
+  synced !== null && isSameDocument(synced, { step: head, revision });
+
+/** What all road users do in the document that the kept steps lead to, as far as it is kept. */
+export function keptAnswers(kept: KeptScene | null): GeneratedJson | null {
+  const at = kept && { step: kept.place.head, revision: kept.place.revision };
+  return at && kept.answers && isSameDocument(kept.answers, at) ? kept.answers.generated : null;
 }
 
 /** Does every step lead back to the first? */
@@ -47,16 +70,25 @@ function isWhole({ steps, place }: KeptScene): boolean {
 }
 
 /** What is to be saved of a scene: what is asked, and what people call things. */
-const versionOf = (scene: Scene): string =>
+export const versionOf = (scene: Scene): string =>
   sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene)]);
 
 /** A page that ended right after it had saved could not note that: the server's version is then one of its steps. */
-function standingOf(file: Scene, scene: Scene, history: KeptHistory): Standing {
+function standingOf(file: Scene, scene: Scene, kept: KeptHistory, synced: Synced | null): Standing {
   const theirs = versionOf(file);
-  const h = new History(scene, undefined, history);
-  if (versionOf(h.scene) === theirs) return 'same';
-  while (h.undo()) if (versionOf(h.scene) === theirs) return 'ahead';
-  return 'conflict';
+  if (versionOf(scene) === theirs) return 'same';
+  const history = new History(scene, undefined, kept);
+  return isOneOf(theirs, history, synced) ? 'ahead' : 'conflict';
+}
+
+/** Is a version one of the documents that undo leads back to, as far as `until`? */
+export function isOneOf(version: string, history: History, until: DocumentRef | null): boolean {
+  const back = new History(history.scene, undefined, history.kept());
+  do {
+    if (versionOf(back.scene) === version) return true;
+    if (until && isSameDocument(back.ref, until)) return false;
+  } while (back.undo());
+  return false;
 }
 
 export class Journal {
@@ -71,6 +103,10 @@ export class Journal {
   #gap = true;
 
   readonly keeping: ReadonlySignal<Keeping> = this.#keeping;
+  /** The document of the followed scene that the server is known to hold. */
+  get syncedTo(): Synced | null {
+    return this.#synced;
+  }
   /** Called when a step is kept. */
   onKept: (() => void) | null = null;
 
@@ -103,7 +139,7 @@ export class Journal {
     const history = this.#history;
     if (!history?.kept().steps.length) return;
     const scene = this.#scene;
-    const answers = generated && { step: history.head, generated };
+    const answers = generated && { ...history.ref, generated };
     // They can be worked out anew: where there is no room for them the steps matter more.
     this.#writing = this.#writing.then(() => this.store.keepAnswers(scene, answers)).catch(() => undefined);
   }
@@ -114,10 +150,17 @@ export class Journal {
     this.#history = null;
   }
 
-  /** The server holds what the document was at this step. */
-  synced(etag: string, step: number | null): void {
-    this.#synced = { etag, step };
-    if (this.#history) this.#changed({});
+  /** The server holds a committed document under an ETag; its scene need not be open any more. */
+  synced({ scene, step, revision }: Committed, etag: string): void {
+    const synced = { etag, step, revision };
+    if (this.#history && scene.id === this.#scene) {
+      this.#synced = synced;
+      this.#changed({});
+    } else this.#note(scene.id, (place) => ({ ...place, synced }));
+  }
+
+  #note(scene: string, change: (place: Place) => Place): void {
+    this.#writing = this.#writing.then(() => this.store.update(scene, change)).catch(() => undefined);
   }
 
   /** Everything is written. */
@@ -132,12 +175,14 @@ export class Journal {
     return this.#writing;
   }
 
-  /** A scene that is not open has another version on the server, with the same in it. */
-  async noteVersion(scene: string, was: string | null, etag: string | null): Promise<void> {
-    const kept = await this.read(scene);
-    const synced = kept?.place.synced;
-    if (!kept || !synced || !etag || (was !== null && synced.etag !== was)) return;
-    await this.store.append({ ...kept.place, synced: { ...synced, etag } }, null).catch(() => undefined);
+  /** A scene that is not open has another version on the server, with the same in it; `was`: its ETag before. */
+  noteVersion(scene: string, was: string | null, etag: string | null): Promise<void> {
+    this.#note(scene, (place) =>
+      !place.synced || !etag || (was !== null && place.synced.etag !== was)
+        ? place
+        : { ...place, synced: { ...place.synced, etag } },
+    );
+    return this.#writing;
   }
 
   forget(scene: string): Promise<void> {
@@ -147,7 +192,7 @@ export class Journal {
   /** Forgets the steps of scenes that the server has as they are, but for the open one; says how many. */
   async makeRoom(isOwn: (scene: string) => boolean, least = 0): Promise<number> {
     const places = (await this.store.places()).sort((a, b) => a.at - b.at);
-    const saved = places.filter((p) => p.scene !== this.#scene && isOwn(p.scene) && p.synced?.step === p.head);
+    const saved = places.filter((p) => p.scene !== this.#scene && isOwn(p.scene) && isSynced(p));
     const dropped = saved.slice(0, Math.max(0, places.length - least));
     for (const p of dropped) await this.store.forget(p.scene);
     return dropped.length;
@@ -162,8 +207,8 @@ export class Journal {
     const history = this.#history;
     if (!history) return;
     if (shorter) this.#base = stateOf(history.first());
-    const { head, ahead, steps } = history.kept();
-    const place = { scene: this.#scene, head, ahead, synced: this.#synced, at: Date.now() };
+    const { steps, ...at } = history.kept();
+    const place: Place = { scene: this.#scene, ...at, synced: this.#synced, at: Date.now() };
     const whole = this.#gap || shorter;
     if (whole && !steps.length && !this.#synced) return;
     const base = this.#base;

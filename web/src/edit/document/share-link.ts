@@ -1,9 +1,9 @@
 // A scene inside a link: packed, deflated, and written in the part of an address that no browser sends anywhere.
-import type { SceneJson } from '../model/document/scene-json';
-import type { Camera } from '../model/document/history';
-import { pack, PackError, unpack } from '../model/document/pack';
+import type { SceneJson } from '../../model/document/scene-json';
+import type { Camera } from '../../model/document/history';
+import { pack, PackError, unpack } from '../../model/document/pack';
 import { MARK } from './share-mark';
-import { TEXTS } from '../texts/share';
+import { TEXTS } from '../../texts/share';
 
 /** Longer links are cut by mail programs and chats. */
 export const MOST_LINK_BYTES = 60 * 1024;

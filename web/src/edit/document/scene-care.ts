@@ -1,21 +1,21 @@
 // What one does with scenes as a whole: new ones, copies, names, removing and bringing back.
-import { emptyScene, withoutRoadUsers } from '../model/document/blank-scene';
-import { rename } from '../model/document/commands';
-import { isMapRef, type SceneJson } from '../model/document/scene-json';
-import { Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
+import { emptyScene, withoutRoadUsers } from '../../model/document/blank-scene';
+import { rename } from '../../model/document/commands';
+import { isMapRef, type SceneJson } from '../../model/document/scene-json';
+import { Refused, type Client } from '../../net/client';
 import type { Journal } from './journal';
 import type { Library } from './library';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
-import { TEXTS } from '../texts/keeping';
+import type { Session } from './session';
+import { TEXTS } from '../../texts/keeping';
 
 /** So long a deleted scene can be brought back from the toast. */
 const UNDELETE_MS = 20_000;
 
 export class SceneCare {
   constructor(
-    private readonly editor: Editor,
+    private readonly session: Session,
     private readonly file: SceneFile,
     private readonly library: Library,
     private readonly list: SceneList,
@@ -46,7 +46,7 @@ export class SceneCare {
 
   /** An own copy of what is on screen; from then on it saves itself. */
   saveCopy(): Promise<void> {
-    const scene = this.editor.scene.peek();
+    const scene = this.session.document.scene.peek();
     const body = this.file.complete();
     if (!scene || !body) return Promise.resolve();
     const own = this.list.isOwn(scene.id) && this.file.stored;
@@ -62,12 +62,12 @@ export class SceneCare {
   }
 
   async #create(body: SceneJson, name: string, said: string): Promise<void> {
-    const { editor } = this;
+    const { session } = this;
     try {
       const { id } = await this.client.create({ ...body, id: undefined, name });
       await this.list.refresh().catch(() => undefined);
       await this.library.open(id);
-      editor.notices.show({ text: said });
+      session.notices.show({ text: said });
     } catch (e) {
       this.#failed(TEXTS.notSaved, e);
     }
@@ -75,23 +75,23 @@ export class SceneCare {
 
   /** A copy of any scene; the open one is copied as it is on screen. */
   async duplicate(id: string): Promise<void> {
-    if (id === this.editor.scene.peek()?.id) return this.saveCopy();
+    if (id === this.session.document.scene.peek()?.id) return this.saveCopy();
     const name = this.#freeName(TEXTS.copyOf(this.list.find(id)?.name ?? TEXTS.scene));
     try {
       const { id: copy } = await this.client.duplicate(id, name);
       await this.list.refresh().catch(() => undefined);
       const action = { label: TEXTS.open, run: () => void this.library.open(copy) };
-      this.editor.notices.show({ text: TEXTS.copiedAs(name), action });
+      this.session.notices.show({ text: TEXTS.copiedAs(name), action });
     } catch (e) {
       this.#failed(TEXTS.notCopied, e);
     }
   }
 
   async rename(id: string, name: string): Promise<void> {
-    const { editor, list } = this;
-    const scene = editor.scene.peek();
+    const { session, list } = this;
+    const scene = session.document.scene.peek();
     if (scene?.id === id) {
-      if (scene.name !== name) editor.run(rename(name));
+      if (scene.name !== name) session.run(rename(name));
       return;
     }
     try {
@@ -106,9 +106,9 @@ export class SceneCare {
 
   /** Removes a scene; the toast brings it back as it was, under its old address. */
   async remove(id: string): Promise<void> {
-    const { editor, library, list } = this;
+    const { session, library, list } = this;
     const name = list.find(id)?.name ?? id;
-    const open = editor.scene.peek()?.id === id;
+    const open = session.document.scene.peek()?.id === id;
     try {
       if (open) await library.written();
       const { json, etag } = await this.client.scene(id);
@@ -118,7 +118,7 @@ export class SceneCare {
       const next = list.list.peek().find((s) => s.id !== id);
       if (open && next) await library.open(next.id);
       const action = { label: TEXTS.undo, run: () => void this.#bringBack(id, { ...json, map }, open) };
-      editor.notices.show({ text: TEXTS.deleted(name), action }, UNDELETE_MS);
+      session.notices.show({ text: TEXTS.deleted(name), action }, UNDELETE_MS);
     } catch (e) {
       this.#failed(TEXTS.notDeleted, e);
     }
@@ -130,7 +130,7 @@ export class SceneCare {
       if (etag) await this.journal.noteVersion(id, null, etag);
       await this.list.refresh().catch(() => undefined);
       if (open) await this.library.open(id);
-      this.editor.notices.show({ text: TEXTS.isBack(body.name) });
+      this.session.notices.show({ text: TEXTS.isBack(body.name) });
     } catch (e) {
       this.#failed(TEXTS.notBroughtBack, e);
     }
@@ -147,6 +147,6 @@ export class SceneCare {
 
   #failed(what: string, e: unknown): void {
     const why = e instanceof Refused ? e.message : TEXTS.theServerIsNotAnswering;
-    this.editor.notices.show({ text: `${what}: ${why}` });
+    this.session.notices.show({ text: `${what}: ${why}` });
   }
 }

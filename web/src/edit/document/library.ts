@@ -1,0 +1,291 @@
+// Scenes are opened here: from the server, with what this computer keeps of them, if it is this tab's turn.
+import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
+import { Away, Refused, type Client } from '../../net/client';
+import { keep } from '../../net/storage';
+import type { KeptScene } from '../../net/step-store';
+import { SceneTurns, type TurnEvents } from '../../net/scene-lock';
+import { isMapRef, type MapJson, type SceneJson } from '../../model/document/scene-json';
+import { readScene, SceneError } from '../../model/document/scene-reader';
+import { readGenerated } from '../../model/words/named-futures';
+import { touched, type Scene } from '../../model/document/scene';
+import type { Lock } from './document';
+import { keptAnswers, resume, type Journal } from './journal';
+import type { Saving } from './saving';
+import type { SceneFile } from './scene-file';
+import type { SceneList } from './scene-list';
+import type { Session } from './session';
+import { TEXTS } from '../../texts/keeping';
+
+const WELCOME_BACK_MS = 9000;
+/** Less than a tab that waits for its turn has patience. */
+const WRITTEN_WITHIN_MS = 2000;
+
+/** A scene as it came from the server, with its map and as a document. */
+interface Fetched {
+  readonly json: SceneJson;
+  readonly map: MapJson;
+  readonly plain: Scene;
+  /** Undefined where the server was not reached. */
+  readonly etag: string | null | undefined;
+}
+
+/** Whose answers a scene that was opened lacks: of none it is judged alone. */
+export type Missing = 'none' | 'changed' | 'everybody';
+
+export class Library {
+  readonly #openError = signal<string | null>(null);
+  readonly #turns: SceneTurns;
+  /** Counts what was asked to be opened; of two on their way the later one stays. */
+  #asked = 0;
+  /** The last one of these for which other tabs were asked. */
+  #reached = 0;
+
+  /** Why the last scene could not be opened. */
+  readonly openError: ReadonlySignal<string | null> = this.#openError;
+  /** Called when another scene is on screen; `again` when it is the same one, newer. */
+  onOpen: ((scene: Scene, again: boolean) => void) | null = null;
+  /** Asks for what is missing of the scene that is on screen. */
+  #ask: ((missing: Missing) => void) | null = null;
+  #missing: Missing | null = null;
+
+  constructor(
+    private readonly session: Session,
+    private readonly file: SceneFile,
+    private readonly saving: Saving,
+    private readonly list: SceneList,
+    private readonly client: Client,
+    private readonly journal: Journal,
+    turns: (on: TurnEvents) => SceneTurns = (on) => new SceneTurns(on),
+  ) {
+    this.#turns = turns({
+      got: () => void this.again(),
+      leaving: () => this.#handOver(),
+      lost: () => this.#elsewhere(),
+      changed: () => void this.again(),
+    });
+    journal.onKept = () => this.#turns.tellChanged();
+  }
+
+  async open(id: string): Promise<void> {
+    await this.written(id);
+    this.#openError.value = null;
+    try {
+      await this.#bring(id, () => this.#fetch(id), false);
+    } catch (e) {
+      this.#failed(e);
+    }
+  }
+
+  /** The same scene anew, as it is by now: it was changed in another tab, or it is this tab's turn again. */
+  async again(): Promise<void> {
+    const plain = this.session.document.scene.peek();
+    const { raw, map, stored } = this.file;
+    if (!plain || !raw || !map || !stored) return;
+    // Without the server what is kept on this computer is enough.
+    const here: Fetched = { json: raw, map, plain: readScene(raw, map), etag: undefined };
+    await this.#bring(plain.id, () => this.#fetch(plain.id).catch(() => here), true);
+  }
+
+  /** Shows a scene that is not on the server, to be looked at. */
+  async show(json: SceneJson, lock: Lock): Promise<void> {
+    const scene = readScene(json);
+    await this.written();
+    this.#reached = ++this.#asked;
+    this.#turns.leave();
+    this.journal.letGo();
+    this.file.adopt(json, json.map as MapJson, false);
+    const saved = readGenerated(json, scene);
+    batch(() => {
+      this.session.open(scene, saved, null);
+      this.session.lockWith(lock);
+    });
+    this.saving.opened(this.session.document.committed.peek()!, null, 'same');
+    this.#show(scene, saved !== null, false);
+  }
+
+  /** Asks the tab that has this scene for it. */
+  editHere(): void {
+    this.#turns.takeOver();
+  }
+
+  dismissError(): void {
+    this.#openError.value = null;
+  }
+
+  #failed(e: unknown): void {
+    const known = e instanceof SceneError || e instanceof Refused;
+    this.#openError.value = known ? e.message : TEXTS.theSceneCould;
+    if (!known && !(e instanceof Away)) throw e;
+  }
+
+  async #fetch(id: string): Promise<Fetched> {
+    const reply = await this.client.scene(id);
+    const json = { ...reply.json, id: reply.json.id ?? id };
+    const map = isMapRef(json.map) ? await this.client.map(json.map.ref) : json.map;
+    return { json, map, plain: readScene(json, map), etag: reply.etag };
+  }
+
+  #mapRefOf(json: SceneJson): string | null {
+    if (isMapRef(json.map)) return json.map.ref;
+    const sha = this.list.find(json.id ?? '')?.map_sha256;
+    return sha ? (sha.startsWith('sha256:') ? sha : `sha256:${sha}`) : null;
+  }
+
+  /** The scene before stays in hand until the other one is on screen and all of its steps are written. */
+  async #bring(id: string, fetch: () => Promise<Fetched>, again: boolean): Promise<void> {
+    const turn = ++this.#asked;
+    const first = await fetch();
+    if (turn !== this.#asked) return;
+    this.#reached = turn;
+    await this.#turns.goTo(id);
+    const { fetched, kept } = await this.#newest(id, first, fetch);
+    if (turn !== this.#reached) return;
+    this.#adopt(fetched, kept, again);
+    void this.journal.flush().then(() => this.#turns.left());
+  }
+
+  /**
+   * What the server has and what is kept, of one moment: asked for anew where another version was saved since, by this
+   * tab or by the one that had the scene before.
+   */
+  async #newest(
+    id: string,
+    first: Fetched,
+    fetch: () => Promise<Fetched>,
+  ): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
+    const { document } = this.session;
+    for (let fetched = first, asked = false; ; asked = true) {
+      const [before, saved] = [document.committed.peek(), this.saving.etagOf(id)];
+      await this.journal.flush();
+      const kept = await this.journal.read(id);
+      const synced = kept?.place.synced?.etag;
+      const moved =
+        this.saving.etagOf(id) !== saved || (before?.scene.id === id && before !== document.committed.peek());
+      if (!moved && (asked || !synced || synced === fetched.etag)) return { fetched, kept };
+      fetched = await fetch().catch(() => fetched);
+    }
+  }
+
+  #adopt({ json, map, plain, etag: found }: Fetched, kept: KeptScene | null, again: boolean): void {
+    const { session, journal, saving } = this;
+    const { document } = session;
+    const mine = this.#turns.holds;
+    const own = this.list.isOwn(plain.id);
+    let etag = found === undefined ? (kept?.place.synced?.etag ?? saving.etagOf(plain.id)) : found;
+    let { scene, history, standing } = resume(plain, kept, own, etag);
+    const unsaved = saving.unsaved(plain.id);
+    if (standing === 'fresh' && unsaved) {
+      // Nothing is kept on this computer: the change waits in this tab alone.
+      [scene, history, standing, etag] = [unsaved.committed.scene, null, 'ahead', saving.etagOf(plain.id)];
+    }
+    journal.letGo();
+    this.file.adopt(json, map, true);
+    this.file.mapRef = this.#mapRefOf(json);
+    keep('last-scene', scene.id);
+    this.list.noteOpened(scene.id);
+    const current = standing !== 'ahead' && standing !== 'conflict';
+    const generated = current ? json.generated : keptAnswers(kept);
+    const answers = generated ? readGenerated({ ...json, generated }, scene) : null;
+    const seen = { who: session.selection.peek(), when: session.time.peek() };
+    batch(() => {
+      session.open(scene, answers, history);
+      if (!mine) this.#lock();
+    });
+    const committed = document.committed.peek()!;
+    saving.opened(committed, etag, standing);
+    if (mine) {
+      journal.follow(document.history!, scene.id, history && kept, own);
+      if (standing === 'behind') void journal.retry();
+      if (own && etag && current) journal.synced(committed, etag);
+      if (standing === 'ahead') saving.changed();
+      void journal.tidy((id) => this.list.isOwn(id));
+    }
+    this.#show(scene, answers !== null, again);
+    if (again) this.#asSeen(seen.who, seen.when);
+    else if (standing === 'ahead' && !own) this.#welcomeBack();
+  }
+
+  /** Answers that are missing are asked for. */
+  #show(scene: Scene, answered: boolean, again: boolean): void {
+    const { session } = this;
+    const unanswered = !answered && (scene.drawn > 0 || [...scene.agents.values()].some(touched));
+    if (unanswered) session.answers.outdate();
+    this.onOpen?.(scene, again);
+    this.#missing = !unanswered ? 'none' : scene.drawn > 0 ? 'everybody' : 'changed';
+    this.#askNow();
+  }
+
+  /** Who asks may come after the first scene is on screen. */
+  askBy(ask: (missing: Missing) => void): void {
+    this.#ask = ask;
+    this.#askNow();
+  }
+
+  #askNow(): void {
+    const missing = this.#missing;
+    if (!this.#ask || !missing) return;
+    this.#missing = null;
+    this.#ask(missing);
+  }
+
+  #asSeen(who: string | null, when: number): void {
+    const { session } = this;
+    if (who && session.document.scene.peek()?.agents.has(who)) session.select(who);
+    session.setTime(when);
+  }
+
+  #welcomeBack(): void {
+    const action = { label: TEXTS.startFresh, run: () => this.session.goTo(null) };
+    this.session.notices.show({ text: TEXTS.yourChangesFrom, action }, WELCOME_BACK_MS);
+  }
+
+  // -------------------------------------------------------------- tabs
+
+  #elsewhere(): void {
+    this.journal.letGo();
+    this.saving.letGo();
+    this.#lock();
+  }
+
+  #lock(): void {
+    const lock: Lock = {
+      words: TEXTS.thisSceneIsOpen,
+      label: TEXTS.editHere,
+      run: () => this.editHere(),
+    };
+    this.session.lockWith(lock);
+  }
+
+  /** Before another tab takes over, everything is written, and nothing new begins. */
+  async #handOver(): Promise<void> {
+    this.#lock();
+    await this.written();
+  }
+
+  /** Steps are kept and saved, also those of a scene that comes next, unless the server takes its time over it. */
+  async written(next?: string): Promise<void> {
+    const late = new Promise((resolve) => setTimeout(resolve, WRITTEN_WITHIN_MS));
+    await Promise.race([this.saving.flush(next), late]);
+    await this.journal.flush();
+  }
+
+  // -------------------------------------------------------------- conflict
+
+  /** The version on the server replaces the one on screen; undo brings that back. */
+  async takeTheirs(): Promise<void> {
+    const { document } = this.session;
+    const id = document.scene.peek()?.id;
+    if (!id) return;
+    try {
+      const { plain, etag = null } = await this.#fetch(id);
+      document.afterTrial(() => {
+        if (document.scene.peek()?.id !== id || document.lock.peek()) return;
+        this.session.adopt(TEXTS.theOtherVersion, plain);
+        this.saving.tookTheirs(etag);
+        if (etag) this.journal.synced(document.committed.peek()!, etag);
+      });
+    } catch (e) {
+      this.#failed(e);
+    }
+  }
+}

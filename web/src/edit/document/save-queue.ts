@@ -1,0 +1,212 @@
+// Saves one scene to the server: one request at a time, the newest version waits, and each names the version on the
+// server that it replaces. The queue goes on when another scene is opened.
+import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { SceneJson } from '../../model/document/scene-json';
+import { Away, Refused, type Client } from '../../net/client';
+import type { Snapshot } from './scene-file';
+
+/** `behind`: the server lacks the newest version, for no version of its own. `conflict`: it has another one. */
+export type QueueState = 'saved' | 'saving' | 'behind' | 'conflict';
+
+/** The version on the server that is not ours; without an ETag where the scene was deleted there. */
+export interface Conflict {
+  readonly etag: string | null;
+}
+
+export interface SaveEvents {
+  /** The server holds a snapshot under an ETag. */
+  saved(snapshot: Snapshot, etag: string | null): void;
+  /** Was this version, found on the server, sent from here? `unsure`: snapshots that were sent without a reply. */
+  isOurs(theirs: SceneJson, unsure: readonly Snapshot[]): boolean;
+}
+
+/** A change waits so long for the next one. */
+const DELAY_MS = 300;
+/** After a request without an answer the next one follows so much later, and so on; the last one repeats. */
+const RETRY_MS = [2000, 5000, 15_000, 30_000];
+/** So many versions without a reply are kept for a comparison. */
+const MOST_UNSURE = 20;
+
+export class SaveQueue {
+  readonly #state = signal<QueueState>('saved');
+  readonly #conflict = signal<Conflict | null>(null);
+  /** The newest version, while the server lacks it. */
+  #newest: Snapshot | null = null;
+  /** Sent, and not answered: the server may have them. */
+  #unsure: Snapshot[] = [];
+  #etag: string | null = null;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  /** The newest version is to be sent as soon as no request is on its way. */
+  #due = false;
+  #running: Promise<void> | null = null;
+  #sent: Snapshot | null = null;
+  /** Rises when what is on its way does not count any more. */
+  #turn = 0;
+  #tries = 0;
+
+  readonly state: ReadonlySignal<QueueState> = this.#state;
+  readonly conflict: ReadonlySignal<Conflict | null> = this.#conflict;
+
+  constructor(
+    private readonly id: string,
+    private readonly client: Client,
+    private readonly on: SaveEvents,
+  ) {}
+
+  /** The version on the server that the next request replaces. */
+  get etag(): string | null {
+    return this.#etag;
+  }
+
+  /** The newest version, where the server lacks it. */
+  get unsaved(): Snapshot | null {
+    return this.#newest;
+  }
+
+  /** The scene was opened, and what it starts from was compared with the server. */
+  opened(etag: string | null, state: QueueState): void {
+    this.stop();
+    this.#etag = etag;
+    this.#conflict.value = state === 'conflict' ? { etag } : null;
+    this.#state.value = state;
+  }
+
+  /** A version is to be saved. In a conflict it waits for the decision. */
+  push(snapshot: Snapshot): void {
+    this.#newest = snapshot;
+    if (this.#conflict.peek()) return;
+    this.#state.value = 'saving';
+    this.#sendIn(DELAY_MS);
+  }
+
+  /** The server may be back: what it lacks is sent now. */
+  retry(): void {
+    if (this.#state.peek() === 'behind' && this.#newest) void this.#send();
+  }
+
+  /** Sends what waits; ends when it is saved, or cannot be. */
+  async flush(): Promise<void> {
+    while (this.#state.peek() === 'saving') await this.#send();
+  }
+
+  /** Another tab takes care of the scene from now on. What is on its way may still arrive at the server. */
+  stop(): void {
+    clearTimeout(this.#timer);
+    if (this.#sent) this.#doubt(this.#sent);
+    this.#turn++;
+    this.#running = this.#sent = this.#newest = null;
+    this.#due = false;
+    this.#tries = 0;
+    if (this.#state.peek() === 'saving') this.#state.value = 'behind';
+  }
+
+  /** The conflict ends: this version replaces the one on the server, or makes the scene again. */
+  async keep(snapshot: Snapshot): Promise<void> {
+    const conflict = this.#conflict.peek();
+    if (!conflict) return;
+    this.#newest ??= snapshot;
+    this.#etag = conflict.etag;
+    this.#conflict.value = null;
+    await this.#send();
+  }
+
+  /** The conflict ends: the version on the server is the document now. */
+  tookTheirs(etag: string | null): void {
+    this.stop();
+    this.#unsure = [];
+    this.#etag = etag;
+    this.#conflict.value = null;
+    this.#state.value = 'saved';
+  }
+
+  #sendIn(ms: number): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => void this.#send(), ms);
+  }
+
+  #send(): Promise<void> {
+    clearTimeout(this.#timer);
+    if (!this.#newest || this.#conflict.peek()) return Promise.resolve();
+    this.#due = true;
+    this.#state.value = 'saving';
+    this.#running ??= this.#sendAll(this.#turn);
+    return this.#running;
+  }
+
+  async #sendAll(turn: number): Promise<void> {
+    while (this.#due && this.#newest && !this.#conflict.peek()) {
+      this.#due = false;
+      const snapshot = (this.#sent = this.#newest);
+      const end = await this.#try(snapshot);
+      if (turn !== this.#turn) return;
+      end();
+    }
+    this.#running = this.#sent = null;
+  }
+
+  /** What follows from a request, to be done where it still counts. */
+  async #try(snapshot: Snapshot): Promise<() => void> {
+    try {
+      const etag = await this.#put(snapshot);
+      return () => this.#saved(snapshot, etag);
+    } catch (e) {
+      if (e instanceof Refused && (e.status === 412 || e.status === 404)) return this.#compare();
+      return () => {
+        if (!(e instanceof Refused)) this.#doubt(snapshot);
+        this.#away(e);
+      };
+    }
+  }
+
+  #doubt(snapshot: Snapshot): void {
+    this.#unsure = [...this.#unsure.filter((s) => s !== snapshot), snapshot].slice(-MOST_UNSURE);
+  }
+
+  #saved(snapshot: Snapshot, etag: string | null): void {
+    this.#etag = etag;
+    this.#unsure = [];
+    this.#tries = 0;
+    if (this.#newest === snapshot) {
+      this.#newest = null;
+      this.#state.value = 'saved';
+    }
+    this.on.saved(snapshot, etag);
+  }
+
+  async #put(snapshot: Snapshot): Promise<string | null> {
+    try {
+      return await this.client.save(this.id, snapshot.body(), this.#etag);
+    } catch (e) {
+      const unknownMap = e instanceof Refused && e.problem.code === 'unknown-map';
+      if (unknownMap) return this.client.save(this.id, snapshot.complete(), this.#etag);
+      throw e;
+    }
+  }
+
+  /** The server has another version than the one that was to be replaced: it may be ours, with its reply lost. */
+  async #compare(): Promise<() => void> {
+    try {
+      const { json, etag } = await this.client.scene(this.id);
+      return () => {
+        if (!this.on.isOurs(json, this.#unsure)) return this.#contradicted(etag);
+        this.#etag = etag;
+        this.#due = true;
+      };
+    } catch (e) {
+      return () => (e instanceof Refused && e.status === 404 ? this.#contradicted(null) : this.#away(e));
+    }
+  }
+
+  #contradicted(etag: string | null): void {
+    this.#conflict.value = { etag };
+    this.#state.value = 'conflict';
+  }
+
+  /** A server that does not answer, or is busy, is asked again; one that refuses, with the next change. */
+  #away(e: unknown): void {
+    if (!this.#newest || this.#due) return;
+    this.#state.value = 'behind';
+    const passes = e instanceof Away || (e instanceof Refused && (e.status === 503 || e.status === 429));
+    if (passes) this.#sendIn(RETRY_MS[Math.min(this.#tries++, RETRY_MS.length - 1)]);
+  }
+}

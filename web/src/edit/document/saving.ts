@@ -1,0 +1,158 @@
+// Saving: every step is kept on this computer, and own scenes go to the server after it, each by a queue of its own.
+// Examples stay here until a copy is made of them.
+import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
+import { isMapRef, type SceneJson } from '../../model/document/scene-json';
+import type { Committed } from '../../model/document/history';
+import { readScene } from '../../model/document/scene-reader';
+import type { Client } from '../../net/client';
+import type { Document } from './document';
+import { isOneOf, versionOf, type Journal, type Standing } from './journal';
+import { SaveQueue, type Conflict, type QueueState } from './save-queue';
+import type { SceneFile, Snapshot } from './scene-file';
+import type { SceneList } from './scene-list';
+
+/** `local`: kept on this computer only. `full`: there was no room even for that. `off`: this page may keep nothing. */
+export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full' | 'off';
+
+export class Saving {
+  readonly #queues = new Map<string, SaveQueue>();
+  /** The queue of the open scene; null where that is not saved to the server. */
+  readonly #open = signal<SaveQueue | null>(null);
+  /** The version of the document that the server holds. */
+  readonly #held = signal<number | null>(null);
+
+  /** The version on the server that is not ours. */
+  readonly conflict = computed<Conflict | null>(() => this.#open.value?.conflict.value ?? null);
+  readonly state: ReadonlySignal<SaveState>;
+
+  constructor(
+    private readonly document: Document,
+    private readonly file: SceneFile,
+    private readonly list: SceneList,
+    private readonly client: Client,
+    private readonly journal: Journal,
+  ) {
+    this.state = computed<SaveState>(() => {
+      const server = this.#serverState();
+      if (server === 'conflict' || server === 'saved' || server === 'saving') return server;
+      const changed = document.undoName.value !== null || server === 'behind';
+      if (!changed) return 'example';
+      const keeping = journal.keeping.value;
+      return keeping === 'kept' ? 'local' : keeping;
+    });
+  }
+
+  /** Null for a scene that is not saved to the server. */
+  #serverState(): QueueState | null {
+    const state = this.#open.value?.state.value ?? null;
+    // A version that nobody has pushed is not on the server, whatever became of the ones before it.
+    return state === 'saved' && this.#held.value !== this.document.committed.value?.version ? 'behind' : state;
+  }
+
+  /** ETag of the open scene on the server, as far as it is known. */
+  get etag(): string | null {
+    return this.#open.peek()?.etag ?? null;
+  }
+
+  /** The newest version of a scene, where the server lacks it. */
+  unsaved(id: string): Snapshot | null {
+    return this.#queues.get(id)?.unsaved ?? null;
+  }
+
+  /** ETag of the version that the unsaved one of a scene replaces. */
+  etagOf(id: string): string | null {
+    return this.#queues.get(id)?.etag ?? null;
+  }
+
+  /** Another scene is open: `ahead` with changes that the server does not have, `conflict` where it has others. */
+  opened(committed: Committed, etag: string | null, standing: Standing): void {
+    const { id } = committed.scene;
+    void this.#open.peek()?.flush();
+    if (!this.#isSaved(id)) {
+      this.#open.value = null;
+      return;
+    }
+    const queue = this.#queueOf(id);
+    queue.opened(etag, standing === 'ahead' ? 'behind' : standing === 'conflict' ? 'conflict' : 'saved');
+    this.#held.value = committed.version;
+    this.#open.value = queue;
+  }
+
+  /** The committed document has changed, or more is known of it. */
+  changed(): void {
+    const snapshot = this.document.lock.peek() ? null : this.file.snapshot();
+    if (snapshot && this.#isSaved(snapshot.committed.scene.id)) this.#open.peek()?.push(snapshot);
+  }
+
+  /**
+   * What all road users do in the document is known, and is kept with it. Worked out anew when it is opened again it
+   * could be another: a drag and its release go on from what the hand has seen.
+   */
+  answered(): void {
+    if (this.#open.peek()) this.changed();
+    else this.journal.keepAnswers(this.file.answers());
+  }
+
+  /** The server is back: what could not be saved is saved now. */
+  retry(): void {
+    for (const queue of this.#queues.values()) queue.retry();
+  }
+
+  /** The open scene, and one that is about to be opened: what is to be saved is saved, or cannot be. */
+  async flush(id?: string): Promise<void> {
+    const about = id === undefined ? undefined : this.#queues.get(id);
+    about?.retry();
+    await Promise.all([this.#open.peek()?.flush(), about?.flush()]);
+  }
+
+  /** Another tab takes care of the open scene from now on, with the steps that are kept of it. */
+  letGo(): void {
+    if (this.journal.keeping.peek() === 'kept') this.#open.peek()?.stop();
+  }
+
+  /** Conflict: this version replaces the other one, or makes the scene again where it was deleted. */
+  async keepMine(): Promise<void> {
+    const snapshot = this.file.snapshot();
+    if (snapshot) await this.#open.peek()?.keep(snapshot);
+  }
+
+  /** Conflict: the other version is on screen now. */
+  tookTheirs(etag: string | null): void {
+    this.#open.peek()?.tookTheirs(etag);
+    this.#held.value = this.document.committed.peek()?.version ?? null;
+  }
+
+  #isSaved(id: string): boolean {
+    return this.file.stored && this.list.isOwn(id);
+  }
+
+  #queueOf(id: string): SaveQueue {
+    const known = this.#queues.get(id);
+    if (known) return known;
+    const queue: SaveQueue = new SaveQueue(id, this.client, {
+      saved: (snapshot, etag) => this.#saved(queue, snapshot, etag),
+      isOurs: (theirs, unsure) => this.#isOurs(queue, theirs, unsure),
+    });
+    this.#queues.set(id, queue);
+    return queue;
+  }
+
+  #saved(queue: SaveQueue, { committed, body }: Snapshot, etag: string | null): void {
+    if (this.#open.peek() === queue) {
+      this.#held.value = committed.version;
+      this.file.noteStored(body());
+    }
+    if (etag) this.journal.synced(committed, etag);
+    void this.list.refresh().catch(() => undefined);
+  }
+
+  /** A save whose reply was lost, or one of another tab that kept its steps here, is no other version. */
+  #isOurs(queue: SaveQueue, theirs: SceneJson, unsure: readonly Snapshot[]): boolean {
+    const map = isMapRef(theirs.map) ? this.file.map : theirs.map;
+    if (!map) return false;
+    const version = versionOf(readScene(theirs, map));
+    if (unsure.some((s) => versionOf(s.committed.scene) === version)) return true;
+    const { history } = this.document;
+    return this.#open.peek() === queue && history !== null && isOneOf(version, history, this.journal.syncedTo);
+  }
+}

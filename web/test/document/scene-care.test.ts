@@ -1,0 +1,96 @@
+// Scenes as a whole: copied, renamed, removed and brought back.
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { rename, setGoal, setSeed } from '../../src/model/document/commands';
+import { crossingJson } from '../helpers';
+import { ScriptedServer } from './server';
+import { Tab } from './tab';
+
+let server: ScriptedServer;
+let tab: Tab;
+
+const pass = (ms: number) => vi.advanceTimersByTimeAsync(ms);
+const whole = async (work: Promise<unknown>) => {
+  await pass(5000);
+  await work;
+};
+const names = () => [...server.scenes.values()].map((s) => s.json.name);
+const shown = () => tab.editor.scene.peek()!;
+
+beforeEach(async () => {
+  vi.useFakeTimers();
+  server = new ScriptedServer();
+  for (const id of ['mine', 'other', 'demo-crossing']) server.put(id, { ...crossingJson(), name: id });
+  tab = new Tab(server);
+  await tab.list.refresh();
+  await whole(tab.library.open('mine'));
+  return () => vi.useRealTimers();
+});
+
+describe('a copy', () => {
+  it('of the open scene has what was committed, not what a drag tries', async () => {
+    tab.editor.run(setSeed(7));
+    const a = shown().agents.get('1')!;
+    tab.editor.beginDrag({ part: 'goal', handle: 'body' });
+    tab.editor.previewDrag(setGoal(a, { ...a.goal, pos: [77, 7] }));
+    await whole(tab.care.saveCopy());
+    const copy = [...server.scenes.values()].at(-1)!.json;
+    expect([copy.name, copy.x_editor?.seed, copy.meta?.parent_id]).toEqual(['mine, copy', 7, 'mine']);
+    expect(copy.agents.find(({ id }) => id === '1')!.conditions ?? {}).toEqual({});
+    expect(shown().name).toBe('mine, copy');
+  });
+
+  it('of an example saves itself from then on', async () => {
+    await whole(tab.library.open('demo-crossing'));
+    tab.editor.run(setSeed(7));
+    await whole(tab.care.saveCopy());
+    tab.editor.run(setSeed(8));
+    await pass(1000);
+    expect([tab.saving.state.peek(), [...server.scenes.values()].at(-1)!.json.x_editor?.seed]).toEqual(['saved', 8]);
+  });
+
+  it('has a name that is free', async () => {
+    await whole(tab.care.saveAs('other'));
+    await whole(tab.care.saveCopy());
+    await whole(tab.care.newOnThisRoad());
+    await whole(tab.care.newOnThisRoad());
+    expect(names().slice(-3)).toEqual(['other, copy', 'New scene', 'New scene 2']);
+    expect(shown().agents.size).toBe(0);
+  });
+});
+
+describe('a name', () => {
+  it('of the open scene is a step; of another it is changed on the server', async () => {
+    await whole(tab.care.rename('mine', 'Mine'));
+    await whole(tab.care.rename('other', 'Other'));
+    expect(tab.editor.undoName.peek()).toBe('Renamed to Mine');
+    expect(names()).toEqual(['Mine', 'Other', 'demo-crossing']);
+  });
+
+  it('that was changed elsewhere meanwhile is not overwritten, and that is said', async () => {
+    server.put('other', { ...crossingJson(), name: 'Theirs' });
+    await whole(tab.care.rename('other', 'Other'));
+    expect(names()).toContain('Theirs');
+    expect(tab.editor.notices.toast.peek()?.text).toMatch(/^Not renamed/);
+  });
+});
+
+describe('a scene that is removed', () => {
+  it('comes back as it was, with its steps', async () => {
+    tab.editor.run(rename('Mine'));
+    await whole(tab.care.remove('mine'));
+    expect([names(), shown().id]).toEqual([['other', 'demo-crossing'], 'other']);
+    tab.editor.notices.toast.peek()!.action!.run();
+    await pass(5000);
+    expect([names().at(-1), shown().id, tab.saving.state.peek()]).toEqual(['Mine', 'mine', 'saved']);
+    tab.editor.undo();
+    await pass(1000);
+    expect(server.scenes.get('mine')!.json.name).toBe('mine');
+  });
+
+  it('stays where the server says no', async () => {
+    server.fate = (method) => (method === 'DELETE' ? { fails: 'busy' } : {});
+    await whole(tab.care.remove('mine'));
+    expect([names().includes('mine'), shown().id]).toEqual([true, 'mine']);
+    expect(tab.editor.notices.toast.peek()?.text).toMatch(/^Not deleted/);
+  });
+});

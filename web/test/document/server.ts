@@ -1,0 +1,103 @@
+// A server in memory for tests of the page: scenes with ETags, and for each request a fate that the test decides.
+import type { SceneJson } from '../../src/model/document/scene-json';
+
+/** What becomes of a request. Times in milliseconds; the test's clock moves them. */
+export interface Fate {
+  /** Until the server acts on the request, and from then until its reply arrives. */
+  readonly there?: number;
+  readonly back?: number;
+  /** `request`: the server never sees it. `reply`: the server acts, and nobody hears of it. `busy`: a 503. */
+  readonly fails?: 'request' | 'reply' | 'busy';
+}
+
+export interface StoredScene {
+  readonly json: SceneJson;
+  readonly etag: string;
+}
+
+export interface Seen {
+  readonly method: string;
+  readonly id: string;
+  readonly status: number;
+  readonly json: SceneJson | null;
+}
+
+export class ScriptedServer {
+  readonly scenes = new Map<string, StoredScene>();
+  /** Every request that the server acted on, in order. */
+  readonly seen: Seen[] = [];
+  /** Requests that are on their way there or back. */
+  open = 0;
+  fate: (method: string, id: string) => Fate = () => ({});
+  #version = 0;
+
+  put(id: string, json: SceneJson): string {
+    const etag = `"${++this.#version}"`;
+    this.scenes.set(id, { json: { ...json, id }, etag });
+    return etag;
+  }
+
+  /** What a tab calls; `here` is false once the tab is closed: it sends nothing more and hears nothing more. */
+  fetcher(here: () => boolean = () => true): typeof fetch {
+    return async (url, init) => {
+      if (!here()) return never();
+      const method = init?.method ?? 'GET';
+      const [, , collection, id = ''] = new URL(String(url), 'http://server').pathname.split('/');
+      const fate = this.fate(method, id);
+      this.open++;
+      try {
+        await passes(fate.there);
+        if (fate.fails === 'request') throw new TypeError('no answer');
+        const reply =
+          fate.fails === 'busy'
+            ? problem(503, 'shutting-down')
+            : this.#act(collection, method, decodeURIComponent(id), init);
+        await passes(fate.back);
+        if (!here()) return await never();
+        if (fate.fails === 'reply') throw new TypeError('no answer');
+        return reply;
+      } finally {
+        this.open--;
+      }
+    };
+  }
+
+  #act(collection: string, method: string, id: string, init?: RequestInit): Response {
+    if (collection !== 'scenes') return problem(404, 'not-found');
+    const json = typeof init?.body === 'string' ? (JSON.parse(init.body) as SceneJson) : null;
+    const reply = this.#answer(method, id, json, new Headers(init?.headers));
+    this.seen.push({ method, id, status: reply.status, json });
+    return reply;
+  }
+
+  #answer(method: string, id: string, json: SceneJson | null, headers: Headers): Response {
+    const scene = this.scenes.get(id);
+    if (method === 'GET' && !id) {
+      const scenes = [...this.scenes].map(([id, { json, etag }]) => ({ id, etag, name: json.name, readonly: false }));
+      return reply(200, { scenes, next: null });
+    }
+    if (method === 'POST') {
+      const made = `made-${this.#version + 1}`;
+      return reply(201, { id: made }, this.put(made, json!));
+    }
+    const match = headers.get('If-Match');
+    if (method === 'GET') return scene ? reply(200, scene.json, scene.etag) : problem(404, 'not-found');
+    if (match === null ? scene : !scene || (match !== '*' && match !== scene.etag))
+      return problem(412, 'stale-etag', scene?.etag);
+    if (method === 'DELETE') this.scenes.delete(id);
+    else
+      return reply(scene ? 200 : 201, { id }, this.put(id, method === 'PATCH' ? { ...scene!.json, ...json } : json!));
+    return reply(200, {});
+  }
+}
+
+const passes = (ms?: number): Promise<void> | void =>
+  ms === undefined ? undefined : new Promise((resolve) => setTimeout(resolve, ms));
+
+const never = (): Promise<never> => new Promise(() => undefined);
+
+const reply = (status: number, body: unknown, etag?: string): Response =>
+  new Response(JSON.stringify(body), { status, headers: etag ? { ETag: etag } : {} });
+
+const problem = (status: number, code: string, etag?: string): Response =>
+  reply(status, { code, title: code, status, ...(etag ? { etag } : {}) });
