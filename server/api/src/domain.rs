@@ -3,10 +3,17 @@
 
 use experts::request::{DEFAULTS, Defaults};
 use formats::native::Ranges;
+use scene::geometry::ttc::LOOK_AHEAD_S;
+use scene::judge::HARSH_S;
 use scene::limits::Limits;
+use scene::score::kinematic::HARSH_STEPS;
+use scene::score::pairs::{SAME_GAP_M, SAME_S};
+use scene::score::pet::{LEAST_ANGLE_RAD, LEAST_TRAVEL_M};
 use scene::score::{Threshold, Thresholds};
 use scene::via::VIA_WITHIN_S;
-use scene::{AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, Size, Subtype, VIA_TOLERANCE_M};
+use scene::{
+    AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, STANDING_MPS, Size, Subtype, VIA_TOLERANCE_M,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -107,6 +114,43 @@ pub struct ViaRanges {
     within_s: f64,
 }
 
+/// Fixed numbers by which events and verdicts are worked out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judging {
+    /// Two events of the same kind and road users within this time are one, seconds.
+    same_event_s: f64,
+    /// A near miss that is closer by more than this is another one, metres.
+    same_gap_m: f64,
+    /// Shorter braking and steering is no fault, seconds.
+    harsh_s: f64,
+    /// Steps before and after a moment between which braking and steering are measured.
+    harsh_steps: usize,
+    /// Slower than this is standing, m/s.
+    standing_mps: f64,
+    /// No collision is looked for later, seconds.
+    look_ahead_s: f64,
+    /// A road user that travels less has no post-encroachment time, metres.
+    pet_travel_m: f64,
+    /// Paths that meet at less than this angle do not cross, radians.
+    pet_angle_rad: f64,
+}
+
+impl Judging {
+    /// The numbers that scores and verdicts read.
+    pub fn current() -> Self {
+        Self {
+            same_event_s: SAME_S,
+            same_gap_m: SAME_GAP_M,
+            harsh_s: HARSH_S,
+            harsh_steps: HARSH_STEPS,
+            standing_mps: STANDING_MPS,
+            look_ahead_s: LOOK_AHEAD_S,
+            pet_travel_m: LEAST_TRAVEL_M,
+            pet_angle_rad: LEAST_ANGLE_RAD,
+        }
+    }
+}
+
 /// A number that decides what counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThresholdRange {
@@ -129,6 +173,7 @@ pub struct Domain {
     defaults: Defaults,
     /// What counts as an event, by name.
     thresholds: BTreeMap<&'static str, ThresholdRange>,
+    judging: Judging,
     /// By kind of layout and parameter.
     layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
 }
@@ -152,6 +197,7 @@ impl Domain {
             via,
             defaults: DEFAULTS,
             thresholds: Thresholds::ALL.map(range).into(),
+            judging: Judging::current(),
             layout_ranges: layouts::ranges(),
         }
     }

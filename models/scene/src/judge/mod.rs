@@ -32,7 +32,7 @@ const TOUCH_M: f64 = 0.3;
 const WRONG_WAY_M: f64 = 4.0;
 const FACING_S: f64 = 1.0;
 /// Shorter braking and steering is a jerk of the wheel or of the record, seconds.
-const HARSH_S: f64 = 0.2;
+pub const HARSH_S: f64 = 0.2;
 
 /// The rules of one scene over a stretch of time. Cheap to make; judges any number of motions.
 pub struct Judge<'a> {

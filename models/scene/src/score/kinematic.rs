@@ -14,6 +14,9 @@ const LEAST_CURVE_MPS: f64 = 1.0;
 /// Slower than this, a walker's direction means nothing, m/s.
 const LEAST_WALK_MPS: f64 = 0.3;
 
+/// Speeds and headings so many steps before and after a moment decide whether it is harsh.
+pub const HARSH_STEPS: usize = 2;
+
 /// What scoring still calls plausible: wider than [`Limits`], which generated motion keeps, because
 /// differences of rounded positions and foreign motion are noisier. `None`: not scored for this type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -189,8 +192,8 @@ pub fn harsh_braking(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> 
     }
     let speed = |i: usize| actor.state(i).filter(|_| input.steps.contains(&i)).map(State::speed_mps);
     let braking = |i: usize| {
-        let change = speed(i.checked_sub(2)?)? - speed(i + 2)?;
-        Some((i, change / (4.0 * STEP_S)))
+        let change = speed(i.checked_sub(HARSH_STEPS)?)? - speed(i + HARSH_STEPS)?;
+        Some((i, change / (2.0 * HARSH_STEPS as f64 * STEP_S)))
     };
     let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_brake_mps2;
     let flagged: Vec<_> = input.steps.clone().filter_map(braking).filter(harsh).collect();
@@ -204,9 +207,9 @@ pub fn harsh_steering(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
     }
     let state = |i: usize| actor.state(i).filter(|_| input.steps.contains(&i));
     let sideways = |i: usize| {
-        let (before, after) = (state(i.checked_sub(2)?)?, state(i + 2)?);
+        let (before, after) = (state(i.checked_sub(HARSH_STEPS)?)?, state(i + HARSH_STEPS)?);
         let turned = wrap_angle(after.heading_rad - before.heading_rad).abs();
-        Some((i, state(i)?.speed_mps() * turned / (4.0 * STEP_S)))
+        Some((i, state(i)?.speed_mps() * turned / (2.0 * HARSH_STEPS as f64 * STEP_S)))
     };
     let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_lateral_mps2;
     let flagged: Vec<_> = input.steps.clone().filter_map(sideways).filter(harsh).collect();

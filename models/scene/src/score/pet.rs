@@ -7,7 +7,9 @@ use crate::geometry::{Vec2, cross};
 use crate::{AgentType, STEP_S};
 
 /// Paths that meet at less than this angle merge or follow; they do not cross. 20 degrees.
-const LEAST_ANGLE_RAD: f64 = 0.349;
+pub const LEAST_ANGLE_RAD: f64 = 0.349;
+/// A road user that travels less shares no ground that another could come to after it, metres.
+pub const LEAST_TRAVEL_M: f64 = 2.0;
 /// Steps between the points of the coarse paths.
 const COARSE: usize = 3;
 /// Pieces of a coarse path between two bounds.
@@ -21,7 +23,7 @@ const PIECES: usize = 8;
 /// angles this equals the classic "second enters the shared area after the first has left it".
 pub(super) fn post_encroachment_s(a: &Mover, b: &Mover) -> Option<f64> {
     let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
-    if walkers || a.travel_m < 2.0 || b.travel_m < 2.0 || !places_meet(a, b) {
+    if walkers || a.travel_m < LEAST_TRAVEL_M || b.travel_m < LEAST_TRAVEL_M || !places_meet(a, b) {
         return None;
     }
     let mut least: Option<usize> = None;

@@ -44,6 +44,9 @@ export const VERSION = domain.version;
 export const THRESHOLDS: Readonly<Record<string, { readonly usual: number; readonly range: readonly number[] }>> =
   domain.thresholds;
 
+/** The numbers by which the server works out events and verdicts. */
+export const JUDGING = domain.judging;
+
 /** What places on the way may ask for. */
 export const VIAS = domain.via;
 

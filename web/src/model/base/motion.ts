@@ -1,4 +1,5 @@
 // Motion over time: recorded tracks and generated futures share this one shape.
+import { JUDGING } from './domain';
 import { clamp, lerp, lerpAngle, type Pose } from './geometry';
 
 export const STEP_S = 0.1;
@@ -176,8 +177,6 @@ export function heldStill(p: Pose, steps: number): Motion {
   return { first: 0, x: fill(p.x), y: fill(p.y), heading: fill(p.heading), speed: fill(0), valid: [[0, steps]] };
 }
 
-/** Slower than this counts as standing where nothing more is known, m/s. */
-const STANDING = 0.3;
 const continued = new WeakMap<Motion, Motion>();
 
 /** The motion up to scene step `last`: straight on at its last speed where it ends before. */
@@ -198,7 +197,7 @@ export function straightOn(m: Motion, last: number): Motion {
     heading = grow(m.heading),
     speed = grow(m.speed);
   // A recorded velocity may point elsewhere than the body; along the body is near enough to be seen.
-  const v = Math.abs(speed[from]) < STANDING ? 0 : speed[from];
+  const v = Math.abs(speed[from]) < JUDGING.standing_mps ? 0 : speed[from];
   for (let i = from + 1; i < n; i++) {
     const s = v * STEP_S * (i - from);
     x[i] = x[from] + s * Math.cos(heading[from]);
@@ -214,14 +213,14 @@ export function straightOn(m: Motion, last: number): Motion {
   return out;
 }
 
-/** So far before and after a moment speeds are compared, in steps: as the judge of scenes does. */
-const AROUND = 2;
+/** Steps over which braking is measured: as many before a moment as after it. */
+export const BRAKING_STEPS = 2 * JUDGING.harsh_steps;
 
-/** The hardest braking, m/s², as the judge of scenes measures it. */
+/** The hardest braking, m/s², as the server measures it. */
 export function hardestBraking({ speed }: Motion): number {
   let most = 0;
-  for (let i = 2 * AROUND; i < speed.length; i++)
-    most = Math.max(most, (Math.abs(speed[i - 2 * AROUND]) - Math.abs(speed[i])) / (2 * AROUND * STEP_S));
+  for (let i = BRAKING_STEPS; i < speed.length; i++)
+    most = Math.max(most, (Math.abs(speed[i - BRAKING_STEPS]) - Math.abs(speed[i])) / (BRAKING_STEPS * STEP_S));
   return most;
 }
 

@@ -5,28 +5,19 @@ import type { components } from '../base/api';
 
 type Schemas = components['schemas'];
 
-export type Point = [number, number] | [number, number, number];
+/** A string where the schema lists words: a reader takes words that it does not know. */
+type Open<T> = T extends string ? string : T;
+/** A part of a document as a tolerant reader takes it: the members in `Needed` are there, all others may be absent. */
+type Read<T, Needed extends keyof T = never, Own = unknown> = {
+  [K in Exclude<keyof T, keyof Own>]?: Open<T[K]>;
+} & { [K in Exclude<Needed, keyof Own>]: Open<T[K]> } & Own;
 
-export interface LaneJson {
-  id: string;
-  type?: string;
-  points_m: Point[];
-  width_m?: number | null;
-  speed_limit_mps?: number | null;
-  predecessors?: string[];
-  successors?: string[];
-  interpolating?: boolean;
-}
-export interface LineJson {
-  id?: string;
-  type?: string;
-  points_m: Point[];
-}
-export interface AreaJson {
-  id?: string;
-  polygon_m: Point[];
-  holes_m?: Point[][];
-}
+export type Point = [number, number] | [number, number, number];
+type HasPoints = { points_m: Point[] };
+export type LaneJson = Read<Schemas['LaneDoc'], 'id', HasPoints>;
+export type LineJson = Read<Schemas['RoadLineDoc'], never, HasPoints>;
+export type AreaJson = { id?: string; polygon_m: Point[]; holes_m?: Point[][] };
+/** Lists of the schema with the parts that the page reads. */
 export interface MapJson {
   lanes?: LaneJson[];
   road_lines?: LineJson[];
@@ -34,101 +25,50 @@ export interface MapJson {
   crosswalks?: AreaJson[];
   speed_bumps?: AreaJson[];
   driveways?: AreaJson[];
-  stop_signs?: { id?: string; position_m: Point; lanes?: string[] }[];
+  stop_signs?: Read<Schemas['StopSignDoc'], never, { position_m: Point }>[];
   drivable?: AreaJson[];
 }
-export interface MapRef {
-  ref: string;
-}
-export interface SignalJson {
-  lane: string;
-  stop_m?: Point | null;
-  states: [number, string][];
-}
-export interface TrackJson {
-  first_step?: number;
-  valid?: [number, number][];
-  x_m: number[];
-  y_m: number[];
-  heading_rad: number[];
-  vx_mps?: number[] | null;
-  vy_mps?: number[] | null;
-}
-export interface StartJson {
-  x_m?: number | null;
-  y_m?: number | null;
-  heading_rad?: number | null;
-  speed_mps?: number | null;
-}
+export type MapRef = Schemas['MapRef'];
+export type SignalJson = Read<Schemas['SignalDoc'], 'lane', { stop_m?: Point | null; states: [number, string][] }>;
+export type TrackJson = Read<
+  Schemas['TrackDoc'],
+  'x_m' | 'y_m' | 'heading_rad',
+  { valid?: [number, number][]; vx_mps?: number[] | null; vy_mps?: number[] | null }
+>;
+export type StartJson = Read<Schemas['StartDoc']>;
 /** `may_cross`: ids of road edges that this one may go over on its way. */
-export interface GoalJson extends StartJson {
-  time_s?: number | null;
-  may_cross?: string[];
-}
+export type GoalJson = Read<Schemas['GoalDoc']>;
 /** A place on the way. */
 export type ViaJson = Schemas['ViaDoc'];
-export interface ConditionJson {
-  type?: 'vehicle' | 'pedestrian' | 'cyclist' | null;
-  length_m?: number;
-  width_m?: number;
-  start?: StartJson;
-  goal?: GoalJson;
-  via?: ViaJson[];
-}
-export interface AgentJson {
-  id: string;
-  type: string;
-  subtype?: string;
-  role?: string | null;
-  length_m: number;
-  width_m: number;
-  height_m?: number | null;
-  track: TrackJson;
-  conditions?: ConditionJson | null;
-}
+export type ConditionJson = Read<
+  Omit<Schemas['ConditionsDoc'], 'frame'>,
+  never,
+  { type?: Schemas['ConditionsDoc']['type']; length_m?: number; width_m?: number; start?: StartJson; goal?: GoalJson }
+>;
+export type AgentJson = Read<
+  Schemas['AgentDoc'],
+  'id' | 'type',
+  { length_m: number; width_m: number; track: TrackJson; conditions?: ConditionJson | null }
+>;
 export type FaultKind = Schemas['FaultKind'];
-/** `edge`: id of the road edge that it goes over. */
-export type FaultJson = Schemas['Fault'] & { edge?: string | null };
+export type FaultJson = Schemas['Fault'];
 export type RelationKind = Schemas['RelationKind'];
 export type RelationJson = Schemas['Relation'];
 export type Manoeuvre = Schemas['Manoeuvre'];
 /** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
-export interface ModeJson extends TrackJson {
-  probability: number;
-  name?: string;
-  anchor?: number | null;
-  faults?: FaultJson[];
-  relations?: RelationJson[];
-  manoeuvre?: Manoeuvre | null;
-}
+export type ModeJson = TrackJson &
+  Pick<Schemas['FutureDoc'], 'probability' | 'anchor' | 'faults' | 'relations' | 'manoeuvre'> & { name?: string };
 /** A future as it was shown last: box centres every 0.5 s, the first 0.5 s after the start. */
 export type ShownJson = Schemas['ShownDoc'];
 export type ReactionKind = Schemas['ReactionKind'];
 /** Why a road user gave up the motion it had: whom it answers, and where it waits or is slowest. */
 export type ReactionJson = Schemas['Reaction'];
 /** `reaction`: absent for whoever was asked for or does as before. */
-export interface AgentFuturesJson {
-  chosen: number;
-  modes: ModeJson[];
-  reaction?: ReactionJson | null;
-}
-export interface SampleJson {
-  agents: Record<string, AgentFuturesJson>;
-  score?: unknown;
-}
-export interface GeneratedJson {
-  chosen_sample?: number;
-  samples: SampleJson[];
-  stale?: boolean;
-  seed?: number;
-  [k: string]: unknown;
-}
+export type AgentFuturesJson = Omit<Schemas['AgentFuturesDoc'], 'modes'> & { modes: ModeJson[] };
+export type SampleJson = Omit<Schemas['SampleDoc'], 'agents'> & { agents: Record<string, AgentFuturesJson> };
+export type GeneratedJson = Read<Schemas['GeneratedDoc'], never, { samples: SampleJson[] }>;
 export type FeaturesJson = Schemas['Features'];
-export type TraitJson = Schemas['Trait'];
-export type WishJson = Schemas['Wish'];
 export type LearnedWishJson = Schemas['LearnedWish'];
-/** A future among those that are shown to be judged. */
-export type RoundCardJson = Schemas['RoundCard'];
 export type RoundJson = Schemas['Round'];
 export type FeedbackDocJson = Schemas['FeedbackDoc'];
 /** What only the editor knows: the generator's own choices stand in `generated`, the user's picks here. */

@@ -8,9 +8,6 @@ export interface Footprint {
   readonly width: number;
 }
 
-/** Closer than this counts as touching, metres. */
-const CLEAR_M = 0.1;
-
 function corners({ pose, length, width }: Footprint): Vec[] {
   const c = Math.cos(pose.heading),
     s = Math.sin(pose.heading);
@@ -26,12 +23,9 @@ function corners({ pose, length, width }: Footprint): Vec[] {
   });
 }
 
-/** Do two boxes touch, or come closer than anybody stands? */
-export const touching = (a: Footprint, b: Footprint): boolean => meeting(a, b, CLEAR_M);
-
-/** They do not meet where a line along one of their sides lies between them, with room beside it. */
-function meeting(a: Footprint, b: Footprint, room: number): boolean {
-  const far = (a.length + a.width + b.length + b.width) / 2 + room;
+/** Whether two boxes share ground: no line along one of their sides lies between them. */
+export function touching(a: Footprint, b: Footprint): boolean {
+  const far = (a.length + a.width + b.length + b.width) / 2;
   if (Math.abs(a.pose.x - b.pose.x) > far || Math.abs(a.pose.y - b.pose.y) > far) return false;
   const p = corners(a),
     q = corners(b);
@@ -44,7 +38,7 @@ function meeting(a: Footprint, b: Footprint, room: number): boolean {
     };
     const [a0, a1] = span(p),
       [b0, b1] = span(q);
-    if (a1 + room <= b0 || b1 + room <= a0) return false;
+    if (a1 <= b0 || b1 <= a0) return false;
   }
   return true;
 }
@@ -60,7 +54,7 @@ function toStretch([x, y]: Vec, [ax, ay]: Vec, [bx, by]: Vec): number {
 
 /** The shortest way between two boxes, metres; 0 where they meet. */
 export function gapBetween(a: Footprint, b: Footprint): number {
-  if (meeting(a, b, 0)) return 0;
+  if (touching(a, b)) return 0;
   const p = corners(a),
     q = corners(b);
   let best = Infinity;

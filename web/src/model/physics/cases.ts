@@ -5,7 +5,8 @@ import { closestTo, timeGapOf, type Closest, type Moving } from './proximity';
 import { eventsIn, type SceneEvent } from './events';
 import type { MotionSet } from '../document/futures';
 import { pointAt, wrapAngle, type Vec } from '../base/geometry';
-import { poseAt, poseAtStep, STEP_S, type Motion } from '../base/motion';
+import { BRAKING_STEPS, poseAt, poseAtStep, STEP_S, type Motion } from '../base/motion';
+import { JUDGING } from '../base/domain';
 import { threshold } from '../document/thresholds';
 import { AT_GOAL_M, canChange, type Agent, type Scene } from '../document/scene';
 
@@ -54,12 +55,8 @@ export interface Moment {
   readonly miss: number;
 }
 
-/** Braking is that over so many steps: one step alone may be a jump of what was recorded. */
-const BRAKING_STEPS = 5;
 /** Two ways that pass each other at a greater distance do not cross, metres. */
 const CROSSING_M = 1.5;
-/** Of those who drive in one direction nobody crosses the other's way, radians. */
-const ALONG_RAD = 0.35;
 /** No case is so far off. */
 const FAR = 1e6;
 
@@ -174,7 +171,7 @@ function crossingOf(m: Motion, n: Motion, duration: number): { mine: number; the
       const q = poseAtStep(n, j);
       if (!q) continue;
       const d = (p.x - q.x) ** 2 + (p.y - q.y) ** 2;
-      const along = Math.abs(wrapAngle(p.heading - q.heading)) < ALONG_RAD;
+      const along = Math.abs(wrapAngle(p.heading - q.heading)) < JUDGING.pet_angle_rad;
       if (d >= best || along) continue;
       best = d;
       at = { mine: i * STEP_S, theirs: j * STEP_S };

@@ -1,4 +1,5 @@
 // Where the ways of two road users cross within a short time of each other: the ground of a junction as a heat map.
+import { JUDGING, THRESHOLDS } from '../base/domain';
 import { motionOf } from './playback';
 import type { MotionSet } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
@@ -9,10 +10,6 @@ import type { Agent, Scene } from '../document/scene';
 export const CELL_M = 2;
 /** Two who come to a place further apart in time than this have nothing to do with each other, seconds. */
 export const WITHIN_S = 3;
-/** Nearer in direction than this, one follows the other, radians. */
-const FOLLOWS_RAD = 0.3;
-/** Slower than this nobody is on the way, m/s. */
-const STANDS_MPS = 0.5;
 /** Every so many steps somebody is looked for: at 20 m/s that is 4 m, less than a car's length. */
 const STRIDE = 2;
 
@@ -53,7 +50,7 @@ function visit(ground: Ground, scene: Scene, set: MotionSet, a: Agent): void {
   const last = Math.round(scene.duration / STEP_S);
   for (let step = 0; step <= last; step += STRIDE) {
     const p = poseAtStep(m, step);
-    if (!p || Math.abs(p.speed) < STANDS_MPS) continue;
+    if (!p || Math.abs(p.speed) < THRESHOLDS.moving_mps.usual) continue;
     for (const key of under(p.x, p.y, p.heading, a.length)) enter(ground, key, a.id, p.heading, step * STEP_S);
   }
 }
@@ -83,7 +80,7 @@ function leastGap(visits: readonly Visit[]): number {
   let least = Infinity;
   visits.forEach((a, i) => {
     for (const b of visits.slice(i + 1)) {
-      if (a.id === b.id || Math.abs(wrapAngle(a.heading - b.heading)) < FOLLOWS_RAD) continue;
+      if (a.id === b.id || Math.abs(wrapAngle(a.heading - b.heading)) < JUDGING.pet_angle_rad) continue;
       least = Math.min(least, Math.max(0, a.from - b.until, b.from - a.until));
     }
   });

@@ -1,5 +1,6 @@
 // What of a speed curve cannot be done: a speed that is not reached by its time, a goal that is not reached by its own.
 // And what would be possible instead: the same curve with one thing changed, each tried before it is offered.
+import { AT_GOAL_M } from '../document/scene';
 import type { Limits } from '../base/domain';
 import { clamp, type Vec } from '../base/geometry';
 import { STEP_S, type Motion } from '../base/motion';
@@ -8,8 +9,7 @@ import type { Profile, SpeedPoint } from '../document/profile';
 
 /** A speed that is missed by less is as it was asked for, m/s. */
 const SLACK_MPS = 0.3;
-/** A goal that is missed by less is reached, metres; it lies on the path where it is no further beside it. */
-const SLACK_M = 1;
+/** A goal lies on the path where it is no further beside it, metres. */
 const BESIDE_M = 3;
 const TICK_S = 0.1;
 const STEP_MPS = 0.25;
@@ -115,12 +115,12 @@ function goalMisfit(asked: Asked, m: Motion): Misfit | null {
   if (!goal || way === null) return null;
   const { points } = profile;
   const by = way - gone(m, goal.time);
-  if (by <= SLACK_M) return null;
+  if (by <= AT_GOAL_M) return null;
   const there =
     (time: number): Fits =>
     (p) => {
       const tried = motionWith(asked, p);
-      return missed(tried, p) < 0 && way - gone(tried, time) <= SLACK_M;
+      return missed(tried, p) < 0 && way - gone(tried, time) <= AT_GOAL_M;
     };
   const stop = points.reduce((most, p, i) => (p.hold > (points[most]?.hold ?? 0) ? i : most), -1);
   const ways = [arriving(asked, m, way, duration), shorter(points, stop, there(goal.time)), faster(asked, there)];
@@ -146,7 +146,7 @@ function gone(m: Motion, time: number): number {
 /** The time at which it is there as the curve is. */
 function arriving({ goal, profile }: Asked, m: Motion, way: number, duration: number): Way | null {
   for (let time = goal!.time + TICK_S; time <= duration + 1e-6; time += TICK_S)
-    if (way - gone(m, time) <= SLACK_M)
+    if (way - gone(m, time) <= AT_GOAL_M)
       return { kind: 'later', by: time - goal!.time, goalTime: Math.round(time * 10) / 10, points: profile.points };
   return null;
 }

@@ -1,6 +1,7 @@
 // Events as the timeline and the list show them: what is wrong with the futures that are followed, and the facts of
 // the score about everybody else. What the log does by itself is marked so and does not count.
 import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '../document/future-facts';
+import { JUDGING } from '../base/domain';
 import { motionOf } from './playback';
 import type { Futures, MotionSet, Score, Stretch } from '../document/futures';
 import { poseAt, STEP_S } from '../base/motion';
@@ -28,10 +29,8 @@ export interface SceneEvent {
   readonly poses: readonly [Pose | null, Pose | null];
 }
 
-/** Meetings of the same two closer together than this are one event: the same pair passing once. */
-const SAME_PASS_S = 1.5;
-/** Faults of one road user and kind closer together than this are one event. */
-const SAME_STRETCH_S = 1;
+/** Events of one kind and the same road users closer together than this are one, seconds. */
+const SAME_S = JUDGING.same_event_s;
 
 /** An event before the same ones are merged. */
 interface Raw {
@@ -144,7 +143,7 @@ function merged(scene: Scene, set: MotionSet, all: readonly Raw[]): SceneEvent[]
     const same = r.b === null ? kept.findIndex((k) => sameStretch(k, r)) : -1;
     if (same >= 0) kept[same] = joined(kept[same], r);
     const meets = (k: Raw): boolean =>
-      k.what === r.what && pairOf(k) === pairOf(r) && (r.what === 'collision' || near(k, r) < SAME_PASS_S);
+      k.what === r.what && pairOf(k) === pairOf(r) && (r.what === 'collision' || near(k, r) < SAME_S);
     if (same >= 0 || (r.b !== null && ((r.what !== 'collision' && hit.has(pairOf(r))) || kept.some(meets)))) continue;
     kept.push(r);
   }
@@ -160,7 +159,7 @@ const sameKind = (a: FaultKind, b: FaultKind): boolean =>
   a === b || (a === 'over_median' && b === 'off_road') || (a === 'off_road' && b === 'over_median');
 
 const sameStretch = (a: Raw, b: Raw): boolean =>
-  a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_STRETCH_S && b.time <= a.until + SAME_STRETCH_S;
+  a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_S && b.time <= a.until + SAME_S;
 
 /** Two stretches as one: as long as both, as bad as the worse; metres that follow each other add up. */
 function joined(a: Raw, b: Raw): Raw {

@@ -1,6 +1,7 @@
 // When several come closest to each other.
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
-import type { Pose } from '../base/geometry';
+import { JUDGING } from '../base/domain';
+import type { Pose, Vec } from '../base/geometry';
 import { poseAtStep, STEP_S, type Motion } from '../base/motion';
 import type { Agent } from '../document/scene';
 
@@ -76,9 +77,6 @@ export interface TimeGap {
   readonly time: number;
 }
 
-/** Who goes less far than this uses no ground that another could come to after it, metres: as the engine has it. */
-const LEAST_WAY_M = 2;
-
 /**
  * Post-encroachment time of two: the least shift in time at which their boxes would meet, as the engine's score has it
  * of ways that cross; of one behind the other it is the time between them. Null where their ways share no ground, where
@@ -87,7 +85,7 @@ const LEAST_WAY_M = 2;
 export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap | null {
   const steps = Math.round(duration / STEP_S);
   const [p, q] = [one, other].map((m) => Array.from({ length: steps + 1 }, (_, step) => boxAt(m, step)));
-  if (wayOf(p) < LEAST_WAY_M || wayOf(q) < LEAST_WAY_M) return null;
+  if (wayOf(p) < JUDGING.pet_travel_m || wayOf(q) < JUDGING.pet_travel_m) return null;
   for (let shift = 0; shift <= steps; shift++)
     for (let step = shift; step <= steps; step++) {
       const oneFirst = share(p[step - shift], q[step]);
@@ -103,19 +101,31 @@ export interface Driven extends Footprint {
   readonly pose: Pose;
 }
 
-/** Nobody looks further ahead than this, seconds. */
-const LOOKS_S = 10;
-
-/** Seconds until two would touch if both went straight on as they go; null where they touch already or would not. */
+/**
+ * Seconds until two share ground if both keep their velocities; null where they do already, or would not soon. Exact:
+ * on each of the four side directions their shadows overlap for one interval, and they share ground while all four do.
+ */
 export function timeToCollision(p: Driven, q: Driven): number | null {
-  const on = ({ pose, ...box }: Driven, t: number): Footprint => {
-    const { x, y, heading, speed } = pose;
-    const way = speed * t;
-    return { ...box, pose: { ...pose, x: x + way * Math.cos(heading), y: y + way * Math.sin(heading) } };
-  };
-  for (let step = 0; step * STEP_S <= LOOKS_S; step++)
-    if (share(on(p, step * STEP_S), on(q, step * STEP_S))) return step ? step * STEP_S : null;
-  return null;
+  const [dx, dy] = [q.pose.x - p.pose.x, q.pose.y - p.pose.y];
+  const velocity = ({ pose }: Driven): Vec => [
+    pose.speed * Math.cos(pose.heading),
+    pose.speed * Math.sin(pose.heading),
+  ];
+  const [[px, py], [qx, qy]] = [velocity(p), velocity(q)];
+  let [enter, leave] = [0, JUDGING.look_ahead_s as number];
+  for (const angle of [p, q].flatMap(({ pose }) => [pose.heading, pose.heading + Math.PI / 2])) {
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const half = ({ pose, length, width }: Driven): number =>
+      (length * Math.abs(Math.cos(pose.heading - angle)) + width * Math.abs(Math.sin(pose.heading - angle))) / 2;
+    const [offset, closing, reach] = [dx * c + dy * s, (px - qx) * c + (py - qy) * s, half(p) + half(q)];
+    if (Math.abs(closing) < 1e-12) {
+      if (Math.abs(offset) >= reach) return null;
+      continue;
+    }
+    const [t0, t1] = [(offset - reach) / closing, (offset + reach) / closing];
+    [enter, leave] = [Math.max(enter, Math.min(t0, t1)), Math.min(leave, Math.max(t0, t1))];
+  }
+  return enter > 0 && enter < leave ? enter : null;
 }
 
 const share = (p: Footprint | null, q: Footprint | null): boolean =>

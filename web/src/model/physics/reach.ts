@@ -11,7 +11,7 @@ import {
   type Vec,
 } from '../base/geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
-import { limitsOf, type Limits } from '../base/domain';
+import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
 
 /** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
@@ -94,7 +94,7 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, l
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
   // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
   const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
-  if (straight > max + 0.5) {
+  if (straight > max + THRESHOLDS.goal_position_m.usual) {
     return {
       ...base,
       kind: 'far',

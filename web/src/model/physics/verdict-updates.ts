@@ -3,22 +3,14 @@
 import { FAULT_KINDS, NOTHING_SAID, type About, type Fault } from '../document/future-facts';
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import type { Vec } from '../base/geometry';
-import type { Agent, Scene } from '../document/scene';
+import { AT_GOAL_M, type Agent, type Scene } from '../document/scene';
+import { JUDGING, THRESHOLDS } from '../base/domain';
 import type { Collision, Future, Futures, NearMiss, Score } from '../document/futures';
 import type { FaultJson } from '../document/scene-json';
 import { endPose, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from '../base/motion';
 import { passed } from '../document/vias';
 
-/** Meetings of the same two closer together than this are one. */
-const SAME_S = 1.5;
-
-/** Two nearer than this come close to each other, metres. */
-const NEAR_M = 1;
-/** A near miss stays one while the gap is no wider than it was by more than this, metres. */
-const AS_NEAR_M = 0.5;
-
-/** A goal that is missed by more, in metres, is not reached. */
-const REACHED_M = 2;
+const SAME_S = JUDGING.same_event_s;
 
 const rank = (x: Fault): number => FAULT_KINDS.indexOf(x.kind);
 const meets = (f: Pick<Fault, 'kind'>): boolean => f.kind === 'collision' || f.kind === 'near_miss';
@@ -61,7 +53,7 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
     const at = place(goal.time);
     const extent = Math.hypot(at[0] - goal.pos[0], at[1] - goal.pos[1]);
     const { time } = goal;
-    if (extent > REACHED_M) broken.push({ kind: 'goal_missed', time, until: time, at, extent, with: null, edge: null });
+    if (extent > AT_GOAL_M) broken.push({ kind: 'goal_missed', time, until: time, at, extent, with: null, edge: null });
   }
   passed(goal.via, f.motion).forEach(({ time, away: extent, ok }) => {
     if (!ok) broken.push({ kind: 'via_missed', time, until: time, at: place(time), extent, with: null, edge: null });
@@ -75,8 +67,6 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
 
 const isHarsh = (x: { readonly kind: Fault['kind'] }): boolean =>
   x.kind === 'harsh_braking' || x.kind === 'harsh_steering';
-/** Shorter ones are a jerk of the wheel or of the record, seconds. */
-const HARSH_S = 0.2;
 
 /** The futures in force after what counts was changed: the motions are the same, what is said of them may be less. */
 export function countedAnew(
@@ -91,7 +81,7 @@ export function countedAnew(
     const m = f.modes[shown];
     if (!m?.about) continue;
     const harsh = (score.stretches ?? []).filter(
-      (s) => s.agent === id && !s.inLog && isHarsh({ kind: s.what }) && s.until - s.time >= HARSH_S - 1e-6,
+      (s) => s.agent === id && !s.inLog && isHarsh({ kind: s.what }) && s.until - s.time >= JUDGING.harsh_s - 1e-6,
     );
     const now = harsh.flatMap((s): Fault[] => {
       const p = poseAt(m.motion, s.time);
@@ -145,7 +135,7 @@ function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[
   };
   // Fast towards each other is close at a larger distance, too.
   const was = old.find((x) => x.kind === 'near_miss' && x.with === other.agent.id);
-  const near = Math.max(NEAR_M, (was?.extent ?? 0) + AS_NEAR_M);
+  const near = Math.max(THRESHOLDS.gap_m.usual, (was?.extent ?? 0) + JUDGING.same_gap_m);
   let least = Infinity;
   for (let step = Math.max(0, own.first); step <= lastStep(own); step++) {
     const [p, q] = [boxOf(a, own, step), boxOf(other.agent, other.motion, step)];

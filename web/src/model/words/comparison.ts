@@ -1,4 +1,5 @@
 // What differs between two variants: who does another thing, since when, and what comes of it.
+import { JUDGING } from '../base/domain';
 import { compareMarks } from '../document/future-facts';
 import { meetsGoal, motionOf } from '../physics/playback';
 import { counted } from '../physics/events';
@@ -60,7 +61,6 @@ const MOST_MOMENTS = 6;
 const MOST_ROWS = 5;
 /** Within so many seconds after they part somebody stops, or slows. */
 const SOON_S = 4;
-const STANDS_MPS = 0.3;
 const SLOWS_MPS = 1;
 
 export function partingOf(left: Side, right: Side): Parting {
@@ -171,7 +171,8 @@ function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: 
     for (let s = t; s <= Math.min(left.scene.duration, t + SOON_S); s += STEP_S) v = Math.min(v, speedAt(of, s));
     return v;
   };
-  if (least(motion) < STANDS_MPS && least(other) >= STANDS_MPS) return say(TEXTS.stopsOnlyIn(slow.label));
+  if (least(motion) < JUDGING.standing_mps && least(other) >= JUDGING.standing_mps)
+    return say(TEXTS.stopsOnlyIn(slow.label));
   if (speedAt(motion, 0) - speedAt(motion, t) > SLOWS_MPS) return say(TEXTS.slowsOnlyIn(slow.label));
   return say(TEXTS.goesFasterIn((slow === left ? right : left).label));
 }

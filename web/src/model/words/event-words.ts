@@ -2,6 +2,7 @@
 import type { FaultKind } from '../document/future-facts';
 import type { Futures, MotionSet } from '../document/futures';
 import { nameIn, type Agent, type Scene } from '../document/scene';
+import { THRESHOLDS } from '../base/domain';
 import { wrapAngle, type Pose } from '../base/geometry';
 import { poseAt } from '../base/motion';
 import { acceleration, metres, num, seconds, speedLabel, walkingUnit, type SpeedUnit } from '../base/units';
@@ -50,7 +51,7 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
 };
 
 /** They come no nearer than this, metres, or nobody knows how near: what counts is how little time there was. */
-const isMissInTime = ({ extent }: SceneEvent): boolean => extent === null || extent > 1;
+const isMissInTime = ({ extent }: SceneEvent): boolean => extent === null || extent > THRESHOLDS.gap_m.usual;
 
 /** How bad it is, in the unit of its kind. */
 function extentWords(r: SceneEvent, unit: SpeedUnit): string | null {

@@ -1,5 +1,6 @@
 // Names of variants, made of what tells each from the others: a future of the road user that they are about, else
 // whoever does another thing than in most of them.
+import { JUDGING } from '../base/domain';
 import { counted } from '../physics/events';
 import type { TrafficEvent } from './event-words';
 import type { MotionSet } from '../document/futures';
@@ -21,7 +22,6 @@ export interface Nameless {
 
 /** A motion is looked at every so many seconds. */
 const EVERY_S = 0.5;
-const STANDS_MPS = 0.3;
 const TURN_RAD = 0.6;
 /** Less than this is not worth a name: seconds of waiting, metres of way. */
 const LEAST_S = 1.5;
@@ -119,7 +119,7 @@ export function deedOf(scene: Scene, m: Motion): Deed {
       way += Math.hypot(p.x - last.x, p.y - last.y);
       turned += wrapAngle(p.heading - last.heading);
     }
-    stands = !!p && Math.abs(p.speed) < STANDS_MPS;
+    stands = !!p && Math.abs(p.speed) < JUDGING.standing_mps;
     if (stands) waits += EVERY_S;
     last = p ?? last;
   }

@@ -9,6 +9,7 @@ import {
   type FaultKind,
   type Mark,
 } from '../document/future-facts';
+import { THRESHOLDS } from '../base/domain';
 import { LETTERS, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
@@ -19,8 +20,6 @@ import { TEXTS } from '../../texts/verdicts';
 export type NameOf = (id: string) => string | null;
 
 const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.somebody;
-/** A gap below this is a near miss by itself, metres. */
-const GAP_M = 1;
 
 /** The word on the picture where it happens. */
 export function placeWord(f: Fault, nameOf: NameOf): string {
@@ -41,7 +40,7 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent));
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
-      return f.extent === null || f.extent > GAP_M
+      return f.extent === null || f.extent > THRESHOLDS.gap_m.usual
         ? TEXTS.closeCallWith(somebody(f, nameOf))
         : TEXTS.to(metres(f.extent, 1), somebody(f, nameOf));
     case 'via_missed':
@@ -205,14 +204,12 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
     case 'via_missed':
       return group(worst.kind, TEXTS.missAVia, TEXTS.missesAVia);
     case 'goal_missed': {
-      if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', TEXTS.stop, TEXTS.stops);
+      if (Math.abs(endPose(f.modes[i].motion).speed) < THRESHOLDS.moving_mps.usual)
+        return group('stops', TEXTS.stop, TEXTS.stops);
       return group('short', TEXTS.doNotGetThere, TEXTS.doesNotGetThere);
     }
   }
 }
-
-/** Slower than this is standing, m/s. */
-const STANDING = 0.5;
 
 const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = {
   vehicle: [TEXTS.drive, TEXTS.drives],

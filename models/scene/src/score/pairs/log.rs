@@ -7,11 +7,11 @@ use crate::score::input::{Actor, ScoreInput};
 use std::borrow::Cow;
 
 /// An event this much before or after that of the log is the same one, seconds.
-const SAME_S: f64 = 1.0;
+pub const SAME_S: f64 = 1.0;
 /// An overlap that much deeper than the log's is another one, metres.
 const SAME_DEPTH_M: f64 = 0.1;
 /// A near miss that much closer than the log's is another one, metres.
-const SAME_GAP_M: f64 = 0.5;
+pub const SAME_GAP_M: f64 = 0.5;
 
 /// The pair as it was recorded; `None` without a recording of both.
 pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Option<(Mover, Mover)> {

@@ -11,6 +11,7 @@ use super::report::{BoxOverlap, Collision, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
+pub use log::{SAME_GAP_M, SAME_S};
 pub(super) use mover::Rectangle;
 pub(crate) use mover::{Moment, Mover};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
