@@ -50,8 +50,11 @@ impl House {
     }
 }
 
-/// All Rust files of a folder, in a fixed order.
-fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+/// All Rust files of a folder and of those in it, in a fixed order.
+///
+/// # Errors
+/// When a folder cannot be read.
+pub fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path()).collect();
     entries.sort();
     let mut all = Vec::new();

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
 use dragtraffic_tests::program::root;
-use dragtraffic_tests::rooms::House;
+use dragtraffic_tests::rooms::{House, files};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -15,6 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("formats", &["scene"]),
     ("layouts", &["scene"]),
     ("experts", &["scene"]),
+    ("api", &["scene", "formats", "layouts", "experts"]),
     ("lab-synthesize", &["scene", "formats"]),
     ("lab-train", &["scene", "formats", "experts"]),
     ("lab-eval", &["scene", "formats", "experts", "lab-train"]),
@@ -26,6 +27,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "formats",
             "layouts",
             "experts",
+            "api",
             "lab-synthesize",
             "lab-train",
             "lab-eval",
@@ -45,6 +47,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("rand_distr", &["scene"]),
     ("blake3", &["scene", "lab-train"]),
     ("axum", &["dragtraffic"]),
+    ("tokio", &["dragtraffic"]),
     // Tests look into the store with the library itself.
     ("rusqlite", &["dragtraffic", "tests"]),
     ("shuttle", &["dragtraffic"]),
@@ -115,6 +118,18 @@ const HOUSES: &[House] = &[
             &["request", "weights", "maps"],
             &["placement", "generator"],
             &["engine"],
+        ],
+    },
+    House {
+        name: "api",
+        sources: "server/api/src",
+        floors: &[
+            &["code", "english", "limits", "opened", "domain", "compact", "feedback"],
+            &["problem", "events"],
+            &["home", "import", "map"],
+            &["export", "info", "score", "place"],
+            &["generate"],
+            &["operations"],
         ],
     },
     House {
@@ -202,6 +217,36 @@ fn only_the_labs_commands_of_the_server_know_the_lab() {
             for lab in ["lab_synthesize", "lab_train", "lab_eval", "lab_reproduce"] {
                 assert!(!text.contains(&format!("{lab}::")), "{} imports {lab}", path.display());
             }
+        }
+    }
+}
+
+/// What only a carrier of the operations may use.
+const OF_CARRIERS: &[&str] = &[
+    "std::fs",
+    "std::thread",
+    "std::net",
+    "std::env::",
+    "std::process",
+    "std::io",
+    "Instant",
+    "SystemTime",
+    "axum",
+    "tokio",
+    "rusqlite",
+    "tracing",
+    "StatusCode",
+];
+
+#[test]
+fn the_operations_use_no_file_thread_clock_or_socket() {
+    let sources = root().join("server/api/src");
+    let files = files(&sources).unwrap();
+    assert!(files.len() > 20, "{files:?}");
+    for path in files {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for word in OF_CARRIERS {
+            assert!(!text.contains(word), "{} uses {word}", path.display());
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
 
-use schemars::JsonSchema;
-use serde::Serialize;
+use api::limits::{Bound, CallLimits, MODES, SAMPLES};
 use std::collections::BTreeMap;
 
 macro_rules! limits {
@@ -39,8 +38,8 @@ limits! {
     header_bytes = 16 << 10, "names and values of all header fields";
     header_fields = 64, "header fields of a request";
     uri_bytes = 8 << 10, "path and query of a request";
-    regenerated_agents = 128, "road users regenerated or reacting in one call";
-    reply_points = 500_000, "samples x modes x road users x steps of a reply";
+    regenerated_agents = CallLimits::default().regenerated_agents, "road users regenerated or reacting in one call";
+    reply_points = CallLimits::default().reply_points, "samples x modes x road users x steps of a reply";
     import_scenes = 200, "scenes taken from one upload";
     import_files = 32, "files in one form";
     running = 0, "calls worked on at the same time, and as many long ones beside them; 0 means half the cores, 1 to 8";
@@ -71,11 +70,6 @@ limits! {
 /// Bounds without which nothing could be answered.
 const NEVER_ZERO: [&str; 7] =
     ["connections", "imports", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
-
-/// Most joint scenes of a call.
-pub const SAMPLES: u64 = 32;
-/// Most alternatives kept per road user.
-pub const MODES: u64 = 6;
 
 /// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
 fn fixed() -> [(&'static str, u64, &'static str); 10] {
@@ -114,6 +108,11 @@ impl Limits {
         Ok(())
     }
 
+    /// Those of one call.
+    pub fn of_a_call(&self) -> CallLimits {
+        CallLimits { regenerated_agents: self.regenerated_agents, reply_points: self.reply_points }
+    }
+
     /// Generations that may run at the same time.
     pub fn workers(&self) -> usize {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -135,15 +134,6 @@ impl Limits {
         let in_force = |name, number| if name == "running" { self.workers() as u64 } else { number };
         rows.map(|(name, number, what)| (name, Bound { value: in_force(name, number), what })).collect()
     }
-}
-
-/// One bound as it is in force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Bound {
-    /// In the unit of the bound's name.
-    pub value: u64,
-    /// What it bounds.
-    pub what: &'static str,
 }
 
 #[cfg(test)]

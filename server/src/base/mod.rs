@@ -2,10 +2,9 @@
 
 pub mod cache;
 pub mod clock;
-pub mod code;
-pub mod domain;
 pub mod id;
 pub mod limits;
 pub mod metrics;
 pub mod netconvert;
 pub mod problem;
+mod status;

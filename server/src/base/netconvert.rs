@@ -1,11 +1,13 @@
 //! SUMO's netconvert, where this machine has it.
 
+use api::import::Companions;
 use formats::netconvert::Netconvert;
 use std::env;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -31,6 +33,11 @@ fn program() -> Option<PathBuf> {
     let home = env::var_os("SUMO_HOME").map(|home| PathBuf::from(home).join("bin"));
     let folders = env::split_paths(&path).chain(home).map(|folder| folder.join(&name));
     named.into_iter().chain(folders).find(|path| path.is_file())
+}
+
+/// What may come with a file on this machine.
+pub fn companions() -> Companions {
+    Companions { netconvert: Some(Arc::new(Installed)), ..Companions::default() }
 }
 
 impl Netconvert for Installed {

@@ -1,65 +1,16 @@
-//! Refusals: RFC 9457 `application/problem+json` whose codes stand in one table.
+//! Refusals over HTTP: RFC 9457 `application/problem+json`.
 //!
-//! A handler returns a [`Problem`]; `http::observe` writes it out once the request id and the path are
-//! at hand. Clients switch on `code`, which never changes.
+//! A handler ends with a [`Refusal`]; `http::observe` writes it out once the request id and the path are at hand.
 
-pub use super::code::Code;
+pub use super::status::{code_of, status_of};
 
-use super::code::CodeName;
+use api::code::CodeName;
+use api::problem::ProblemMembers;
+use api::{Code, Problem};
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use experts::GenerateError;
-use formats::{FieldProblem, Kind, ReadError};
 use schemars::JsonSchema;
 use serde::Serialize;
-
-/// What a refusal says beyond its sentence; each member only where it means something.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
-pub struct Members {
-    /// All faults that were found in the body or the query.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(max = 32))]
-    pub errors: Option<Vec<FieldProblem>>,
-    /// The bound that was met.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<u64>,
-    /// ETag of the scene as it is stored now.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub etag: Option<String>,
-    /// When the scene was stored, RFC 3339.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub updated_at: Option<String>,
-    /// Seconds after which to ask again, as in Retry-After.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub retry_after_s: Option<u64>,
-    /// Byte of the decoded file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub offset: Option<u64>,
-    /// What the reader of a file found there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// Line of the fault, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub line: Option<usize>,
-    /// Column of the fault in bytes, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub column: Option<usize>,
-    /// The revision that took over.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub by_revision: Option<u64>,
-    /// The highest revision that the client has sent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub highest_revision: Option<u64>,
-    /// What is not ready.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failing: Option<Vec<&'static str>>,
-    /// Refinement step at which an expert failed; 0 is the first guess.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step: Option<usize>,
-    /// Road user that an expert failed for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub agent: Option<String>,
-}
 
 /// RFC 9457 problem. Switch on `code`, which never changes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -84,10 +35,24 @@ pub struct ProblemDoc {
     #[serde(skip_serializing_if = "Option::is_none")]
     request_id: Option<String>,
     #[serde(flatten)]
-    members: Members,
+    members: ProblemMembers,
 }
 
 impl ProblemDoc {
+    /// Of a problem that occurred at an address, in a request.
+    pub fn of(problem: &Problem, instance: Option<&str>, request_id: Option<&str>) -> Self {
+        Self {
+            page: format!("/docs/problems#{}", problem.code.name()),
+            title: problem.code.title(),
+            status: status_of(problem.code),
+            detail: problem.detail.clone(),
+            code: CodeName(problem.code),
+            instance: instance.map(str::to_owned),
+            request_id: request_id.map(str::to_owned),
+            members: (*problem.members).clone(),
+        }
+    }
+
     /// The document as text.
     pub fn text(&self) -> String {
         // Plain members with string keys: serde_json writes those without fail.
@@ -95,166 +60,77 @@ impl ProblemDoc {
     }
 }
 
-/// One refusal.
-#[derive(Clone, Debug)]
-pub struct Problem {
-    /// What sort.
-    pub code: Code,
-    /// What happened this time; never has paths, queries or stack traces.
-    pub detail: String,
-    /// Further members, such as `limit` or `errors`.
-    pub members: Box<Members>,
-    /// Headers that go with it, such as Retry-After.
-    pub headers: Vec<(HeaderName, HeaderValue)>,
-}
-
-impl Problem {
-    /// A refusal with one sentence.
-    pub fn new(code: Code, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into(), members: Box::default(), headers: Vec::new() }
-    }
-
-    /// One field's fault.
-    pub fn field(pointer: &str, code: Code, detail: impl Into<String>) -> Self {
-        let detail = detail.into();
-        let error = FieldProblem::new(pointer, code.name(), detail.clone());
-        Self::new(code, detail).with(|m| m.errors = Some(vec![error]))
-    }
-
-    /// A number outside its range.
-    pub fn range(pointer: &str, min: f64, max: f64, got: f64) -> Self {
-        let error = FieldProblem::range(pointer, min, max, got);
-        Self::new(Code::OutOfRange, error.detail.clone()).with(|m| m.errors = Some(vec![error]))
-    }
-
-    /// A defect: the cause goes to the log, the client gets a plain sentence.
-    pub fn internal(cause: impl std::fmt::Display) -> Self {
+/// Tells the log the cause of a defect, once.
+pub fn logged(mut problem: Problem) -> Problem {
+    if let Some(cause) = problem.cause.take() {
         tracing::error!(%cause, "defect");
-        Self::new(Code::Internal, "The server failed; its log says more.")
     }
+    problem
+}
 
-    /// Sets members.
-    #[must_use]
-    pub fn with(mut self, set: impl FnOnce(&mut Members)) -> Self {
-        set(&mut self.members);
-        self
-    }
+/// A problem as the end of a request.
+#[derive(Clone, Debug)]
+pub struct Refusal(pub Problem);
 
-    /// Names the bound that was met.
-    #[must_use]
-    pub fn limit(self, limit: u64) -> Self {
-        self.with(|m| m.limit = Some(limit))
-    }
-
-    /// Puts a prefix before the pointers: the problem is about a part of the body.
-    #[must_use]
-    pub fn under(mut self, prefix: &str) -> Self {
-        for error in self.members.errors.iter_mut().flatten() {
-            error.pointer.insert_str(0, prefix);
-        }
-        self
-    }
-
-    /// Adds Retry-After in seconds.
-    #[must_use]
-    pub fn retry_after(mut self, seconds: u64) -> Self {
-        self.headers.push((header::RETRY_AFTER, HeaderValue::from(seconds)));
-        self.with(|m| m.retry_after_s = Some(seconds))
-    }
-
-    /// The object of RFC 9457.
-    pub fn doc(&self, instance: Option<&str>, request_id: Option<&str>) -> ProblemDoc {
-        ProblemDoc {
-            page: format!("/docs/problems#{}", self.code.name()),
-            title: self.code.title(),
-            status: self.code.status(),
-            detail: self.detail.clone(),
-            code: CodeName(self.code),
-            instance: instance.map(str::to_owned),
-            request_id: request_id.map(str::to_owned),
-            members: (*self.members).clone(),
-        }
+impl From<Problem> for Refusal {
+    fn from(problem: Problem) -> Self {
+        Self(logged(problem))
     }
 }
 
-impl IntoResponse for Problem {
+impl Refusal {
+    /// Headers that go with it.
+    fn headers(&self) -> Vec<(HeaderName, HeaderValue)> {
+        let Self(problem) = self;
+        let text = |name: &str| {
+            let value = problem.values.get(name).and_then(|value| value.as_str());
+            value.and_then(|value| HeaderValue::from_str(value).ok())
+        };
+        let by_code = match problem.code {
+            Code::Unauthorized => Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"))),
+            Code::UpgradeRequired => Some((header::UPGRADE, HeaderValue::from_static("websocket"))),
+            _ => None,
+        };
+        let seconds = problem.members.retry_after_s.map(HeaderValue::from);
+        let given = [
+            (header::RETRY_AFTER, seconds),
+            (header::ALLOW, text(ALLOWED)),
+            (header::ACCEPT_ENCODING, text(ENCODINGS)),
+        ];
+        by_code
+            .into_iter()
+            .chain(given.into_iter().filter_map(|(name, value)| Some((name, value?))))
+            .collect()
+    }
+}
+
+/// Value of a problem: the methods that an address knows, as the header Allow has them.
+pub const ALLOWED: &str = "allowed";
+/// Value of a problem: the encodings that a body may have, as the header Accept-Encoding has them.
+pub const ENCODINGS: &str = "encodings";
+
+impl IntoResponse for Refusal {
     /// A reply without a body that carries the problem to `http::observe`, which writes it.
     fn into_response(self) -> Response {
-        let status = StatusCode::from_u16(self.code.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let status =
+            StatusCode::from_u16(status_of(self.0.code)).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let mut response = status.into_response();
-        for (name, value) in &self.headers {
-            response.headers_mut().append(name.clone(), value.clone());
-        }
+        response.headers_mut().extend(self.headers());
         response.extensions_mut().insert(self);
         response
     }
 }
 
-impl From<ReadError> for Problem {
-    fn from(error: ReadError) -> Self {
-        let code = match error.kind {
-            Kind::MalformedJson { .. } => Code::MalformedJson,
-            Kind::MalformedFile { .. } => Code::MalformedFile,
-            _ => Code::from_name(error.code()).unwrap_or(Code::InvalidField),
-        };
-        let first = error.problems.first();
-        let mut detail = first.map_or_else(String::new, |p| match p.pointer.as_str() {
-            "" => p.detail.clone(),
-            pointer => format!("{pointer}: {}", p.detail),
-        });
-        match error.kind {
-            Kind::MalformedJson { line, column } => {
-                detail = format!("line {line}, column {column}: {detail}")
-            }
-            Kind::MalformedFile { offset } => detail = format!("byte {offset}: {detail}"),
-            _ => {}
-        }
-        if error.problems.len() > 1 {
-            detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
-        }
-        let problem = Self::new(code, detail);
-        match error.kind {
-            Kind::MalformedJson { line, column } => {
-                problem.with(|m| (m.line, m.column) = (Some(line), Some(column)))
-            }
-            Kind::MalformedFile { offset } => {
-                let reason = error.problems.into_iter().next().map(|p| p.detail).unwrap_or_default();
-                problem.with(|m| (m.offset, m.reason) = (Some(offset), Some(reason)))
-            }
-            Kind::TooLarge { limit } => problem.limit(limit),
-            Kind::Invalid => problem.with(|m| m.errors = Some(error.problems)),
-        }
-    }
-}
-
-impl From<GenerateError> for Problem {
-    fn from(error: GenerateError) -> Self {
-        let detail = error.to_string();
-        match error {
-            GenerateError::UnknownAgent(_) => Self::field("/agents", Code::UnknownAgent, detail),
-            GenerateError::UnknownArm { .. } => Self::field("/arrivals", Code::InvalidField, detail),
-            GenerateError::StartMissing { agent, field } => {
-                let pointer = format!("/conditions/{}/start/{field}", formats::pointer_token(&agent));
-                Self::field(&pointer, Code::StartMissing, detail)
-            }
-            GenerateError::TooManyAgents { most, .. } => {
-                Self::field("/agents", Code::TooManyAgents, detail).limit(most as u64)
-            }
-            GenerateError::NonFinite { step, agent } => Self::new(Code::NonFiniteOutput, detail)
-                .with(|m| (m.step, m.agent) = (Some(step), Some(agent))),
-            GenerateError::Cancelled => Self::new(Code::Cancelled, detail),
-            GenerateError::Expert(cause) => Self::internal(cause),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Code, Problem};
+    use super::{ProblemDoc, Refusal};
+    use api::{Code, Problem};
+    use axum::response::IntoResponse;
 
     #[test]
     fn body_has_the_members_of_rfc_9457() {
-        let doc = Problem::new(Code::Busy, "full").retry_after(3).doc(Some("/v1/generate"), Some("r1"));
+        let problem = Problem::new(Code::Busy, "full").retry_after(3);
+        let doc = ProblemDoc::of(&problem, Some("/v1/generate"), Some("r1"));
         let body: serde_json::Value = serde_json::from_str(&doc.text()).unwrap();
         assert_eq!(body["type"], "/docs/problems#busy");
         assert_eq!(body["status"], 503);
@@ -266,8 +142,17 @@ mod tests {
     }
 
     #[test]
-    fn a_part_of_a_body_is_named_by_its_place() {
-        let problem = Problem::range("/time/steps", 1.0, 600.0, 0.0).under("/scene");
-        assert_eq!(problem.members.errors.unwrap()[0].pointer, "/scene/time/steps");
+    fn headers_follow_from_code_and_values() {
+        let header = |problem: Problem, name: &str| {
+            let reply = Refusal::from(problem).into_response();
+            reply.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned)
+        };
+        let busy = Problem::new(Code::Busy, "full").retry_after(3);
+        assert_eq!(header(busy, "retry-after").as_deref(), Some("3"));
+        let unauthorized = Problem::new(Code::Unauthorized, "no");
+        assert_eq!(header(unauthorized, "www-authenticate").as_deref(), Some("Bearer"));
+        let method = Problem::new(Code::MethodNotAllowed, "no").value(super::ALLOWED, "GET, HEAD");
+        assert_eq!(header(method, "allow").as_deref(), Some("GET, HEAD"));
+        assert_eq!(header(Problem::new(Code::NotFound, "no"), "retry-after"), None);
     }
 }

@@ -2,9 +2,11 @@
 
 use super::{Exit, Failure};
 use crate::base::clock;
+use api::Operations;
 use clap::{Args, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Heading of these flags in every help.
 const HEADING: &str = "Options of every command";
@@ -69,6 +71,23 @@ impl Common {
         };
         let engine = loaded.map_err(|error| Failure::new(Exit::Weights, format!("{error:#}")))?;
         Ok(experts::Engine { generator: engine.generator.with_clock(clock::monotonic), ..engine })
+    }
+
+    /// All operations over the engine.
+    ///
+    /// # Errors
+    /// Exit 7.
+    pub fn operations(&self) -> Result<Operations, Failure> {
+        Ok(Operations { clock: clock::monotonic, ..Operations::new(self.engine()?) })
+    }
+
+    /// The same, each call on so many threads.
+    ///
+    /// # Errors
+    /// Exit 7.
+    pub fn operations_on(&self, threads: usize) -> Result<Operations, Failure> {
+        let operations = self.operations()?;
+        Ok(Operations { generator: Arc::new(operations.generator.beside(threads)), ..operations })
     }
 
     /// The generator alone.

@@ -2,7 +2,7 @@
 
 use super::{Common, Exit, Failure, output};
 use crate::base::limits::Limits;
-use crate::routes::info::Info;
+use crate::routes::info;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ pub fn schema(args: CheckArgs) -> Result<(), Failure> {
 /// # Errors
 /// Exit 1 on a difference.
 pub fn domain(args: CheckArgs) -> Result<(), Failure> {
-    show(&crate::base::domain::text(), args.check.as_deref(), "domain")
+    show(&api::domain::text(), args.check.as_deref(), "domain")
 }
 
 fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> {
@@ -72,7 +72,7 @@ pub fn info(args: InfoArgs, common: &Common) -> Result<(), Failure> {
         };
     }
     let experts::Engine { generator, placer } = common.engine()?;
-    let info = serde_json::to_value(Info::new(&generator, &placer, &Limits::default())).unwrap_or_default();
+    let info = serde_json::to_value(info::of(&generator, &placer, &Limits::default())).unwrap_or_default();
     let shown = match &args.part {
         None => Some(&info),
         Some(part) => info.get(part),

@@ -1,9 +1,9 @@
 //! `dragtraffic map`: the same work as `POST /v1/map`, to a file.
 
 use super::{Common, Failure, output};
-use crate::routes::layouts::{MapBody, TemplateList};
+use api::map::{MapBody, TemplateList};
 use clap::Args;
-use formats::native;
+use formats::native::{self, AnyDoc};
 use layouts::Template;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -65,9 +65,7 @@ pub fn run(args: MapArgs, common: &Common) -> Result<(), Failure> {
     if let Some(path) = &args.output {
         output::keep(path, args.force)?;
     }
-    let body: MapBody =
-        serde_json::from_value(body(&args)?).map_err(|error| Failure::usage(format!("options: {error}")))?;
-    let (_, scene, built) = body.run().map_err(|problem| {
+    let (_, scene, built) = request(&args)?.draw().map_err(|problem| {
         let faults: Vec<String> = problem
             .members
             .errors
@@ -90,17 +88,18 @@ fn flag(pointer: &str) -> String {
     pointer.trim_start_matches("/parameters").trim_start_matches('/').replace('/', ".")
 }
 
-/// The body of `POST /v1/map` that says the same.
-fn body(args: &MapArgs) -> Result<Value, Failure> {
-    let (mut template, mut parameters) = (args.template.map(|template| json!(template)), json!({}));
+/// The request that the flags say.
+fn request(args: &MapArgs) -> Result<MapBody, Failure> {
+    let (mut template, mut parameters) = (args.template, json!({}));
     if let Some(path) = &args.parameters_file {
         let bytes = output::read(path)?;
-        let file: Value = native::from_json::<native::AnyDoc>(&bytes)
-            .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?
-            .0;
+        let AnyDoc(file) = native::from_json::<AnyDoc>(&bytes)
+            .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
         match file.get("template") {
             Some(named) => {
-                template.get_or_insert_with(|| named.clone());
+                let wrong = |error: serde_json::Error| Failure::usage(format!("options: {error}"));
+                let named = || serde_json::from_value(named.clone()).map_err(wrong);
+                template = Some(template.map_or_else(named, Ok)?);
                 parameters = file.get("parameters").cloned().unwrap_or_else(|| json!({}));
             }
             None => parameters = file,
@@ -108,19 +107,14 @@ fn body(args: &MapArgs) -> Result<Value, Failure> {
     }
     let template = template.ok_or_else(|| Failure::usage("--template is needed: the file names none"))?;
     for setting in &args.set {
-        put(&mut parameters, &template, setting)?;
+        put(&mut parameters, template, setting)?;
     }
-    let mut body = json!({ "template": template, "parameters": parameters });
-    if let Some(name) = &args.name {
-        body["name"] = json!(name);
-    }
-    Ok(body)
+    Ok(MapBody { template, parameters: Some(AnyDoc(parameters)), name: args.name.clone() })
 }
 
 /// Puts one value in its place; a list that is reached into is first taken from the template.
-fn put(parameters: &mut Value, template: &Value, setting: &Setting) -> Result<(), Failure> {
+fn put(parameters: &mut Value, template: Template, setting: &Setting) -> Result<(), Failure> {
     let unknown = || Failure::usage(format!("--set {}: there is no such parameter", setting.path.join(".")));
-    let template: Template = serde_json::from_value(template.clone()).map_err(|_| unknown())?;
     let own = template.all_parameters();
     let first = setting.path.first().ok_or_else(unknown)?;
     if setting.path.len() > 1 && parameters.get(first).is_none() {
@@ -154,7 +148,7 @@ mod tests {
             "program.green_s=20",
             r#"connections.removed=[{"from": "arm2.in1", "to": "arm1.out1"}]"#,
         ] {
-            put(&mut parameters, &json!("four-arms"), &setting(text).unwrap()).unwrap();
+            put(&mut parameters, Template::FourArms, &setting(text).unwrap()).unwrap();
         }
         assert_eq!(parameters["kerb_radius_m"], 6);
         assert_eq!(parameters["arms"].as_array().unwrap().len(), 4);
@@ -165,7 +159,7 @@ mod tests {
         );
         assert_eq!(parameters["connections"]["removed"][0]["to"], "arm1.out1");
         for bad in ["arms.9.angle_deg=1", "kerb.a.b=1", "kerb_radius_m.x=1"] {
-            assert!(put(&mut parameters, &json!("four-arms"), &setting(bad).unwrap()).is_err(), "{bad}");
+            assert!(put(&mut parameters, Template::FourArms, &setting(bad).unwrap()).is_err(), "{bad}");
         }
         assert!(setting("kerb").is_err() && setting("a..b=1").is_err());
     }

@@ -6,12 +6,13 @@ use super::progress::Progress;
 use super::tally::Tally;
 use super::values::{For, for_one, index, share, within};
 use super::{Common, Failure, parallel};
-use crate::routes::place::PlaceBody;
+use api::place::PlaceBody;
+use api::place::request::{ArrivalsDoc, DensityDoc, ParkedDoc, RegionDoc, SpeedsDoc};
 use clap::Args;
 use experts::placement::{ArmTraffic, MAX_COUNT, MAX_GAP_M, MAX_PER_HOUR, MAX_PER_LANE_KM, MAX_SPEED_MPS};
 use experts::{Cancel, Placer};
-use formats::native::{self, MAX_SAFE_INTEGER, MapForm, SceneDoc};
-use serde_json::{Map, Value, json};
+use formats::native::{self, MAX_SAFE_INTEGER, MapForm, Members, SceneDoc};
+use serde_json::Value;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -38,16 +39,16 @@ pub struct PlaceArgs {
     #[arg(long, value_name = "FILE")]
     region: Option<PathBuf>,
     /// Scene time at which they start, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = within(0.0, 59.9, "seconds"))]
+    #[arg(long, value_name = "SECONDS", default_value_t = PlaceBody::default().at_s, value_parser = within(0.0, 59.9, "seconds"))]
     at: f64,
     /// The same seed gives the same answer.
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER))]
+    #[arg(long, default_value_t = PlaceBody::default().seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER))]
     seed: u64,
     /// Road users of the scene that stay (--keep=6,7); nobody for --keep alone, all without the flag.
     #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "", value_name = "ID")]
     keep: Option<Vec<String>>,
     /// Least room along the lane between those who drive, metres.
-    #[arg(long, default_value_t = 2.0, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
+    #[arg(long, default_value_t = PlaceBody::default().min_gap_m, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
     min_gap: f64,
     /// Speeds between which motor vehicles start that move, such as 8..14, m/s; as on such roads when absent.
     #[arg(long, value_name = "FROM..TO", value_parser = speeds)]
@@ -79,8 +80,7 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     if args.keep.is_some() {
         no_ids(&sources, "--keep")?;
     }
-    let body: PlaceBody =
-        serde_json::from_value(body(&args)?).map_err(|error| Failure::usage(format!("options: {error}")))?;
+    let body = request(&args)?;
     let placer = common.engine()?.placer;
     let work = Work { args: &args, body: &body, placer: &placer };
     let reading = Reading { index: args.index.clone(), ..Reading::default() };
@@ -182,43 +182,36 @@ fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(
     output::write(work.args.output.as_deref(), text.as_bytes(), work.args.force)
 }
 
-/// The body of `POST /v1/place` that says the same.
-fn body(args: &PlaceArgs) -> Result<Value, Failure> {
-    let mut body = Map::new();
-    body.insert("at_s".into(), json!(args.at));
-    body.insert("seed".into(), json!(args.seed));
-    body.insert("min_gap_m".into(), json!(args.min_gap));
-    if let Some([min, max]) = args.speeds {
-        body.insert("speeds".into(), json!({ "min_mps": min, "max_mps": max }));
-    }
-    if !args.arrivals.is_empty() {
-        let arrivals: Vec<Value> =
-            args.arrivals.iter().map(|given| json!({ "arm": given.id, "per_hour": given.value })).collect();
-        body.insert("arrivals".into(), json!(arrivals));
-    }
-    if let Some(share) = args.parked {
-        body.insert("parked".into(), json!({ "share": share }));
-    }
-    if let Some(keep) = &args.keep {
-        body.insert("keep".into(), json!(keep.iter().filter(|id| !id.is_empty()).collect::<Vec<_>>()));
-    }
-    if let Some(count) = args.count {
-        body.insert("density".into(), json!({ "count": count }));
-    } else if let Some(density) = args.density {
-        body.insert("density".into(), json!({ "per_lane_km": density }));
-    }
-    if !args.types.is_empty() {
-        let types: Map<String, Value> =
-            args.types.iter().map(|given| (given.id.clone(), json!(given.value))).collect();
-        body.insert("types".into(), Value::Object(types));
-    }
-    if let Some(path) = &args.region {
-        let bytes = output::read(path)?;
-        let ring = serde_json::from_slice(&bytes).ok().as_ref().and_then(polygon);
-        let ring = ring.ok_or_else(|| not_a_polygon(path))?;
-        body.insert("region".into(), json!({ "polygon_m": ring }));
-    }
-    Ok(Value::Object(body))
+/// The request that the flags say.
+fn request(args: &PlaceArgs) -> Result<PlaceBody, Failure> {
+    let density = match (args.count, args.density) {
+        (None, None) => None,
+        (count, per_lane_km) => Some(DensityDoc { per_lane_km, count }),
+    };
+    let shares = args.types.iter().map(|given| (given.id.clone(), given.value)).collect();
+    let arrivals = args.arrivals.iter();
+    let named = |keep: &Vec<String>| keep.iter().filter(|id| !id.is_empty()).cloned().collect();
+    Ok(PlaceBody {
+        region: args.region.as_deref().map(region).transpose()?,
+        density,
+        types: (!args.types.is_empty()).then_some(Members(shares)),
+        keep: args.keep.as_ref().map(named),
+        at_s: args.at,
+        seed: args.seed,
+        min_gap_m: args.min_gap,
+        speeds: args.speeds.map(|[min_mps, max_mps]| SpeedsDoc { min_mps, max_mps }),
+        arrivals: arrivals
+            .map(|given| ArrivalsDoc { arm: given.id.clone(), per_hour: given.value })
+            .collect(),
+        parked: args.parked.map(|share| ParkedDoc { share: Some(share), per_100m: None }),
+        ..PlaceBody::default()
+    })
+}
+
+fn region(path: &Path) -> Result<RegionDoc, Failure> {
+    let value: Option<Value> = serde_json::from_slice(&output::read(path)?).ok();
+    let ring = value.as_ref().and_then(polygon).ok_or_else(|| not_a_polygon(path))?;
+    Ok(RegionDoc { polygon_m: Some(ring), circle: None })
 }
 
 fn not_a_polygon(path: &Path) -> Failure {

@@ -67,7 +67,7 @@ pub fn seeds(text: &str) -> Result<Range<u64>, String> {
 /// # Errors
 /// One sentence.
 pub fn index(text: &str) -> Result<Range<usize>, String> {
-    crate::routes::import::range(text).map_err(|problem| problem.detail)
+    api::import::range(text).map_err(|problem| problem.detail)
 }
 
 /// A value for one road user.

@@ -1,17 +1,12 @@
-//! What a generation tells, as JSON objects: the same in all three representations.
+//! The events of a generation as a stream carries them: numbered, with the job that they belong to.
 
-use super::compact::{FuturesDoc, FuturesForm};
-use crate::base::clock;
-use crate::base::problem::{Problem, ProblemDoc};
-use experts::{Accepted, Draft, Resolved, Warning};
-use scene::Sample;
-use scene::preference::{Card, Learned};
-use scene::score::Score;
+use crate::base::problem::ProblemDoc;
+use api::Problem;
+use api::events::{DraftBody, FinalBody};
+use experts::Accepted;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
-use serde_json::Value;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 /// What one sort of event alone carries.
 pub trait EventBody {
@@ -71,147 +66,6 @@ impl AcceptedBody {
     }
 }
 
-/// `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where
-/// it begins.
-#[derive(Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Draft")]
-pub struct DraftBody {
-    /// Planning window, from 0.
-    window: usize,
-    /// Joint scene, from 0.
-    sample: usize,
-    /// Refinement step, from 1; not in `initial`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<usize>,
-    /// Refinement steps of a window.
-    steps: usize,
-    /// Futures by road user; the chosen ones alone, or all as `stream_modes` says.
-    agents: BTreeMap<String, FuturesDoc>,
-}
-
-impl DraftBody {
-    /// Of a draft; with `all_modes`, all alternatives and not the chosen ones alone.
-    pub fn new(draft: &Draft, futures: &Sample, all_modes: bool, form: FuturesForm) -> Self {
-        let agents = futures.agents.iter();
-        let agents =
-            agents.map(|(id, futures)| (id.clone(), FuturesDoc::new(futures, all_modes, form))).collect();
-        let step = (draft.step > 0).then_some(draft.step);
-        Self { window: draft.window, sample: draft.sample, step, steps: draft.steps, agents }
-    }
-}
-
-/// Time spent, milliseconds.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
-#[schemars(rename = "Timing")]
-pub struct TimingBody {
-    /// Waiting for a worker.
-    pub queue_ms: f64,
-    /// Map and road users.
-    pub encode_ms: f64,
-    /// First guess.
-    pub initial_ms: f64,
-    /// Each denoising step.
-    pub step_ms: Vec<f64>,
-    /// Joint choice of modes.
-    pub choice_ms: f64,
-    /// Scores.
-    pub score_ms: f64,
-}
-
-/// One joint scene of the answer. Its score stands in `scores`.
-#[derive(Debug, Serialize, JsonSchema)]
-#[schemars(rename = "AnswerSample")]
-pub struct SampleBody {
-    /// Road user's id to its futures.
-    pub agents: BTreeMap<String, FuturesDoc>,
-    /// Empty here; a place for the score when it is saved.
-    pub score: Value,
-}
-
-impl SampleBody {
-    /// Of a sample.
-    pub fn new(sample: &Sample, form: FuturesForm) -> Self {
-        let agents = sample.agents.iter().map(|(id, f)| (id.clone(), FuturesDoc::new(f, true, form)));
-        Self { agents: agents.collect(), score: sample.score.clone() }
-    }
-}
-
-/// `final`: the answer.
-#[derive(Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Final")]
-pub struct FinalBody {
-    /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
-    /// of the first and end with its plan.
-    pub windows: usize,
-    /// Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
-    /// unless `kept_futures` says otherwise.
-    pub samples: Vec<SampleBody>,
-    /// Every condition field as it was used.
-    pub resolved: BTreeMap<String, Resolved>,
-    /// One report a sample, or null when none was asked for.
-    pub scores: Option<Vec<Score>>,
-    /// Unlikely things that were done anyway.
-    pub warnings: Vec<Warning>,
-    /// Of a round: what its cards are like, and what was learned.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub feedback: Option<RoundBody>,
-    /// Where the time went.
-    pub timing: TimingBody,
-    /// Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
-    /// options, seed, weights and version. Equal calls have equal codes.
-    pub code: String,
-    /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
-    /// compact form as columns).
-    pub generated: GeneratedHead,
-}
-
-/// A round of cards.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Round")]
-pub struct RoundBody {
-    /// One a future of the road user that was asked for, or one a sample, in their order: the best liked first.
-    pub cards: Vec<Card>,
-    /// What the answers agree upon, the surest first.
-    pub wishes: Vec<Learned>,
-}
-
-/// The members of `generated` that do not come from the generator.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct GeneratedHead {
-    /// Hash of the user's part that the futures answer.
-    pub input_sha256: String,
-    /// The user's part has changed since.
-    pub stale: bool,
-    /// Expert's name to the hash of its weights.
-    pub weights: BTreeMap<String, String>,
-    /// Seed that repeats the answer.
-    pub seed: u64,
-    /// The request's options as sent, without scene and conditions.
-    pub request: Value,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub licence: Option<String>,
-    /// RFC 3339 time.
-    pub created_at: String,
-    /// Index into `samples`.
-    pub chosen_sample: usize,
-}
-
-impl GeneratedHead {
-    /// Of an answer to come.
-    pub fn new(input_sha256: String, weights: BTreeMap<String, String>, seed: u64, request: Value) -> Self {
-        let created_at = String::new();
-        let (stale, licence, chosen_sample) = (false, None, 0);
-        Self { input_sha256, stale, weights, seed, request, licence, created_at, chosen_sample }
-    }
-
-    /// The same, made now.
-    #[must_use]
-    pub fn dated(self) -> Self {
-        Self { created_at: clock::now(), ..self }
-    }
-}
-
 /// `error`: the problem object.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Error")]
@@ -223,7 +77,7 @@ pub struct ErrorBody {
 impl ErrorBody {
     /// Of a problem.
     pub fn new(problem: &Problem) -> Self {
-        Self { problem: problem.doc(Some("/v1/generate"), None) }
+        Self { problem: ProblemDoc::of(problem, Some("/v1/generate"), None) }
     }
 }
 
@@ -244,9 +98,9 @@ pub struct Heartbeat {
 }
 
 /// One event of the stream. Exactly one of final, error and superseded ends it.
-pub struct Event;
+pub struct StreamEvent;
 
-impl JsonSchema for Event {
+impl JsonSchema for StreamEvent {
     fn schema_name() -> Cow<'static, str> {
         "Event".into()
     }
@@ -289,6 +143,6 @@ impl EventBody for DraftBody {
         later window begin where it begins.";
 
     fn name(&self) -> &'static str {
-        if self.step.is_some() { "step" } else { "initial" }
+        if self.is_first() { "initial" } else { "step" }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
 use super::outbox::{End, Message, Outbox};
-use crate::base::problem::Problem;
+use crate::base::problem::logged;
 use crate::work::{Ending, Handle, Stop, Ticket};
+use api::Problem;
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -42,6 +43,7 @@ impl Feed {
 
     /// Ends the job with a problem. False when it has ended already.
     pub fn fail(&self, problem: Problem) -> bool {
+        let problem = logged(problem);
         self.send(ErrorBody::new(&problem), Some(End::Stopped(Stop::Problem(problem))))
     }
 }

@@ -2,9 +2,10 @@
 
 use super::feed::Reader;
 use super::outbox::{End, Message};
-use crate::base::problem::Problem;
+use crate::base::problem::Refusal;
 use crate::http::accept::Form;
 use crate::work::{Stop, superseded};
+use api::Problem;
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
@@ -37,12 +38,12 @@ async fn last(reader: Reader) -> Response {
                 let head = [(header::CONTENT_TYPE, Form::Json.media_type())];
                 return (head, Body::from(message.json)).into_response();
             }
-            Some(End::Stopped(Stop::Superseded(by))) => return superseded(by).into_response(),
-            Some(End::Stopped(Stop::Problem(problem))) => return problem.into_response(),
+            Some(End::Stopped(Stop::Superseded(by))) => return Refusal::from(superseded(by)).into_response(),
+            Some(End::Stopped(Stop::Problem(problem))) => return Refusal::from(problem).into_response(),
             None => {}
         }
     }
-    Problem::internal("a job ended without its last event").into_response()
+    Refusal::from(Problem::internal("a job ended without its last event")).into_response()
 }
 
 /// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
@@ -51,7 +52,7 @@ async fn stream(reader: Reader, form: Form, pace: Pace) -> Response {
     let within = async |time| tokio::time::timeout(time, reader.next()).await.ok().flatten();
     let first = within(pace.heartbeat).await;
     if let Some(Message { end: Some(End::Stopped(Stop::Problem(problem))), .. }) = first {
-        return problem.into_response();
+        return Refusal::from(problem).into_response();
     }
     let waits = first.is_some() && !pace.together.is_zero();
     let second = if waits { within(pace.together).await } else { None };

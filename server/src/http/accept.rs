@@ -1,6 +1,6 @@
 //! Which representation of an answer a request likes best.
 
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use axum::http::{HeaderMap, header};
 use headers_accept::Accept;
 use mediatype::names::{APPLICATION, EVENT_STREAM, JSON, TEXT};

@@ -5,8 +5,9 @@
 
 use super::upload::Upload;
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::{ENCODINGS, Refusal};
 use crate::work::{Lane, Pool};
+use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRef, FromRequest, Request};
 use axum::http::{HeaderMap, header};
@@ -199,13 +200,13 @@ impl<S: Send + Sync, T: DeserializeOwned + Send + 'static> FromRequest<S> for Js
 where
     Reading: FromRef<S>,
 {
-    type Rejection = Problem;
+    type Rejection = Refusal;
 
-    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
+    async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
         media_type(request.headers(), JSON)?;
         let reading = Reading::from_ref(state);
         let bytes = reading.json(request).await?;
-        reading.parse(bytes).await.map(Self)
+        Ok(Self(reading.parse(bytes).await?))
     }
 }
 
@@ -365,10 +366,7 @@ fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
         (Some(b"zstd"), None) => Ok(Encoding::Zstd),
         _ => {
             let detail = "Content-Encoding may be gzip or zstd, once.";
-            let mut problem = Problem::new(Code::UnsupportedMediaType, detail);
-            let known = axum::http::HeaderValue::from_static("gzip, zstd");
-            problem.headers.push((header::ACCEPT_ENCODING, known));
-            Err(problem)
+            Err(Problem::new(Code::UnsupportedMediaType, detail).value(ENCODINGS, "gzip, zstd"))
         }
     }
 }
@@ -447,7 +445,7 @@ fn unpack(encoded: &Blocks, encoding: Encoding, bounds: Bounds, room: &Room) -> 
 mod tests {
     use super::{Blocks, Bounds, Encoding, Held, Room};
     use crate::base::limits::Limits;
-    use crate::base::problem::Problem;
+    use api::Problem;
     use std::io::Write;
     use std::time::Duration;
 

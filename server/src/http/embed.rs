@@ -1,7 +1,8 @@
 //! The editor, which travels inside the program.
 
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::{ALLOWED, Refusal};
 use crate::http::coding;
+use api::{Code, Problem};
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
@@ -18,25 +19,24 @@ struct Editor;
 pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     let path = uri.path();
     if path == "/v1" || path.starts_with("/v1/") {
-        return Problem::new(Code::NotFound, "The API has no such address.").into_response();
+        return Refusal::from(Problem::new(Code::NotFound, "The API has no such address.")).into_response();
     }
     if method != Method::GET && method != Method::HEAD {
-        let mut problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
-        problem.headers.push((header::ALLOW, HeaderValue::from_static("GET, HEAD")));
-        return problem.into_response();
+        let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
+        return Refusal::from(problem.value(ALLOWED, "GET, HEAD")).into_response();
     }
     let name = path.trim_start_matches('/');
     match Editor::get(name).filter(|_| !is_packed(name)) {
         Some(file) => asset(name, &file, &headers),
         // A missing script must not come back as a page.
         None if name.starts_with("assets/") => {
-            Problem::new(Code::NotFound, "The editor has no such file.").into_response()
+            Refusal::from(Problem::new(Code::NotFound, "The editor has no such file.")).into_response()
         }
         None => match Editor::get("index.html") {
             Some(page) => asset("index.html", &page, &headers),
             None => {
                 let detail = "This build has no editor inside; the API works.";
-                Problem::new(Code::NotFound, detail).into_response()
+                Refusal::from(Problem::new(Code::NotFound, detail)).into_response()
             }
         },
     }

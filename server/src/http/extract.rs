@@ -1,9 +1,10 @@
 //! Parts of a request: ids in the path, query parameters, preconditions.
 
 use crate::base::id::is_id;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::work::Caller;
+use api::{Code, Problem};
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::HeaderMap;
 use axum::http::header::{HeaderName, IF_MATCH, IF_NONE_MATCH};
@@ -14,12 +15,12 @@ use serde::de::DeserializeOwned;
 pub struct Id(pub String);
 
 impl<S: Send + Sync> FromRequestParts<S> for Id {
-    type Rejection = Problem;
+    type Rejection = Refusal;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
         match Path::<String>::from_request_parts(parts, state).await {
             Ok(Path(id)) if is_id(&id) => Ok(Self(id)),
-            _ => Err(Problem::new(Code::NotFound, "Ids are 1 to 64 of A-Z a-z 0-9 _ and -.")),
+            _ => Err(Problem::new(Code::NotFound, "Ids are 1 to 64 of A-Z a-z 0-9 _ and -.").into()),
         }
     }
 }
@@ -34,11 +35,11 @@ pub struct Connection {
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Connection {
-    type Rejection = Problem;
+    type Rejection = Refusal;
 
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Refusal> {
         let known = parts.extensions.get().copied();
-        known.ok_or_else(|| Problem::internal("a request without a connection"))
+        known.ok_or_else(|| Problem::internal("a request without a connection").into())
     }
 }
 
@@ -52,13 +53,13 @@ impl From<Connection> for Caller {
 pub struct Params<T>(pub T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
-    type Rejection = Problem;
+    type Rejection = Refusal;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
         let query = Query::<T>::from_request_parts(parts, state).await;
         query
             .map(|Query(params)| Self(params))
-            .map_err(|error| Problem::field("/query", Code::InvalidField, error.body_text()))
+            .map_err(|error| Problem::field("/query", Code::InvalidField, error.body_text()).into())
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::extract::Connection;
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -176,9 +176,7 @@ fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
              started with --token-file."
         }
     };
-    let mut problem = Problem::new(Code::Unauthorized, detail);
-    problem.headers.push((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer")));
-    Err(problem)
+    Err(Problem::new(Code::Unauthorized, detail))
 }
 
 /// Compares in a time that depends on the lengths alone.

@@ -3,8 +3,9 @@
 
 use super::guard::{self, Guard};
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::{ProblemDoc, Refusal, code_of, status_of};
 use crate::base::{id, metrics};
+use api::Problem;
 use axum::body::Body;
 use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
@@ -45,7 +46,7 @@ pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> 
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
-        Err(refusal) => refusal.into_response(),
+        Err(problem) => Refusal::from(problem).into_response(),
     };
     let mut response = written(response, &method, Some(&path), &id);
     dress(response.headers_mut(), &path, &id);
@@ -66,7 +67,7 @@ pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> 
 /// The refusal of a head that could not be read, so that no route, method or id of it is known.
 pub fn unread(problem: Problem, seconds: f64) -> Response {
     let id = new_id();
-    let mut response = written(problem.into_response(), &Method::GET, None, &id);
+    let mut response = written(Refusal::from(problem).into_response(), &Method::GET, None, &id);
     dress(response.headers_mut(), "/v1/", &id);
     let status = response.status();
     metrics::request(NO_ROUTE, None, status, seconds);
@@ -89,15 +90,15 @@ fn new_id() -> String {
 /// Turns a refusal into its problem document; other replies pass.
 fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str) -> Response {
     let status = response.status();
-    let problem = match response.extensions_mut().remove::<Problem>() {
-        Some(problem) => problem,
+    let problem = match response.extensions_mut().remove::<Refusal>() {
+        Some(Refusal(problem)) => problem,
         None if status.is_client_error() || status.is_server_error() => bare(status),
         None => return response,
     };
-    if problem.code.status() == 500 {
+    if status_of(problem.code) == 500 {
         tracing::error!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
     }
-    let body = problem.doc(path, Some(id)).text();
+    let body = ProblemDoc::of(&problem, path, Some(id)).text();
     let headers = response.headers_mut();
     headers.remove(header::CONTENT_LENGTH);
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
@@ -109,7 +110,7 @@ fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str
 
 /// The problem that stands for a refusal of the HTTP layers below.
 fn bare(status: StatusCode) -> Problem {
-    let code = Code::from_status(status);
+    let code = code_of(status.as_u16());
     Problem::new(code, format!("{}.", code.title()))
 }
 

@@ -1,7 +1,8 @@
 //! Long replies: compressed where they are made, and unpacked while they are sent.
 
 use super::body::{Kept, Room};
-use crate::base::problem::Problem;
+use crate::base::problem::Refusal;
+use api::Problem;
 use axum::body::{Body, Bytes};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -83,7 +84,7 @@ impl IntoResponse for PackedText {
         let Self { packed, length, kept } = self;
         let decoder = match zstd::stream::read::Decoder::with_buffer(Cursor::new(packed)) {
             Ok(decoder) => decoder,
-            Err(error) => return Problem::internal(error).into_response(),
+            Err(error) => return Refusal::from(Problem::internal(error)).into_response(),
         };
         let pieces = stream::unfold((decoder, kept), |(mut decoder, kept)| async move {
             let mut piece = Vec::with_capacity(PIECE);

@@ -2,7 +2,7 @@
 //! parts of a form are put together.
 
 use super::body::{Blocks, Bounds, Encoding, Kept, Unfolding};
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use axum::body::Bytes;
 use formats::Source;
 use futures_util::stream;

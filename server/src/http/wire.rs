@@ -4,7 +4,7 @@
 //! answer back; [`refuse`] gives the problem document in its place, as for every other refusal.
 
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use axum::http::header;
 use axum::response::Response;
 use futures_util::FutureExt;

@@ -2,7 +2,8 @@
 //! without scripts and without anything from elsewhere.
 
 use super::openapi;
-use crate::base::problem::Code;
+use crate::base::problem::status_of;
+use api::Code;
 use axum::http::header;
 use axum::response::{Html, IntoResponse};
 use serde_json::Value;
@@ -50,7 +51,7 @@ fn codes() -> String {
             html,
             "<section id=\"{name}\"><h2><code>{name}</code> <small>{status}</small></h2><p><b>{title}.</b> {when}</p></section>",
             name = code.name(),
-            status = code.status(),
+            status = status_of(*code),
             title = escape(code.title()),
             when = escape(code.when()),
         );

@@ -2,12 +2,13 @@
 
 use crate::app::App;
 use crate::base::metrics;
-use crate::base::problem::Problem;
+use crate::base::problem::Refusal;
 use crate::http::body::Json;
 use crate::http::extract::{Connection, Id, Params};
 use crate::scenes::bytes_of;
-use crate::scenes::transfer::{self, Motion};
 use crate::work::{Asked, Kind};
+use api::export::{self, MotionChoice};
+use api::{Home, import};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
@@ -29,12 +30,12 @@ pub struct ExportParams {
     sample: Option<usize>,
     /// `chosen` futures, or the `log` alone.
     #[param(default = "chosen", value_type = String, pattern = "^(chosen|log)$")]
-    mode: Motion,
+    mode: MotionChoice,
 }
 
 impl Default for ExportParams {
     fn default() -> Self {
-        Self { format: "dragtraffic".into(), sample: None, mode: Motion::Chosen }
+        Self { format: "dragtraffic".into(), sample: None, mode: MotionChoice::Chosen }
     }
 }
 
@@ -51,7 +52,7 @@ pub async fn stored(
     Id(id): Id,
     connection: Connection,
     Params(params): Params<ExportParams>,
-) -> Result<Response, Problem> {
+) -> Result<Response, Refusal> {
     let opened = app.catalog.open(&id).await?;
     export(&app, connection, opened.scene, params).await
 }
@@ -66,8 +67,8 @@ pub async fn unsaved(
     connection: Connection,
     Params(params): Params<ExportParams>,
     Json(doc): Json<SceneDoc>,
-) -> Result<Response, Problem> {
-    let scene = Arc::new(app.catalog.scene_of(doc).await?);
+) -> Result<Response, Refusal> {
+    let scene = Arc::new(app.catalog.read(doc).await?);
     export(&app, connection, scene, params).await
 }
 
@@ -76,12 +77,12 @@ async fn export(
     connection: Connection,
     scene: Arc<Scene>,
     params: ExportParams,
-) -> Result<Response, Problem> {
+) -> Result<Response, Refusal> {
     let bytes = bytes_of(&scene);
     let licence = scene.licence();
     let name = scene.name.clone();
-    let format = transfer::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
-    let write = move |_: &_| transfer::write(&scene, &params.format, params.sample, params.mode);
+    let format = import::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
+    let write = move |_: &_| export::write(&scene, &params.format, params.sample, params.mode);
     // Writers take about this long a byte.
     let cost = Duration::from_nanos(20 * bytes as u64);
     let asked = Asked { kind: Kind::Export, cost, caller: connection.into() };

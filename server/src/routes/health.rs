@@ -1,7 +1,8 @@
 //! `/healthz`, `/readyz`, `/metrics`.
 
 use crate::app::App;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::Refusal;
+use api::{Code, Problem};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;
@@ -40,7 +41,7 @@ pub async fn healthz() -> axum::Json<Health> {
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "server",
     responses((status = 200, description = "ready for work", body = ref("#/components/schemas/Health")),
         NotYet))]
-pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Problem> {
+pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusal> {
     let checks = [
         ("experts", app.warm.load(Ordering::Relaxed)),
         ("store", app.catalog.store.is_writable().await),
@@ -51,7 +52,7 @@ pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Proble
         return Ok(axum::Json(Health { status: Condition::Ready }));
     }
     let detail = format!("Not ready: {}.", failing.join(", "));
-    Err(Problem::new(Code::NotReady, detail).with(|m| m.failing = Some(failing)).retry_after(1))
+    Err(Problem::new(Code::NotReady, detail).with(|m| m.failing = Some(failing)).retry_after(1).into())
 }
 
 /// Counters in Prometheus' text form.

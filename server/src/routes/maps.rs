@@ -1,11 +1,12 @@
 //! `/v1/maps`: immutable maps by content hash.
 
 use crate::app::App;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::http::extract::if_none_match;
 use crate::scenes::store::StoredMap;
 use crate::scenes::{map_bytes, record};
+use api::{Code, Problem};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -37,7 +38,7 @@ refusals!(Unread: STORE WORK, NotFound);
 /// Lists the maps of saved scenes.
 #[utoipa::path(get, path = "/v1/maps", operation_id = "listMaps", tag = "maps",
     responses((status = 200, description = "all maps", body = ref("#/components/schemas/MapList")), Refused))]
-pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Problem> {
+pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Refusal> {
     let rows = app.catalog.store.maps().await?.into_iter();
     let maps = rows.map(|StoredMap { sha256, bytes, polylines, points }| MapItem {
         sha256,
@@ -57,7 +58,7 @@ pub async fn read(
     State(app): State<App>,
     path: Result<Path<String>, axum::extract::rejection::PathRejection>,
     headers: HeaderMap,
-) -> Result<Response, Problem> {
+) -> Result<Response, Refusal> {
     let missing = || Problem::new(Code::NotFound, "No map has this hash.");
     let Path(name) = path.map_err(|_| missing())?;
     let hash = ContentHash::from_hex(name.strip_prefix("sha256:").unwrap_or(&name)).ok_or_else(missing)?;

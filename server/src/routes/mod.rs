@@ -5,7 +5,6 @@ mod refusals;
 
 pub mod docs;
 pub mod export;
-mod feedback;
 pub mod generate;
 pub mod health;
 pub mod import;
@@ -20,8 +19,9 @@ pub mod scenes;
 pub mod score;
 
 use crate::app::App;
-use crate::base::problem::Problem;
+use crate::base::problem::Refusal;
 use crate::http::{embed, observe};
+use api::Problem;
 use axum::Router;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
@@ -32,10 +32,15 @@ use utoipa_axum::routes;
 /// Every route of the document: what is served here is what is described there.
 fn documented() -> OpenApiRouter<App> {
     OpenApiRouter::with_openapi(openapi::head())
-        .routes(routes!(scenes::list, scenes::create))
-        .routes(routes!(scenes::read, scenes::replace, scenes::rename, scenes::remove))
-        .routes(routes!(scenes::preview_of))
-        .routes(routes!(scenes::duplicate))
+        .routes(routes!(scenes::list::list, scenes::write::create))
+        .routes(routes!(
+            scenes::read::read,
+            scenes::write::replace,
+            scenes::write::rename,
+            scenes::write::remove
+        ))
+        .routes(routes!(scenes::read::preview_of))
+        .routes(routes!(scenes::copy::duplicate))
         .routes(routes!(export::stored))
         .routes(routes!(export::unsaved))
         .routes(routes!(import::import))
@@ -79,5 +84,5 @@ pub fn router(app: &App) -> Router {
 fn panicked(cause: Box<dyn Any + Send>) -> Response {
     let text = cause.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("no message");
-    Problem::internal(format!("panic: {text}")).into_response()
+    Refusal::from(Problem::internal(format!("panic: {text}"))).into_response()
 }

@@ -1,9 +1,14 @@
 //! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
 //! table of codes.
 
-use super::{generate, health, import, info, layouts, maps, place, scenes, score};
+use super::{health, import, maps, scenes};
 use crate::base::problem::ProblemDoc;
 use crate::generation::events;
+use api::GenerateRequest;
+use api::info::ProgramInfo;
+use api::map::{MapBody, MapReply, TemplateList};
+use api::place::{PlaceBody, PlaceReply};
+use api::score::ScoreRequest;
 use formats::native::{MapDoc, SceneDoc};
 use scene::score::Score;
 use schemars::SchemaGenerator;
@@ -80,13 +85,6 @@ fn exported() -> Map<String, Value> {
     written.map(|info| (info.media_type.to_owned(), content(info.media_type))).collect()
 }
 
-/// A scene, or the id of one: exactly one of the two members is given, and not as null.
-pub fn one_scene(schema: &mut schemars::Schema) {
-    let given =
-        |member: &str| json!({"required": [member], "properties": {member: {"not": {"type": "null"}}}});
-    schema.insert("oneOf".into(), json!([given("scene"), given("scene_id")]));
-}
-
 /// Pretty text with a last newline, as it is committed.
 pub fn text() -> String {
     let mut text = serde_json::to_string_pretty(&document()).unwrap_or_default();
@@ -97,17 +95,17 @@ pub fn text() -> String {
 /// What replies are made of: members that are always there are required.
 fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ProblemDoc>();
-    generator.subschema_for::<events::Event>();
+    generator.subschema_for::<events::StreamEvent>();
     generator.subschema_for::<Score>();
-    generator.subschema_for::<place::PlaceReply>();
+    generator.subschema_for::<PlaceReply>();
     generator.subschema_for::<import::ImportedBody>();
-    generator.subschema_for::<info::Info>();
+    generator.subschema_for::<ProgramInfo>();
     generator.subschema_for::<health::Health>();
-    generator.subschema_for::<scenes::SceneList>();
+    generator.subschema_for::<scenes::list::SceneList>();
     generator.subschema_for::<scenes::Saved>();
     generator.subschema_for::<maps::MapList>();
-    generator.subschema_for::<layouts::MapReply>();
-    generator.subschema_for::<layouts::TemplateList>();
+    generator.subschema_for::<MapReply>();
+    generator.subschema_for::<TemplateList>();
 }
 
 /// What requests are made of, and the documents that travel both ways: members with a default may be left
@@ -115,12 +113,12 @@ fn replies(generator: &mut SchemaGenerator) {
 fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<SceneDoc>();
     generator.subschema_for::<MapDoc>();
-    generator.subschema_for::<generate::GenerateRequest>();
-    generator.subschema_for::<score::ScoreRequest>();
-    generator.subschema_for::<place::PlaceBody>();
-    generator.subschema_for::<layouts::MapBody>();
-    generator.subschema_for::<scenes::ScenePatch>();
-    generator.subschema_for::<scenes::DuplicateRequest>();
+    generator.subschema_for::<GenerateRequest>();
+    generator.subschema_for::<ScoreRequest>();
+    generator.subschema_for::<PlaceBody>();
+    generator.subschema_for::<MapBody>();
+    generator.subschema_for::<scenes::write::ScenePatch>();
+    generator.subschema_for::<scenes::copy::DuplicateRequest>();
 }
 
 fn settings() -> SchemaSettings {

@@ -1,7 +1,8 @@
 //! What an operation can be refused with, declared beside its handler and put into the document from
 //! there. The end-to-end tests hold every refusal they meet against these lists.
 
-use crate::base::problem::Code;
+use crate::base::problem::status_of;
+use api::Code;
 use std::collections::BTreeMap;
 use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
@@ -56,7 +57,7 @@ pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Cod
 pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {
     let mut by_status: BTreeMap<u16, Vec<&'static str>> = BTreeMap::new();
     for code in [ANYWHERE].iter().chain(sets).copied().flatten() {
-        let names = by_status.entry(code.status()).or_default();
+        let names = by_status.entry(status_of(*code)).or_default();
         if !names.contains(&code.name()) {
             names.push(code.name());
         }
@@ -87,7 +88,7 @@ macro_rules! refusals {
             > {
                 $crate::routes::refusals::responses(&[
                     $($crate::routes::refusals::$set,)*
-                    &[$($crate::base::problem::Code::$code,)*],
+                    &[$(api::Code::$code,)*],
                 ])
             }
         }

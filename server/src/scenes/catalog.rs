@@ -2,14 +2,14 @@
 //! content hash.
 
 use super::library::Library;
-use super::opened::Opened;
 use super::record::{self, size};
 use super::store::{Expect, PackedScene, SceneRecord, Store, Written};
 use crate::base::cache::Cache;
 use crate::base::id;
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
 use crate::work::Pool;
+use api::home::not_found;
+use api::{Code, Home, Opened, Problem};
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::sync::Arc;
@@ -60,69 +60,6 @@ impl Catalog {
             self.maps.put(hash, map.clone(), map_bytes(map));
         }
         Ok(map)
-    }
-
-    /// A document's scene, its map looked up when given by hash and remembered when given inline.
-    ///
-    /// # Errors
-    /// `unknown-map`, or every fault of the scene.
-    pub async fn scene_of(&self, doc: SceneDoc) -> Result<Scene, Problem> {
-        let wanted = match &doc.map {
-            MapField::Ref(reference) => {
-                reference.hash.strip_prefix("sha256:").and_then(ContentHash::from_hex)
-            }
-            MapField::Inline(_) => None,
-        };
-        let known = match wanted {
-            Some(hash) => self.map(hash).await?,
-            None => None,
-        };
-        let (bytes, maps) = (doc_bytes(&doc), Arc::clone(&self.maps));
-        let read = move || {
-            let inline = matches!(doc.map, MapField::Inline(_));
-            let scene = doc.into_scene(|_| known)?;
-            if inline {
-                maps.put(scene.map.hash(), scene.map.clone(), map_bytes(&scene.map));
-            }
-            Ok(scene)
-        };
-        self.pool.document(bytes, read).await
-    }
-
-    /// Keeps a scene that came with a call in memory, for the calls that follow, and gives it a name. Who holds many
-    /// pushes out the ones that nobody asked for longest.
-    pub fn hold(&self, scene: Scene) -> (String, Opened) {
-        let name = format!("{HELD}{}", id::fresh());
-        let opened = Opened::new(scene, String::new());
-        self.open.put(name.clone(), opened.clone(), held_bytes(&opened.scene));
-        (name, opened)
-    }
-
-    /// Opens a scene by its id, or by the name under which it is held.
-    ///
-    /// # Errors
-    /// `not-found`.
-    pub async fn open(&self, id: &str) -> Result<Opened, Problem> {
-        if id.starts_with(HELD) {
-            let forgotten = || Problem::new(Code::NotFound, "No scene is held under this name any more.");
-            return self.open.get(&id.to_owned()).ok_or_else(forgotten);
-        }
-        if let Some(opened) = self.library.open(id).await? {
-            return Ok(opened);
-        }
-        let key = id.to_owned();
-        if let Some(known) = self.open.get(&key) {
-            // Another program may have written to the file: only the store knows what is current.
-            if self.store.etag(id).await?.as_deref() == Some(known.etag.as_str()) {
-                return Ok(known);
-            }
-            self.open.forget(&key);
-        }
-        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
-        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
-        let opened = Opened::new(self.scene_of(doc).await?, summary.etag);
-        self.open.put(key, opened.clone(), held_bytes(&opened.scene));
-        Ok(opened)
     }
 
     /// JSON of an open scene.
@@ -187,9 +124,61 @@ impl Catalog {
     }
 }
 
-/// Nothing has this id.
-pub fn not_found() -> Problem {
-    Problem::new(Code::NotFound, "No scene has this id.")
+/// Maps given inline are remembered; documents are read by the pool. Who holds many scenes pushes out the ones that
+/// nobody asked for longest.
+impl Home for Catalog {
+    async fn read(&self, doc: SceneDoc) -> Result<Scene, Problem> {
+        let wanted = match &doc.map {
+            MapField::Ref(reference) => {
+                reference.hash.strip_prefix("sha256:").and_then(ContentHash::from_hex)
+            }
+            MapField::Inline(_) => None,
+        };
+        let known = match wanted {
+            Some(hash) => self.map(hash).await?,
+            None => None,
+        };
+        let (bytes, maps) = (doc_bytes(&doc), Arc::clone(&self.maps));
+        let read = move || {
+            let inline = matches!(doc.map, MapField::Inline(_));
+            let scene = doc.into_scene(|_| known)?;
+            if inline {
+                maps.put(scene.map.hash(), scene.map.clone(), map_bytes(&scene.map));
+            }
+            Ok(scene)
+        };
+        self.pool.document(bytes, read).await
+    }
+
+    async fn open(&self, id: &str) -> Result<Opened, Problem> {
+        if id.starts_with(HELD) {
+            let forgotten = || Problem::new(Code::NotFound, "No scene is held under this name any more.");
+            return self.open.get(&id.to_owned()).ok_or_else(forgotten);
+        }
+        if let Some(opened) = self.library.open(id).await? {
+            return Ok(opened);
+        }
+        let key = id.to_owned();
+        if let Some(known) = self.open.get(&key) {
+            // Another program may have written to the file: only the store knows what is current.
+            if self.store.etag(id).await?.as_deref() == Some(known.etag.as_str()) {
+                return Ok(known);
+            }
+            self.open.forget(&key);
+        }
+        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
+        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
+        let opened = Opened::new(self.read(doc).await?, summary.etag);
+        self.open.put(key, opened.clone(), held_bytes(&opened.scene));
+        Ok(opened)
+    }
+
+    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene> {
+        let name = format!("{HELD}{}", id::fresh());
+        let opened = Opened::new(scene, String::new());
+        self.open.put(name.clone(), opened.clone(), held_bytes(&opened.scene));
+        Ok((name, opened))
+    }
 }
 
 fn parse_map(json: &[u8]) -> Result<Shared<LaneMap>, Problem> {

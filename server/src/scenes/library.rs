@@ -5,13 +5,13 @@
 
 use super::catalog::held_bytes;
 use super::item::{Facts, Item};
-use super::opened::Opened;
-use super::transfer;
 use crate::base::cache::Cache;
 use crate::base::clock;
 use crate::base::id;
-use crate::base::problem::{Code, Problem};
+use crate::base::netconvert::companions;
 use crate::work::Pool;
+use api::import::SceneFile;
+use api::{Code, Opened, Problem};
 use formats::native;
 use rust_embed::RustEmbed;
 use scene::{ContentHash, LaneMap, Scene, Shared};
@@ -228,7 +228,8 @@ fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
         return Err(format!("larger than {MOST_BYTES} bytes"));
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, &transfer::Beside::default());
+    let file = SceneFile::of(&bytes, None, &name, &companions(), (0, MOST_FILES));
+    let read = file.and_then(|file| file.read(&bytes));
     let read = read.map_err(|problem| problem.detail)?;
     Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
 }

@@ -3,14 +3,11 @@
 mod catalog;
 mod item;
 mod library;
-mod opened;
 mod preview;
 pub mod record;
 pub mod store;
-pub mod transfer;
 
-pub use catalog::{Catalog, bytes_of, map_bytes, not_found};
+pub use catalog::{Catalog, bytes_of, map_bytes};
 pub use item::{Counts, Facts, Item, tags_of};
 pub use library::Library;
-pub use opened::Standings;
 pub use preview::preview;

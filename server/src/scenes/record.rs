@@ -2,7 +2,7 @@
 
 use super::item::Facts;
 use super::store::{MapRecord, SceneRecord};
-use crate::base::problem::Problem;
+use api::Problem;
 use formats::native::{MapDoc, MapForm, SceneDoc};
 use scene::{LaneMap, Scene};
 use serde::de::{MapAccess, Visitor};

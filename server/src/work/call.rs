@@ -5,7 +5,7 @@ use super::kind::Kind;
 use super::sync::Mutex;
 use super::{Pool, lock};
 use crate::base::metrics;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use experts::Cancel;
 use std::sync::Arc;
 use std::time::Duration;
@@ -95,7 +95,7 @@ impl Pool {
 mod tests {
     use super::super::{Asked, Caller, Kind, Pool};
     use crate::base::limits::Limits;
-    use crate::base::problem::{Code, Problem};
+    use api::{Code, Problem};
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::{Arc, Mutex};
     use std::time::Duration;

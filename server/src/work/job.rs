@@ -4,7 +4,7 @@ use super::kind::{Kind, Lane};
 use super::lock;
 use super::sync::Mutex;
 use crate::base::metrics;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use experts::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -28,7 +28,7 @@ pub use kind::{Kind, Lane};
 use crate::base::id;
 use crate::base::limits::Limits;
 use crate::base::metrics;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use job::Job;
 use state::State;
 use std::io;

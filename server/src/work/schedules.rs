@@ -9,7 +9,7 @@ use super::kind::{Kind, Lane};
 use super::sync::{Condvar, Mutex, thread};
 use super::{Handle, Pool, lock};
 use crate::base::limits::Limits;
-use crate::base::problem::Code;
+use api::Code;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;

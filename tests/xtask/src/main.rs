@@ -249,7 +249,20 @@ fn wasm() -> anyhow::Result<Outcome> {
     if !sysroot.join("lib/rustlib").join(target).join("lib").is_dir() {
         return Ok(Outcome::Skipped(format!("no {target} here; rustup target add {target}")));
     }
-    cargo(&["check", "--locked", "--target", target, "-p", "scene", "-p", "formats", "-p", "experts"])
+    cargo(&[
+        "check",
+        "--locked",
+        "--target",
+        target,
+        "-p",
+        "scene",
+        "-p",
+        "formats",
+        "-p",
+        "experts",
+        "-p",
+        "dragtraffic-api",
+    ])
 }
 
 /// Installs the packages of a folder unless those there match its lock file.

@@ -7,7 +7,9 @@ use super::output::{self, Folder};
 use super::progress::Progress;
 use super::tally::Tally;
 use super::{Common, Exit, Failure, parallel, values};
-use crate::scenes::transfer::{self, Motion};
+use crate::base::netconvert::companions;
+use api::export::{self, MotionChoice, WrittenFile};
+use api::import::{self, Companions};
 use clap::Args;
 use formats::format::Info;
 use formats::registry::{self, FORMATS};
@@ -44,7 +46,7 @@ pub struct ConvertArgs {
     sample: Option<usize>,
     /// Which motion the output takes.
     #[arg(long, value_enum, default_value_t)]
-    mode: Motion,
+    mode: MotionChoice,
     /// Exit 5 and write nothing when the output cannot hold something.
     #[arg(long)]
     strict: bool,
@@ -62,7 +64,7 @@ fn readable(text: &str) -> Result<&'static str, String> {
 }
 
 fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static str, String> {
-    let id = transfer::known(text);
+    let id = import::known(text);
     let found = FORMATS.iter().map(|format| format.info()).find(|info| can(info) && info.id == id);
     found.map(|info| info.id).ok_or_else(|| format!("{} can be {done}", ids(can)))
 }
@@ -97,7 +99,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         let bytes = path.as_deref().map(output::read).transpose()?;
         Ok::<_, Failure>(bytes.map(|bytes| Arc::new(bytes) as Arc<dyn formats::Source>))
     };
-    let beside = transfer::Beside { net: file(&args.net)?, columns: file(&args.columns)? };
+    let beside = Companions { net: file(&args.net)?, columns: file(&args.columns)?, ..companions() };
     let reading = Reading { from: args.from.map(str::to_owned), beside, index: args.index.clone() };
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
     let mut losses = Losses::new();
@@ -182,9 +184,9 @@ fn written(
     args: &ConvertArgs,
     continued: bool,
     converted: &mut Converted,
-) -> Result<transfer::Written, Failure> {
+) -> Result<WrittenFile, Failure> {
     let label = Some(item.name.clone());
-    let written = transfer::write_part(&item.scene, args.to, args.sample, args.mode, label, continued)
+    let written = export::write_part(&item.scene, args.to, args.sample, args.mode, label, continued)
         .map_err(|problem| sample_missing(args, problem))?;
     for loss in &written.losses {
         converted.losses.entry(loss.code).or_insert_with(|| loss.detail.clone());
@@ -201,7 +203,7 @@ fn written(
     Ok(written)
 }
 
-fn sample_missing(args: &ConvertArgs, problem: crate::base::problem::Problem) -> Failure {
+fn sample_missing(args: &ConvertArgs, problem: api::Problem) -> Failure {
     match args.sample {
         Some(sample) => Failure::usage(format!("--sample {sample}: {}", problem.detail)),
         None => Failure::usage(problem.detail),

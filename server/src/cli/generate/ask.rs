@@ -4,14 +4,14 @@ use super::GenerateArgs;
 use super::who::{self, Who};
 use crate::cli::values::For;
 use crate::cli::{Failure, output};
-use crate::routes::generate::GenerateRequest;
-use formats::native::{ConditionsDoc, GoalDoc};
+use api::GenerateRequest;
+use api::generate::request::{AgentChoice, AllWord, KeptFutures, ReactChoice};
+use formats::native::{ConditionsDoc, GoalDoc, Members};
 use scene::scenarios::Casting;
 use scene::{Agent, Conditions, STEP_S, Scene};
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// The request for one scene and seed; with a casting, for its actor alone.
+/// The request for one scene and seed; with a casting, for its actor alone. `scored`: figures are wanted.
 ///
 /// # Errors
 /// Exit 2 for what the scene does not have, 3 for a file of conditions that cannot be read.
@@ -20,6 +20,7 @@ pub fn request(
     scene: &Scene,
     casting: Option<&Casting>,
     seed: u64,
+    scored: bool,
 ) -> Result<GenerateRequest, Failure> {
     let step = args.start_step();
     let agents = match casting {
@@ -28,19 +29,28 @@ pub fn request(
         None => who::ids(&args.agents, scene, step, "--agents")?,
     };
     let react = match (args.react.as_slice(), casting) {
-        ([], None) => json!(false),
-        ([], Some(_)) => json!(true),
-        (asked, _) => who::ids(asked, scene, step, "--react")?.map_or(json!(true), |ids| json!(ids)),
+        ([], None) => ReactChoice::Whether(false),
+        ([], Some(_)) => ReactChoice::Whether(true),
+        (asked, _) => {
+            who::ids(asked, scene, step, "--react")?.map_or(ReactChoice::Whether(true), ReactChoice::Ids)
+        }
     };
-    let body = json!({
-        "conditions": conditions(args, scene, casting)?,
-        "agents": agents.map_or(json!("all"), |ids| json!(ids)),
-        "react": react, "start_s": args.at, "horizon_s": args.horizon, "replan_interval_s": args.replan,
-        "seed": seed, "samples": args.samples, "modes": args.modes, "diversity": args.diversity,
-        "steps": args.steps, "score": false,
-        "kept_futures": if args.forget { "forgotten" } else { "answered" },
-    });
-    serde_json::from_value(body).map_err(|error| Failure::usage(format!("options: {error}")))
+    Ok(GenerateRequest {
+        conditions: Members(conditions(args, scene, casting)?),
+        agents: agents.map_or(AgentChoice::All(AllWord::All), AgentChoice::Ids),
+        react,
+        start_s: args.at,
+        horizon_s: args.horizon,
+        replan_interval_s: args.replan,
+        seed,
+        samples: args.samples,
+        modes: args.modes,
+        diversity: args.diversity,
+        steps: args.steps,
+        score: scored,
+        kept_futures: if args.forget { KeptFutures::Forgotten } else { KeptFutures::Answered },
+        ..GenerateRequest::default()
+    })
 }
 
 /// Conditions of those that a flag says something about; the rest keep what the scene has fixed.
@@ -48,7 +58,7 @@ fn conditions(
     args: &GenerateArgs,
     scene: &Scene,
     casting: Option<&Casting>,
-) -> Result<BTreeMap<String, Value>, Failure> {
+) -> Result<BTreeMap<String, ConditionsDoc>, Failure> {
     known(scene, "--goal", &args.goal)?;
     known(scene, "--via", &args.via)?;
     known(scene, "--start", &args.start)?;
@@ -101,8 +111,7 @@ fn conditions(
     for given in &args.agent_type {
         change(&given.id, &|doc| doc.agent_type = Some(given.value));
     }
-    let written = |(id, doc): (String, ConditionsDoc)| Some((id, serde_json::to_value(doc).ok()?));
-    Ok(docs.into_iter().filter_map(written).collect())
+    Ok(docs)
 }
 
 /// Refuses to say something about somebody who is not there.

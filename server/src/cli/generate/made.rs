@@ -2,15 +2,14 @@
 
 use super::{GenerateArgs, ask, pointers};
 use crate::base::clock;
-use crate::base::limits::Limits;
 use crate::cli::inputs::Source;
 use crate::cli::score::figures::Figures;
 use crate::cli::{Exit, Failure};
-use crate::generation::kept;
-use experts::{Generator, Resolved, Warning};
+use api::generate::{Answered, Generation};
+use api::{Operations, Problem};
+use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::scenarios::{Casting, Template};
-use scene::score::ScoreInput;
 use scene::{Generated, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
@@ -19,8 +18,8 @@ use std::time::{Duration, UNIX_EPOCH};
 pub struct Maker<'a> {
     /// Flags.
     pub args: &'a GenerateArgs,
-    /// Experts.
-    pub generator: &'a Generator,
+    /// The operations.
+    pub operations: &'a Operations,
     /// Figures are wanted.
     pub scored: bool,
 }
@@ -71,44 +70,40 @@ impl Maker<'_> {
         let casting = match template {
             None => None,
             Some(template) => {
-                let graph = self.generator.maps().graph(&scene.map);
+                let graph = self.operations.generator.maps().graph(&scene.map);
                 let casting = template.cast(&scene, &graph, args.start_step(), args.horizon, seed);
                 let Some(casting) = casting else { return Ok(Outcome::NobodyFits(template)) };
                 Some(casting)
             }
         };
-        let body = ask::request(args, &scene, casting.as_ref(), seed)?;
-        let task = body
-            .task(&scene, &Limits::default(), self.generator)
+        let request = ask::request(args, &scene, casting.as_ref(), seed, self.scored)?;
+        let plan = request
+            .plan(&scene, &self.operations.limits, &self.operations.generator)
             .map_err(|problem| pointers::refused(source, &problem))?;
-        let mut scene = (*task.request.scene).clone();
-        let failed = |error: experts::GenerateError| {
-            Failure::new(Exit::Failure, format!("{}: {error}", source.shown()))
-        };
-        let actor =
-            task.request.agents.as_ref().filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
-        let code = task.code();
-        let answer = self.generator.answer(task.request).map_err(failed)?;
-        let all_samples = answer.samples.len();
-        let mut samples = Vec::new();
-        let mut numbers = Vec::new();
-        let mut others = Vec::new();
-        for (number, mut sample) in answer.samples.into_iter().enumerate() {
-            let own: Vec<String> = sample.agents.keys().cloned().collect();
-            kept::fill(&scene, &mut sample);
-            others = sample.agents.keys().filter(|id| !own.contains(id)).cloned().collect();
-            let figures = self.scored.then(|| {
-                let drivable = self.generator.maps().drivable(&scene.map);
-                let input = ScoreInput::of_sample(&scene, Some(&sample), &drivable);
-                Figures::new(&scene::score::score(&input), actor.as_deref())
-            });
+        let failed =
+            |problem: Problem| Failure::new(Exit::Failure, format!("{}: {}", source.shown(), problem.detail));
+        let asked = plan.request.agents.as_ref();
+        let actor = asked.filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
+        let call = plan.start(&self.operations.generator, Cancel::default(), self.operations.clock);
+        let answered = call.and_then(Generation::answer).map_err(failed)?;
+        let Answered { answer, samples: all, scores, head, code, .. } = answered;
+        let mut scene = (*answered.scene).clone();
+        let all_samples = all.len();
+        let last = all.last().into_iter().zip(answer.samples.last());
+        let kept =
+            last.flat_map(|(whole, own)| whole.agents.keys().filter(|id| !own.agents.contains_key(*id)));
+        let kept = kept.cloned().collect();
+        let scores =
+            scores.map_or_else(|| vec![None; all_samples], |scores| scores.into_iter().map(Some).collect());
+        let (mut samples, mut numbers) = (Vec::new(), Vec::new());
+        for (number, (sample, score)) in all.into_iter().zip(scores).enumerate() {
+            let figures = score.map(|score| Figures::new(&score, actor.as_deref()));
             let wanted = |figures: &Figures| args.filter.as_ref().is_none_or(|filter| filter.holds(figures));
             if figures.as_ref().is_none_or(wanted) {
                 samples.push(sample);
                 numbers.push((number, figures));
             }
         }
-        let head = task.head;
         scene.generated = Some(Generated {
             input_sha256: head.input_sha256,
             stale: head.stale,
@@ -128,7 +123,7 @@ impl Maker<'_> {
             warnings: answer.warnings,
             samples: numbers,
             all_samples,
-            kept: others,
+            kept,
             code,
         })))
     }

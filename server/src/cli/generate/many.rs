@@ -67,8 +67,8 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
         .iter()
         .flat_map(|source| wishes.chunks(size).map(move |wishes| Part { source, wishes }))
         .collect();
-    let generator = common.generator()?.with_threads(1);
-    let maker = Maker { args, generator: &generator, scored: true };
+    let operations = common.operations_on(1)?;
+    let maker = Maker { args, operations: &operations, scored: true };
     let total = (sources.len() * wishes.len()) as u64;
     let progress = Progress::new("generations", total, common.quiet);
     let mut report = Report::new(&progress, total == 1);

@@ -15,10 +15,10 @@ use super::output::{self, Folder};
 use super::score::figures::Filter;
 use super::values::{For, for_one, index, one_of, seeds, within};
 use super::{Common, Exit, Failure};
-use crate::base::limits;
+use api::GenerateRequest;
+use api::limits;
 use asked::AskedGoal;
 use clap::Args;
-use experts::request::DEFAULTS;
 use formats::native::{MAX_SAFE_INTEGER, StartDoc, ViaDoc};
 use scene::AgentType;
 use scene::scenarios::Template;
@@ -94,31 +94,31 @@ pub struct GenerateArgs {
     forget: bool,
 
     /// The same seed gives the same answer.
-    #[arg(long, value_name = "N", default_value_t = DEFAULTS.seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
     seed: u64,
     /// A result for each seed: a count, or FIRST..END with the end left out.
     #[arg(long, value_name = "COUNT|FIRST..END", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
     seeds: Option<Range<u64>>,
     /// Independent joint scenes of each seed.
-    #[arg(long, value_name = "N", default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().samples, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
     samples: u64,
     /// Alternatives kept per road user.
-    #[arg(long, value_name = "N", default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().modes, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
     modes: u64,
     /// Denoising steps.
-    #[arg(long, value_name = "N", default_value_t = DEFAULTS.steps as u64, value_parser = clap::value_parser!(u64).range(0..=100), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().steps, value_parser = clap::value_parser!(u64).range(0..=limits::STEPS), help_heading = DRAWING)]
     steps: u64,
     /// Seconds to generate, 0.5 to 20. More than 9 is planned window after window.
-    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULTS.horizon_s, value_parser = within(0.5, 20.0, "seconds"), help_heading = DRAWING)]
+    #[arg(long, value_name = "SECONDS", default_value_t = GenerateRequest::default().horizon_s, value_parser = within(limits::LEAST_HORIZON_S, limits::MOST_HORIZON_S, "seconds"), help_heading = DRAWING)]
     horizon: f64,
     /// Scene time of the start, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
+    #[arg(long, value_name = "SECONDS", default_value_t = GenerateRequest::default().start_s, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
     at: f64,
     /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9 (9 when absent).
-    #[arg(long, value_name = "SECONDS", value_parser = one_of(&[3.0, 6.0, 9.0]), help_heading = DRAWING)]
+    #[arg(long, value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
     replan: Option<f64>,
     /// Scale of the noise, which makes seeds differ; 0 is the best guess.
-    #[arg(long, value_name = "SCALE", default_value_t = DEFAULTS.diversity, value_parser = within(0.0, 2.0, ""), help_heading = DRAWING)]
+    #[arg(long, value_name = "SCALE", default_value_t = GenerateRequest::default().diversity, value_parser = within(0.0, limits::DIVERSITY, ""), help_heading = DRAWING)]
     diversity: f64,
 }
 
@@ -166,8 +166,8 @@ fn one(args: &GenerateArgs, source: &super::inputs::Source, common: &Common) -> 
         }
     };
     tell_notes(source, &item.notes).iter().for_each(|line| say(line));
-    let generator = common.generator()?;
-    let maker = made::Maker { args, generator: &generator, scored: args.filter.is_some() };
+    let operations = common.operations()?;
+    let maker = made::Maker { args, operations: &operations, scored: args.filter.is_some() };
     let template = args.template.first().copied();
     let made = match maker.make(source, item.scene, template, args.seed)? {
         made::Outcome::Made(made) => *made,

@@ -1,8 +1,8 @@
 //! Faults of a request in the words of the command line: the flag and the value in place of a JSON pointer.
 
-use crate::base::problem::Problem;
 use crate::cli::inputs::Source;
 use crate::cli::{Failure, inputs};
+use api::Problem;
 
 /// Members of a request and the flags that say them.
 const FLAGS: [(&str, &str); 11] = [

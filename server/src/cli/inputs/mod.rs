@@ -5,8 +5,9 @@ mod find;
 pub use find::{no_ids, patterns};
 
 use super::{Failure, output};
-use crate::base::problem::Problem;
-use crate::scenes::transfer;
+use crate::base::netconvert::companions;
+use api::Problem;
+use api::import::{Companions, SceneFile, known as known_format};
 use clap::Args;
 use find::Known;
 use formats::registry;
@@ -38,14 +39,20 @@ pub struct Source {
 }
 
 /// How files are read.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Reading {
     /// Format; recognised when absent.
     pub from: Option<String>,
     /// What comes with each file.
-    pub beside: transfer::Beside,
+    pub beside: Companions,
     /// Scenes of each file; all when absent.
     pub index: Option<Range<usize>>,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Self { from: None, beside: companions(), index: None }
+    }
 }
 
 /// One scene of a file.
@@ -82,7 +89,7 @@ impl Source {
     /// The file's format is one that has many scenes in a file.
     fn holds_many(bytes: &[u8], reading: &Reading, name: &str) -> bool {
         let format = match &reading.from {
-            Some(id) => registry::by_id(transfer::known(id)),
+            Some(id) => registry::by_id(known_format(id)),
             None => registry::sniff(bytes, name),
         };
         format.is_none_or(|format| format.info().many)
@@ -106,7 +113,8 @@ impl Source {
         let mut known = Known::default();
         while at < wanted.end {
             let most = AT_A_TIME.min(wanted.end - at);
-            let read = transfer::read(&bytes, reading.from.as_deref(), &name, at, most, &reading.beside);
+            let read = SceneFile::of(&bytes, reading.from.as_deref(), &name, &reading.beside, (at, most))
+                .and_then(|file| file.read(&bytes));
             let read = match read {
                 Err(problem) if at == wanted.start => return Err(refused(&self.path, &problem)),
                 Err(problem) => {

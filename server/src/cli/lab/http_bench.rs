@@ -2,19 +2,19 @@
 
 use super::failed;
 use super::served::{Connection, JSON, NDJSON, Served};
-use crate::base::limits::Limits;
+use crate::base::clock;
 use crate::cli::{Common, Failure};
-use crate::generation::{Task, run};
-use crate::routes::generate::GenerateRequest;
-use crate::scenes::Standings;
-use experts::{Cancel, Event, Generator};
+use api::generate::{GenerationEvent, Plan};
+use api::limits::CallLimits;
+use api::{GenerateRequest, Standings};
+use experts::{Cancel, Generator};
 use formats::native::{MapForm, SceneDoc, write_doc};
 use lab_eval::cost::Percentiles;
 use scene::{AgentType, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Calls of each kind on each scene; two more come first and are not counted.
 const CALLS: usize = 30;
@@ -71,24 +71,24 @@ pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Fa
         ];
         for (what, accept, body) in kinds {
             let request: GenerateRequest = serde_json::from_slice(&body).map_err(failed)?;
-            let task = request.task(&open, &Limits::default(), &generator);
-            let task = task.map_err(|problem| failed(Refused(problem.detail)))?;
-            let task = Task { standings: Some(Arc::clone(&standings)), ..task };
-            let engine = Alone { generator: &generator, task };
+            let plan = request.plan(&open, &CallLimits::default(), &generator);
+            let mut plan = plan.map_err(refused)?;
+            plan.standings = Some(Arc::clone(&standings));
+            let engine = Alone { generator: &generator, plan };
             rows.push(timed(&mut kept, server.port, scene, what, (accept, &body), &engine)?);
         }
     }
     Ok(rows)
 }
 
-#[derive(Debug, thiserror::Error)]
-#[error("the request is refused: {0}")]
-struct Refused(String);
+fn refused(problem: api::Problem) -> Failure {
+    failed(std::io::Error::other(format!("the request is refused: {}", problem.detail)))
+}
 
 /// A request answered in this process, without a socket, a queue or text.
 struct Alone<'a> {
     generator: &'a Generator,
-    task: Task,
+    plan: Plan,
 }
 
 impl Alone<'_> {
@@ -97,16 +97,16 @@ impl Alone<'_> {
         let began = Instant::now();
         let ms = || began.elapsed().as_secs_f64() * 1e3;
         let (mut first, mut whole) = (f64::NAN, f64::NAN);
-        let mut call = self.generator.start(self.task.request.clone(), Cancel::default()).map_err(failed)?;
-        while let Some(event) = call.next() {
-            match event.map_err(failed)? {
-                Event::Draft(draft) if draft.step == 0 => {
-                    std::hint::black_box(call.drafted().map_err(failed)?);
+        let call = self.plan.clone().start(self.generator, Cancel::default(), clock::monotonic);
+        for event in call.map_err(refused)? {
+            match event.map_err(refused)? {
+                GenerationEvent::Draft(draft) if draft.is_first() => {
+                    std::hint::black_box(draft);
                     first = ms();
                 }
-                Event::Accepted(_) | Event::Draft(_) => {}
-                Event::Final(answer) => {
-                    std::hint::black_box(run::answered(&self.task, &answer, Duration::ZERO, self.generator));
+                GenerationEvent::Accepted(_) | GenerationEvent::Draft(_) => {}
+                GenerationEvent::Final(answered) => {
+                    std::hint::black_box(answered.body());
                     whole = ms();
                 }
             }

@@ -1,7 +1,8 @@
 //! What can go wrong with the store, and what callers are told.
 
 use super::migrations;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::Refusal;
+use api::{Code, Problem};
 use rusqlite::ErrorCode;
 
 /// Why the store refused or failed.
@@ -71,6 +72,12 @@ impl From<StoreError> for Problem {
             }
             _ => Self::internal(text),
         }
+    }
+}
+
+impl From<StoreError> for Refusal {
+    fn from(error: StoreError) -> Self {
+        Problem::from(error).into()
     }
 }
 

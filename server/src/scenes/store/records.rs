@@ -2,8 +2,8 @@
 
 use super::{Store, StoreError};
 use crate::base::limits::Limits;
-use crate::base::problem::Problem;
 use crate::base::{clock, metrics};
+use api::Problem;
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
 use std::sync::Arc;

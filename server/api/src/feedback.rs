@@ -1,4 +1,4 @@
-//! What a person said of earlier cards, as `/v1/generate` takes it.
+//! What a person said of earlier cards, as a generation takes it.
 
 use formats::native::Members;
 use formats::{FieldProblem, pointer_token};
@@ -24,13 +24,13 @@ const MOST_PLACES: usize = 41;
 pub struct FeedbackDoc {
     /// Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
     #[schemars(length(max = 200))]
-    answers: Vec<AnswerDoc>,
+    pub answers: Vec<AnswerDoc>,
     /// Wishes that were said outright.
     #[schemars(length(max = 32))]
-    wishes: Vec<Wish>,
+    pub wishes: Vec<Wish>,
     /// Traits that do not count, whatever the answers show.
     #[schemars(length(max = 32))]
-    forgotten: Vec<Trait>,
+    pub forgotten: Vec<Trait>,
 }
 
 /// A judged card.
@@ -38,15 +38,15 @@ pub struct FeedbackDoc {
 #[serde(deny_unknown_fields)]
 pub struct AnswerDoc {
     /// Of the card, as it was answered.
-    features: Features,
+    pub features: Features,
     /// What was said.
-    verdict: Verdict,
+    pub verdict: Verdict,
     /// What should be otherwise, or was liked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    why: Option<Wish>,
+    pub why: Option<Wish>,
     /// Of the card, as they were answered: nothing like it comes again.
     #[serde(default)]
-    places: Members<Vec<[f64; 2]>>,
+    pub places: Members<Vec<[f64; 2]>>,
 }
 
 impl FeedbackDoc {

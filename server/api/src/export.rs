@@ -1,0 +1,97 @@
+//! Files out of scenes.
+
+use crate::code::Code;
+use crate::english::Sentence;
+use crate::import::{known, names};
+use crate::problem::Problem;
+use formats::{ExportOptions, ExportedMotion, registry};
+use scene::Scene;
+use serde::Deserialize;
+
+/// A file on its way out.
+pub struct WrittenFile {
+    /// Content.
+    pub bytes: Vec<u8>,
+    /// Media type.
+    pub media_type: &'static str,
+    /// With the dot.
+    pub extension: String,
+    /// Codes of what the format cannot hold.
+    pub losses: Vec<formats::Loss>,
+}
+
+/// Which motion an export takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum MotionChoice {
+    /// Chosen futures where there are any, the log before and beside them.
+    #[default]
+    Chosen,
+    /// The recording.
+    Log,
+}
+
+/// Writes a scene as a file.
+///
+/// # Errors
+/// `format-unknown`, `cannot-represent`, or `out-of-range` for a sample that is not there.
+pub fn write(
+    scene: &Scene,
+    format: &str,
+    sample: Option<usize>,
+    motion: MotionChoice,
+) -> Result<WrittenFile, Problem> {
+    write_part(scene, format, sample, motion, None, false)
+}
+
+/// As [`write`], for a file of several scenes: what the scene is called there, and whether others come before it.
+///
+/// # Errors
+/// Those of [`write`].
+pub fn write_part(
+    scene: &Scene,
+    format: &str,
+    sample: Option<usize>,
+    motion: MotionChoice,
+    label: Option<String>,
+    continued: bool,
+) -> Result<WrittenFile, Problem> {
+    let found = registry::by_id(known(format)).ok_or_else(|| {
+        let shown: String = format.chars().take(40).collect();
+        let values = [("format", shown.into()), ("formats", names().join(", ").into())];
+        Problem::said(Code::FormatUnknown, Sentence::UnknownFormat, values).at("/query/format")
+    })?;
+    let mut copy = None;
+    if let Some(sample) = sample {
+        let count = scene.generated.as_ref().map_or(0, |g| g.samples.len());
+        if sample >= count.max(1) {
+            return Err(Problem::range("/query/sample", 0.0, count.max(1) as f64 - 1.0, sample as f64));
+        }
+        let mut scene = scene.clone();
+        if let Some(generated) = &mut scene.generated {
+            generated.chosen_sample = sample;
+        }
+        copy = Some(scene);
+    }
+    let motion = match motion {
+        MotionChoice::Chosen => ExportedMotion::Chosen,
+        MotionChoice::Log => ExportedMotion::Log,
+    };
+    let options = ExportOptions { motion, gzip: false, sample, label, continued };
+    let exported = found
+        .export(&[copy.as_ref().unwrap_or(scene)], &options)
+        .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
+    let info = found.info();
+    debug_assert!(
+        exported.losses.iter().all(|loss| info.loses.contains(&loss.code)),
+        "{:?}",
+        exported.losses
+    );
+    Ok(WrittenFile {
+        bytes: exported.bytes,
+        media_type: info.media_type,
+        extension: info.extensions.first().map(|e| format!(".{e}")).unwrap_or_default(),
+        losses: exported.losses,
+    })
+}

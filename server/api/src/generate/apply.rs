@@ -1,0 +1,62 @@
+//! The scene that a request is about, with its road users and conditions of this call.
+
+use super::request::{GenerateRequest, KeptFutures};
+use crate::english::Sentence;
+use crate::problem::{Problem, refuse, unknown_agent};
+use formats::native::{Context, Window};
+use formats::{FieldProblem, ReadError, pointer_token};
+use scene::{STEP_S, Scene};
+
+impl GenerateRequest {
+    /// The scene with this call's road users and conditions.
+    pub(super) fn apply(&self, mut scene: Scene) -> Result<Scene, Problem> {
+        let last_s = (scene.time.steps - 1) as f64 * STEP_S;
+        if !(self.start_s >= 0.0 && self.start_s <= last_s + 1e-6) {
+            return refuse(vec![FieldProblem::range("/start_s", 0.0, last_s, self.start_s)]).map(|()| scene);
+        }
+        let mut faults = Vec::new();
+        for (i, id) in self.remove_agents.iter().enumerate() {
+            let before = scene.agents.len();
+            scene.agents.retain(|agent| agent.id != *id);
+            if scene.agents.len() == before {
+                faults.push(unknown_agent(format!("/remove_agents/{i}"), id));
+            }
+        }
+        for (i, doc) in self.add_agents.iter().enumerate() {
+            match doc.clone().into_agent(&format!("/add_agents/{i}")) {
+                Ok(agent) => scene.agents.push(agent),
+                Err(more) => faults.extend(more),
+            }
+        }
+        if self.kept_futures == KeptFutures::Forgotten {
+            scene.generated = None;
+        }
+        let start_step = self.start_step();
+        let window = Window { start_s: start_step as f64 * STEP_S, horizon_s: self.horizon_s };
+        for (id, doc) in &self.conditions.0 {
+            let pointer = format!("/conditions/{}", pointer_token(id));
+            let Some(agent) = scene.agents.iter_mut().find(|agent| agent.id == *id) else {
+                faults.push(unknown_agent(pointer, id));
+                continue;
+            };
+            let context = Context { agent_type: agent.agent_type, start: agent.state_at(start_step), window };
+            match doc.resolve(&pointer, &context) {
+                Ok(conditions) => {
+                    for k in conditions.unknown_edges(&scene.map) {
+                        let at = format!("{pointer}/goal/may_cross/{k}");
+                        faults.push(FieldProblem::new(at, "invalid-field", Sentence::UnknownEdge.text()));
+                    }
+                    agent.conditions = conditions;
+                }
+                Err(more) => faults.extend(more),
+            }
+        }
+        refuse(faults)?;
+        if self.add_agents.is_empty() {
+            return Ok(scene);
+        }
+        let check = scene.checked();
+        check
+            .map_err(|faults| ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect()).into())
+    }
+}

@@ -1,0 +1,230 @@
+//! What a generation is asked for: the request with its defaults.
+
+use crate::compact::FuturesForm;
+use crate::feedback::FeedbackDoc;
+use crate::home::{AboutScene, SceneRef, one_scene};
+use experts::request::DEFAULTS;
+use formats::native::{AgentDoc, ConditionsDoc, Members, SceneDoc};
+use scene::STEP_S;
+use scene::score::Thresholds;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `"all"` or a list of ids.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(rename = "Who")]
+pub enum AgentChoice {
+    /// `"all"`.
+    All(AllWord),
+    /// These.
+    Ids(Vec<String>),
+}
+
+/// The word `all`.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "All")]
+pub enum AllWord {
+    /// Everyone.
+    All,
+}
+
+/// Who else answers: true for everyone near, or ids.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(rename = "Reacting")]
+pub enum ReactChoice {
+    /// Everyone, or nobody.
+    Whether(bool),
+    /// These.
+    Ids(Vec<String>),
+}
+
+/// What drafts carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StreamModes {
+    /// The chosen future of each road user.
+    #[default]
+    Chosen,
+    /// All alternatives.
+    All,
+}
+
+/// What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum KeptFutures {
+    /// They are planned around and answered beside the new ones: the samples are the whole scene's.
+    #[default]
+    Answered,
+    /// They are planned around and not answered, for a client that has them itself.
+    Omitted,
+    /// They are dropped: who has one goes back to its log before anything is planned.
+    Forgotten,
+}
+
+/// Body of a generation. Exactly one of `scene` and `scene_id` is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(transform = one_scene)]
+pub struct GenerateRequest {
+    /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+    pub scene: Option<SceneDoc>,
+    /// A scene of this server.
+    pub scene_id: Option<String>,
+    /// With `scene_id`: refuse when the scene has changed.
+    pub etag: Option<String>,
+    /// With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
+    /// reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+    pub hold: bool,
+    /// Replace the scene's own conditions of these road users, whole.
+    pub conditions: Members<ConditionsDoc>,
+    /// Road users put in for this call.
+    pub add_agents: Vec<AgentDoc>,
+    /// Road users taken out for this call.
+    pub remove_agents: Vec<String>,
+    /// Own id for the job, so that it can be cancelled.
+    pub job: Option<String>,
+    /// With `revision`: a newer revision of this client takes over.
+    pub client: Option<String>,
+    /// Rises with each request of `client`.
+    #[schemars(range(max = 9007199254740991u64))]
+    pub revision: Option<u64>,
+    /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+    pub background: bool,
+    /// Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
+    /// and give way to each other there.
+    pub agents: AgentChoice,
+    /// Who else answers to them.
+    pub react: ReactChoice,
+    /// Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
+    /// the others answer it.
+    pub pinned: Vec<String>,
+    /// Scene time of the start, seconds.
+    #[schemars(range(min = 0.0, max = 59.9))]
+    pub start_s: f64,
+    /// Seconds to generate. More than 9 is planned window after window.
+    #[schemars(range(min = 0.5, max = 20.0))]
+    pub horizon_s: f64,
+    /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
+    pub replan_interval_s: Option<f64>,
+    /// The same seed gives the same answer.
+    #[schemars(range(max = 9007199254740991u64))]
+    pub seed: u64,
+    /// Independent joint scenes.
+    #[schemars(range(min = 1, max = 32))]
+    pub samples: u64,
+    /// Alternatives kept per road user.
+    #[schemars(range(min = 1, max = 6))]
+    pub modes: u64,
+    /// Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub diversity: f64,
+    /// Denoising steps; 0 returns the first guess.
+    #[schemars(range(max = 100))]
+    pub steps: u64,
+    /// What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
+    /// the jump.
+    pub shown: Members<ShownDoc>,
+    /// Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
+    /// round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
+    /// many. `samples` does not count.
+    pub feedback: Option<FeedbackDoc>,
+    /// What drafts carry.
+    pub stream_modes: StreamModes,
+    /// Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
+    /// leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
+    /// `accepted`, which waits for it so long.
+    #[schemars(range(max = 1000))]
+    pub draft_delay_ms: u64,
+    /// `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
+    /// all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+    #[schemars(range(max = 1000))]
+    pub draft_interval_ms: u64,
+    /// How futures are written, in drafts and in `final`.
+    pub futures: FuturesForm,
+    /// What becomes of the futures that the scene has, of those who are not part of this call.
+    pub kept_futures: KeptFutures,
+    /// Put scores into `final`.
+    pub score: bool,
+    /// Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
+    /// absent have their defaults. They change no motion.
+    pub thresholds: Thresholds,
+}
+
+impl Default for GenerateRequest {
+    /// What a request has when it does not say.
+    fn default() -> Self {
+        Self {
+            scene: None,
+            scene_id: None,
+            etag: None,
+            hold: false,
+            conditions: Members::default(),
+            add_agents: Vec::new(),
+            remove_agents: Vec::new(),
+            job: None,
+            client: None,
+            revision: None,
+            background: false,
+            agents: AgentChoice::All(AllWord::All),
+            react: ReactChoice::Whether(false),
+            pinned: Vec::new(),
+            start_s: 0.0,
+            horizon_s: DEFAULTS.horizon_s,
+            replan_interval_s: None,
+            seed: DEFAULTS.seed,
+            samples: DEFAULTS.samples as u64,
+            modes: DEFAULTS.modes as u64,
+            diversity: DEFAULTS.diversity,
+            steps: DEFAULTS.steps as u64,
+            shown: Members::default(),
+            feedback: None,
+            stream_modes: StreamModes::default(),
+            draft_delay_ms: 0,
+            draft_interval_ms: 0,
+            futures: FuturesForm::default(),
+            kept_futures: KeptFutures::default(),
+            score: true,
+            thresholds: Thresholds::default(),
+        }
+    }
+}
+
+/// The future that was shown last.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShownDoc {
+    /// Its `anchor`.
+    #[serde(default)]
+    pub anchor: Option<u32>,
+    /// Box centres at every half second after the start, metres; at most 18 count.
+    pub x_m: Vec<f64>,
+    /// As many as `x_m`.
+    pub y_m: Vec<f64>,
+}
+
+impl AboutScene for GenerateRequest {
+    fn take_scene(&mut self) -> SceneRef {
+        SceneRef {
+            scene: self.scene.take(),
+            scene_id: self.scene_id.take(),
+            etag: self.etag.take(),
+            hold: self.hold,
+        }
+    }
+}
+
+impl GenerateRequest {
+    /// Scene step of the start.
+    pub fn start_step(&self) -> usize {
+        (self.start_s / STEP_S).round() as usize
+    }
+
+    /// Steps to generate.
+    pub(super) fn horizon_steps(&self) -> usize {
+        (self.horizon_s / STEP_S).round().max(1.0) as usize
+    }
+}

@@ -1,0 +1,218 @@
+//! A generation under way: drives the generator, turns its events into those of the API.
+
+use super::{Plan, fill};
+use crate::compact::FuturesForm;
+use crate::events::{DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
+use crate::problem::Problem;
+use crate::score::with_standings;
+use experts::{Accepted, Answer, Cancel, Clock, Event, GenerateError, Generator};
+use scene::preference::Round;
+use scene::score::{Score, ScoreInput};
+use scene::{Sample, Scene};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What a generation gives, one after the other.
+pub enum GenerationEvent {
+    /// What will be done.
+    Accepted(Accepted),
+    /// The first guess, or the state after a refinement step.
+    Draft(DraftBody),
+    /// The answer; nothing follows it.
+    Final(Box<Answered>),
+}
+
+/// A generation under way. Dropping it ends the work; so does its [`Cancel`], between two steps.
+pub struct Generation<'g> {
+    plan: Plan,
+    generator: &'g Generator,
+    inner: experts::Generation<'g>,
+    clock: Clock,
+    began: Duration,
+    /// When a draft was last given.
+    drafted: Option<Duration>,
+    over: bool,
+}
+
+impl Plan {
+    /// Begins. `clock` decides which drafts come too soon and measures the score; one that stands leaves out the
+    /// drafts of a call with a `draft_delay_ms`.
+    ///
+    /// # Errors
+    /// What the generator cannot do.
+    pub fn start(
+        self,
+        generator: &Generator,
+        cancel: Cancel,
+        clock: Clock,
+    ) -> Result<Generation<'_>, Problem> {
+        let inner = generator.start(self.request.clone(), cancel)?;
+        Ok(Generation { plan: self, generator, inner, clock, began: clock(), drafted: None, over: false })
+    }
+}
+
+impl Iterator for Generation<'_> {
+    type Item = Result<GenerationEvent, Problem>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.next_watched(&mut |_| {})
+    }
+}
+
+impl Generation<'_> {
+    /// The next event. `watch` sees each step of the generator, those too that give no event.
+    pub fn next_watched(
+        &mut self,
+        watch: &mut dyn FnMut(&Event),
+    ) -> Option<Result<GenerationEvent, Problem>> {
+        while !self.over {
+            let Some(event) = self.inner.next() else {
+                self.over = true;
+                let cause = "the generator ended without an answer";
+                return Some(Err(GenerateError::Expert(cause.into()).into()));
+            };
+            let given = event.map_err(Problem::from).and_then(|event| {
+                watch(&event);
+                self.given(event)
+            });
+            self.over =
+                !matches!(given, Ok(None | Some(GenerationEvent::Accepted(_) | GenerationEvent::Draft(_))));
+            if let Some(given) = given.transpose() {
+                return Some(given);
+            }
+        }
+        None
+    }
+
+    fn given(&mut self, event: Event) -> Result<Option<GenerationEvent>, Problem> {
+        match event {
+            Event::Accepted(accepted) => Ok(Some(GenerationEvent::Accepted(accepted))),
+            Event::Draft(draft) => {
+                let Plan { drafts, all_modes, draft_delay, draft_interval, form, .. } = &self.plan;
+                let now = (self.clock)();
+                let soon = match self.drafted {
+                    Some(sent) => draft.step > 0 && now.saturating_sub(sent) < *draft_interval,
+                    None => now.saturating_sub(self.began) < *draft_delay,
+                };
+                if soon || !drafts {
+                    return Ok(None);
+                }
+                let futures = self.inner.drafted()?;
+                self.drafted = Some((self.clock)());
+                Ok(Some(GenerationEvent::Draft(DraftBody::new(&draft, &futures, *all_modes, *form))))
+            }
+            Event::Final(answer) => {
+                let answered = Answered::new(&self.plan, answer, self.generator, self.clock);
+                Ok(Some(GenerationEvent::Final(Box::new(answered))))
+            }
+        }
+    }
+
+    /// The scene with this call's road users and conditions.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.plan.request.scene
+    }
+
+    /// The answer, without the events before it.
+    ///
+    /// # Errors
+    /// What the generator cannot do, and a call that was cancelled.
+    pub fn answer(mut self) -> Result<Answered, Problem> {
+        self.plan.drafts = false;
+        for event in self.by_ref() {
+            if let GenerationEvent::Final(answered) = event? {
+                return Ok(*answered);
+            }
+        }
+        Err(Problem::internal("a generation ended without its answer"))
+    }
+}
+
+/// The answer of a generation.
+pub struct Answered {
+    /// The scene with this call's road users and conditions.
+    pub scene: Arc<Scene>,
+    /// What the generator answered.
+    pub answer: Answer,
+    /// Its samples; with the futures that were kept beside the new ones, where they are to be answered.
+    pub samples: Vec<Sample>,
+    /// One a sample, where they are wanted.
+    pub scores: Option<Vec<Score>>,
+    /// The rest of `generated`; its time is the carrier's to say.
+    pub head: GeneratedHead,
+    /// Names what it follows from, in six characters.
+    pub code: String,
+    form: FuturesForm,
+    score_ms: f64,
+}
+
+impl Answered {
+    /// Of a plan.
+    pub fn new(plan: &Plan, answer: Answer, generator: &Generator, clock: Clock) -> Self {
+        let scene = Arc::clone(&plan.request.scene);
+        let (mut scores, mut score_ms) = (None, 0.0);
+        let whole = (plan.with_kept || plan.score).then(|| whole(&scene, &answer.samples));
+        if let Some(whole) = whole.as_ref().filter(|_| plan.score) {
+            let began = clock();
+            scores = Some(scored(plan, &scene, whole, &answer, generator));
+            score_ms = clock().saturating_sub(began).as_secs_f64() * 1e3;
+        }
+        let samples = whole.filter(|_| plan.with_kept).unwrap_or_else(|| answer.samples.clone());
+        let (head, code) = (plan.head.clone(), plan.code());
+        Self { scene, answer, samples, scores, head, code, form: plan.form, score_ms }
+    }
+
+    /// Its JSON form.
+    pub fn body(&self) -> FinalBody {
+        let Self { answer, samples, .. } = self;
+        let t = &answer.timings;
+        let timing = TimingBody {
+            queue_ms: 0.0,
+            encode_ms: round_ms(t.encode_ms),
+            initial_ms: round_ms(t.initial_ms),
+            step_ms: t.step_ms.iter().copied().map(round_ms).collect(),
+            choice_ms: round_ms(t.choice_ms),
+            score_ms: round_ms(self.score_ms),
+        };
+        FinalBody {
+            windows: answer.windows,
+            samples: samples.iter().map(|sample| SampleBody::new(sample, self.form)).collect(),
+            resolved: answer.resolved.clone(),
+            scores: self.scores.clone(),
+            warnings: answer.warnings.clone(),
+            feedback: answer.round.clone().map(|Round { cards, wishes, .. }| RoundBody { cards, wishes }),
+            timing,
+            code: self.code.clone(),
+            generated: self.head.clone(),
+        }
+    }
+}
+
+/// The samples with the futures that were kept beside the new ones.
+fn whole(scene: &Scene, samples: &[Sample]) -> Vec<Sample> {
+    let mut samples = samples.to_vec();
+    samples.iter_mut().for_each(|sample| fill(scene, sample));
+    samples
+}
+
+fn scored(
+    plan: &Plan,
+    scene: &Scene,
+    whole: &[Sample],
+    answer: &Answer,
+    generator: &Generator,
+) -> Vec<Score> {
+    let drivable = generator.maps().drivable(&scene.map);
+    let changed = answer.samples.iter().map(|sample| sample.agents.len());
+    let score = |(sample, changed): (&Sample, usize)| {
+        let mut input = ScoreInput::of_sample(scene, Some(sample), &drivable);
+        input.thresholds = plan.request.thresholds;
+        with_standings(&input, changed, plan.standings.as_deref())
+    };
+    whole.iter().zip(changed).map(score).collect()
+}
+
+/// To a hundredth.
+pub fn round_ms(ms: f64) -> f64 {
+    (ms * 100.0).round() / 100.0
+}

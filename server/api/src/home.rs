@@ -1,0 +1,168 @@
+//! Where scenes come from: "a scene, or the id of one", and who knows ids.
+
+use crate::code::Code;
+use crate::english::Sentence;
+use crate::opened::{Opened, Standings};
+use crate::problem::Problem;
+use formats::native::SceneDoc;
+use scene::Scene;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Waker};
+
+/// Where the scenes of a carrier are: a store, a data folder, examples, a browser's storage, a dictionary.
+///
+/// Its functions may wait, for a disk or another thread; how is the carrier's matter.
+pub trait Home: Sync {
+    /// The scene of a document; its map is looked up when the document names it by its hash.
+    ///
+    /// # Errors
+    /// `unknown-map`, or every fault of the scene.
+    fn read(&self, doc: SceneDoc) -> impl Future<Output = Result<Scene, Problem>> + Send;
+
+    /// Opens a scene by its id, or by the name under which it is held.
+    ///
+    /// # Errors
+    /// `not-found`.
+    fn open(&self, id: &str) -> impl Future<Output = Result<Opened, Problem>> + Send;
+
+    /// Keeps a scene in memory for the calls that follow, and gives it a name. `None` of a home without a memory.
+    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene>;
+}
+
+/// Scenes by id, in memory. An empty one is the home of calls that carry their scenes.
+impl Home for BTreeMap<String, Opened> {
+    async fn read(&self, doc: SceneDoc) -> Result<Scene, Problem> {
+        Ok(doc.into_scene(|_| None)?)
+    }
+
+    async fn open(&self, id: &str) -> Result<Opened, Problem> {
+        self.get(id).cloned().ok_or_else(not_found)
+    }
+
+    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene> {
+        Err(scene)
+    }
+}
+
+/// Nothing has this id.
+pub fn not_found() -> Problem {
+    Problem::new(Code::NotFound, "No scene has this id.")
+}
+
+/// What a home gives that never waits. `None` of one that does.
+pub fn at_once<T>(given: impl Future<Output = T>) -> Option<T> {
+    match pin!(given).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(value) => Some(value),
+        Poll::Pending => None,
+    }
+}
+
+/// What a request says about its scene. Exactly one of `scene` and `scene_id` is given.
+#[derive(Debug, Default)]
+pub struct SceneRef {
+    /// The scene itself.
+    pub scene: Option<SceneDoc>,
+    /// A scene of the home.
+    pub scene_id: Option<String>,
+    /// With `scene_id`: the version that is meant.
+    pub etag: Option<String>,
+    /// With `scene`: calls that follow will name it.
+    pub hold: bool,
+}
+
+/// A request that is about a scene.
+pub trait AboutScene {
+    /// Takes out what it says about it.
+    fn take_scene(&mut self) -> SceneRef;
+}
+
+/// The scene that a call is about.
+pub struct Subject {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// What it comes to as it stands; not for one that came with the call and goes with it.
+    pub standings: Option<Arc<Standings>>,
+    /// The name under which it is held from now on.
+    pub held: Option<String>,
+}
+
+impl Subject {
+    /// A scene that comes with the call and goes with it.
+    pub fn passing(scene: Scene) -> Self {
+        Self { scene: Arc::new(scene), standings: None, held: None }
+    }
+
+    fn standing(opened: Opened, held: Option<String>) -> Self {
+        Self { scene: opened.scene, standings: Some(opened.standings), held }
+    }
+}
+
+impl SceneRef {
+    /// The scene that is named.
+    ///
+    /// # Errors
+    /// `invalid-field` unless exactly one is given, `not-found`, `stale-etag`, or every fault of the
+    /// scene, its pointers below `/scene`.
+    pub async fn open<H: Home>(self, home: &H) -> Result<Subject, Problem> {
+        match (self.scene, self.scene_id) {
+            (Some(doc), None) => {
+                let scene = home.read(doc).await.map_err(|problem| problem.under("/scene"))?;
+                if !self.hold {
+                    return Ok(Subject::passing(scene));
+                }
+                Ok(match home.hold(scene) {
+                    Ok((name, opened)) => Subject::standing(opened, Some(name)),
+                    Err(scene) => Subject::passing(scene),
+                })
+            }
+            (None, Some(id)) => {
+                let opened = home.open(&id).await?;
+                if self.etag.is_some_and(|etag| etag != opened.etag) {
+                    let problem = Problem::said(Code::StaleEtag, Sentence::ChangedScene, []);
+                    return Err(problem.with(|m| m.etag = Some(opened.etag)));
+                }
+                Ok(Subject::standing(opened, None))
+            }
+            _ => Err(Problem::said(Code::InvalidField, Sentence::OneScene, []).at("/scene")),
+        }
+    }
+}
+
+/// A scene, or the id of one: exactly one of the two members is given, and not as null.
+pub(crate) fn one_scene(schema: &mut schemars::Schema) {
+    let given =
+        |member: &str| json!({"required": [member], "properties": {member: {"not": {"type": "null"}}}});
+    schema.insert("oneOf".into(), json!([given("scene"), given("scene_id")]));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SceneRef, at_once};
+    use crate::code::Code;
+    use crate::opened::Opened;
+    use scene::{LaneMap, Scene};
+    use std::collections::BTreeMap;
+
+    fn opened(wanted: SceneRef) -> Result<super::Subject, Code> {
+        let scene = Scene::bare("kept", LaneMap::default(), Vec::new());
+        let home = BTreeMap::from([("a".to_owned(), Opened::new(scene, "\"1\"".into()))]);
+        at_once(wanted.open(&home)).unwrap().map_err(|problem| problem.code)
+    }
+
+    #[test]
+    fn a_request_names_one_scene() {
+        let by_id = |id: &str, etag: Option<&str>| SceneRef {
+            scene_id: Some(id.into()),
+            etag: etag.map(str::to_owned),
+            ..SceneRef::default()
+        };
+        assert_eq!(opened(by_id("a", None)).unwrap().scene.name, "kept");
+        assert_eq!(opened(by_id("a", Some("\"1\""))).unwrap().held, None);
+        assert_eq!(opened(by_id("a", Some("\"2\""))).err(), Some(Code::StaleEtag));
+        assert_eq!(opened(by_id("b", None)).err(), Some(Code::NotFound));
+        assert_eq!(opened(SceneRef::default()).err(), Some(Code::InvalidField));
+    }
+}

@@ -1,0 +1,75 @@
+//! What a program with these operations is and can do.
+
+use crate::domain::{ConditionRanges, KindLimits};
+use crate::import;
+use crate::limits::Bound;
+use experts::placement::PlacementInfo;
+use experts::request::{DEFAULTS, Defaults};
+use experts::{Generator, Placer, WeightsInfo};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What the program was built for.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Build")]
+pub struct BuildInfo {
+    /// Target triple.
+    pub target: &'static str,
+    /// Cargo profile.
+    pub profile: &'static str,
+}
+
+/// What this server is and can do.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Info")]
+pub struct ProgramInfo {
+    /// Name of the program.
+    name: &'static str,
+    /// Version of the program.
+    version: &'static str,
+    build: BuildInfo,
+    /// What computes the networks.
+    device: &'static str,
+    /// Experts by name.
+    weights: BTreeMap<String, WeightsInfo>,
+    /// Weights of placement; null when road users are placed evenly along lanes.
+    placement: Option<PlacementInfo>,
+    /// Bounds of the server by name, and those of the scene format.
+    limits: BTreeMap<&'static str, Bound>,
+    /// What conditions may ask for.
+    condition_ranges: ConditionRanges,
+    /// What each kind of road user can do.
+    motion_limits: KindLimits,
+    /// What a generation has when the request does not say.
+    defaults: Defaults,
+    /// Formats of files.
+    formats: Vec<formats::format::Info>,
+    /// Sentences for people who run the server.
+    notices: Vec<String>,
+}
+
+impl ProgramInfo {
+    /// Of an engine; the build and the bounds are the carrier's.
+    pub fn new(
+        generator: &Generator,
+        placer: &Placer,
+        build: BuildInfo,
+        limits: BTreeMap<&'static str, Bound>,
+    ) -> Self {
+        Self {
+            name: "dragtraffic",
+            version: env!("CARGO_PKG_VERSION"),
+            build,
+            device: "cpu",
+            weights: generator.weights().clone(),
+            placement: placer.info().cloned(),
+            limits,
+            condition_ranges: ConditionRanges::current(),
+            motion_limits: KindLimits::current(),
+            defaults: DEFAULTS,
+            formats: import::table(),
+            notices: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Maps from nothing.
+
+use crate::problem::Problem;
+use formats::native::{AnyDoc, MapForm, SceneDoc};
+use formats::{FieldProblem, ReadError};
+use layouts::{ArmPlace, Built, Check, CornerPlace, Fault, Layout, TEMPLATES, Template, Way};
+use scene::{MAX_NAME_CHARS, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+/// Body of a new map.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MapBody {
+    /// What to start from.
+    pub template: Template,
+    /// In place of the template's own parameters; those that are left out stay, and a list replaces a list. Names and
+    /// ranges are those of the template in `Layout`.
+    #[serde(default)]
+    #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
+    pub parameters: Option<AnyDoc>,
+    /// Name of the scene; that of the template when left out.
+    #[serde(default)]
+    #[schemars(length(max = 200))]
+    pub name: Option<String>,
+}
+
+/// A new map.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct MapReply {
+    /// A scene with the map and nobody in it. Its `x_layout` says what it was made from.
+    pub scene: SceneDoc,
+    /// The template with all its parameters.
+    pub layout: Layout,
+    /// What was looked at. A check that failed forbids nothing.
+    pub checks: Vec<Check>,
+    /// Where the arms lie, in the order of the parameters.
+    pub arms: Vec<ArmPlace>,
+    /// Where kerbs bend between them.
+    pub corners: Vec<CornerPlace>,
+    /// Ways from lane to lane where roads meet at grade.
+    pub ways: Vec<Way>,
+}
+
+/// A template and its own parameters.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TemplateItem {
+    /// Its name for people.
+    pub title: &'static str,
+    /// The template with all its parameters.
+    #[schemars(with = "Layout")]
+    pub layout: Value,
+}
+
+/// All templates.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[allow(missing_docs, reason = "the name says it")]
+pub struct TemplateList {
+    pub templates: Vec<TemplateItem>,
+}
+
+impl TemplateList {
+    /// Those of this build.
+    pub fn new() -> Self {
+        let item = |template: &Template| {
+            let layout = json!({ "template": template.name(), "parameters": template.all_parameters() });
+            TemplateItem { title: template.title(), layout }
+        };
+        Self { templates: TEMPLATES.iter().map(item).collect() }
+    }
+}
+
+impl MapBody {
+    /// Draws the map.
+    ///
+    /// # Errors
+    /// Every fault of the parameters.
+    pub fn draw(self) -> Result<(Layout, Scene, Built), Problem> {
+        let name = self.name.unwrap_or_else(|| self.template.title().to_owned());
+        let length = name.chars().count();
+        if length > MAX_NAME_CHARS {
+            let fault = FieldProblem::range("/name", 0.0, MAX_NAME_CHARS as f64, length as f64);
+            return Err(ReadError::from(fault).into());
+        }
+        let layout = match self.parameters {
+            None => self.template.layout(),
+            Some(AnyDoc(given)) => {
+                self.template.with(&given).map_err(|fault| refused_parameters(vec![fault]))?
+            }
+        };
+        let (scene, built) = layouts::scene(&layout, &name).map_err(refused_parameters)?;
+        Ok((layout, scene, built))
+    }
+
+    /// Draws the map and says all of it.
+    ///
+    /// # Errors
+    /// Every fault of the parameters.
+    pub fn reply(self) -> Result<MapReply, Problem> {
+        let (layout, scene, Built { checks, arms, corners, ways, .. }) = self.draw()?;
+        let scene = SceneDoc::from_scene(&scene, MapForm::Inline);
+        Ok(MapReply { scene, layout, checks, arms, corners, ways })
+    }
+}
+
+fn refused_parameters(faults: Vec<Fault>) -> Problem {
+    let told = |fault: Fault| {
+        let pointer = format!("/parameters{}", fault.pointer);
+        match fault.range {
+            Some((least, most, got)) => FieldProblem::range(pointer, least, most, got),
+            None => FieldProblem::new(pointer, formats::problem::code::INVALID_FIELD, fault.reason),
+        }
+    };
+    ReadError::invalid(faults.into_iter().map(told).collect()).into()
+}

@@ -1,0 +1,210 @@
+//! From a placement's request to what the placer is asked for: every member held against its range.
+
+use super::request::{ArrivalsDoc, DensityDoc, ParkedDoc, PlaceBody, RegionDoc, SpeedsDoc};
+use crate::problem::{Problem, refuse, unknown_agent};
+use experts::placement::{
+    Amount, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
+    MAX_SPEED_MPS, Parked, PlaceRequest, Region, SpeedRange, map_bounds, ring_area_m2,
+};
+use formats::native::{MAX_SAFE_INTEGER, Members};
+use formats::problem::MAX_PROBLEMS;
+use formats::{FieldProblem, pointer_token};
+use scene::{AgentType, STEP_S, Scene, Vec2};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// How far a region may reach beyond the map's box, metres: a hand-drawn ring is seldom exact.
+const REGION_MARGIN_M: f64 = 50.0;
+/// Most corners of a region.
+const MAX_CORNERS: usize = scene::MAX_POLYLINE_POINTS;
+/// Most arms that traffic may be asked of.
+const MAX_ARMS: usize = 256;
+/// Shares must sum to one within this.
+const SHARE_TOLERANCE: f64 = 1e-6;
+
+impl PlaceBody {
+    pub(super) fn engine_request(&self, scene: &Arc<Scene>) -> Result<PlaceRequest, Problem> {
+        let mut faults = Vec::new();
+        let last_s = (scene.time.steps - 1) as f64 * STEP_S;
+        let numbers = [
+            ("/at_s", 0.0, last_s, self.at_s),
+            ("/seed", 0.0, MAX_SAFE_INTEGER as f64, self.seed as f64),
+            ("/min_gap_m", 0.0, MAX_GAP_M, self.min_gap_m),
+        ];
+        for (pointer, min, max, got) in numbers {
+            in_range(&mut faults, pointer, (min, max), got);
+        }
+        let amount = match &self.density {
+            Some(density) => amount(density, &mut faults),
+            None if self.arrivals.is_empty() && self.parked.is_none() => {
+                PlaceRequest::new(Arc::clone(scene)).amount
+            }
+            None => Amount::PerLaneKm(0.0),
+        };
+        let speeds = self.speeds.map(|doc| speeds(doc, &mut faults));
+        let arrivals = arrivals(&self.arrivals, &mut faults);
+        let parked = self.parked.as_ref().map(|doc| parked(doc, &mut faults));
+        let types = match &self.types {
+            Some(types) => shares(types, &mut faults),
+            None => PlaceRequest::new(Arc::clone(scene)).types,
+        };
+        let region = self.region.as_ref().map_or(Region::Everywhere, |doc| region(doc, scene, &mut faults));
+        for (i, id) in self.keep.iter().flatten().enumerate().filter(|(_, id)| scene.agent(id).is_none()) {
+            faults.push(unknown_agent(format!("/keep/{i}"), id));
+        }
+        faults.truncate(MAX_PROBLEMS);
+        refuse(faults)?;
+        Ok(PlaceRequest {
+            step: (self.at_s / STEP_S).round() as usize,
+            region,
+            amount,
+            types,
+            keep: self.keep.as_ref().map(|ids| ids.iter().cloned().collect::<BTreeSet<_>>()),
+            seed: self.seed,
+            min_gap_m: self.min_gap_m,
+            speeds,
+            arrivals,
+            parked,
+            ..PlaceRequest::new(Arc::clone(scene))
+        })
+    }
+}
+
+fn in_range(faults: &mut Vec<FieldProblem>, pointer: &str, (min, max): (f64, f64), got: f64) {
+    // The last step's time has a rounding of its own.
+    if !(got >= min && got <= max + 1e-9) {
+        faults.push(FieldProblem::range(pointer, min, max, got));
+    }
+}
+
+fn amount(density: &DensityDoc, faults: &mut Vec<FieldProblem>) -> Amount {
+    match (density.per_lane_km, density.count) {
+        (Some(per_km), None) => {
+            in_range(faults, "/density/per_lane_km", (0.0, MAX_PER_LANE_KM), per_km);
+            Amount::PerLaneKm(per_km)
+        }
+        (None, Some(count)) => {
+            in_range(faults, "/density/count", (1.0, MAX_COUNT as f64), count as f64);
+            Amount::Count(count as usize)
+        }
+        _ => {
+            let detail = "exactly one of per_lane_km and count is needed";
+            faults.push(FieldProblem::new("/density", "invalid-field", detail));
+            Amount::Count(0)
+        }
+    }
+}
+
+fn speeds(doc: SpeedsDoc, faults: &mut Vec<FieldProblem>) -> SpeedRange {
+    let SpeedsDoc { min_mps, max_mps } = doc;
+    in_range(faults, "/speeds/min_mps", (0.0, MAX_SPEED_MPS), min_mps);
+    in_range(faults, "/speeds/max_mps", (min_mps.clamp(0.0, MAX_SPEED_MPS), MAX_SPEED_MPS), max_mps);
+    SpeedRange { min_mps, max_mps }
+}
+
+fn arrivals(all: &[ArrivalsDoc], faults: &mut Vec<FieldProblem>) -> Vec<Arrivals> {
+    if all.len() > MAX_ARMS {
+        let detail = format!("{} arms found, at most {MAX_ARMS} expected", all.len());
+        faults.push(FieldProblem::new("/arrivals", "invalid-field", detail));
+        return Vec::new();
+    }
+    let mut seen = BTreeSet::new();
+    for (i, ArrivalsDoc { arm, per_hour }) in all.iter().enumerate() {
+        in_range(faults, &format!("/arrivals/{i}/per_hour"), (0.0, MAX_PER_HOUR), *per_hour);
+        if !seen.insert(arm) {
+            let detail = "this arm is there already; one rate for each expected";
+            faults.push(FieldProblem::new(format!("/arrivals/{i}/arm"), "invalid-field", detail));
+        }
+    }
+    all.iter().map(|doc| Arrivals { arm: doc.arm.clone(), per_hour: doc.per_hour }).collect()
+}
+
+fn parked(doc: &ParkedDoc, faults: &mut Vec<FieldProblem>) -> Parked {
+    match (doc.share, doc.per_100m) {
+        (Some(share), None) => {
+            in_range(faults, "/parked/share", (0.0, 1.0), share);
+            Parked::Share(share)
+        }
+        (None, Some(count)) => {
+            in_range(faults, "/parked/per_100m", (0.0, MAX_PARKED_PER_100M), count);
+            Parked::Per100M(count)
+        }
+        _ => {
+            let detail = "exactly one of share and per_100m is needed";
+            faults.push(FieldProblem::new("/parked", "invalid-field", detail));
+            Parked::Share(0.0)
+        }
+    }
+}
+
+fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<AgentType, f64> {
+    let mut shares = BTreeMap::new();
+    for (name, share) in &types.0 {
+        let agent_type = match name.as_str() {
+            "vehicle" => AgentType::Vehicle,
+            "pedestrian" => AgentType::Pedestrian,
+            "cyclist" => AgentType::Cyclist,
+            _ => {
+                let detail = "vehicle, pedestrian and cyclist can be placed";
+                let pointer = format!("/types/{}", pointer_token(name));
+                faults.push(FieldProblem::new(pointer, "invalid-field", detail));
+                continue;
+            }
+        };
+        in_range(faults, &format!("/types/{name}"), (0.0, 1.0), *share);
+        shares.insert(agent_type, *share);
+    }
+    let sum: f64 = types.0.values().sum();
+    if (sum - 1.0).abs() > SHARE_TOLERANCE || sum.is_nan() {
+        let detail = format!("the shares sum to {sum}; 1 expected");
+        faults.push(FieldProblem::new("/types", "out-of-range", detail));
+    }
+    shares
+}
+
+fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Region {
+    let Some((low, high)) = map_bounds(&scene.map) else {
+        faults.push(FieldProblem::new(
+            "/region",
+            "invalid-field",
+            "the map is empty: it has no place for a region",
+        ));
+        return Region::Everywhere;
+    };
+    let (low, high) = (low - Vec2::repeat(REGION_MARGIN_M), high + Vec2::repeat(REGION_MARGIN_M));
+    let before = faults.len();
+    match (&doc.polygon_m, &doc.circle) {
+        (Some(corners), None) => {
+            if !(3..=MAX_CORNERS).contains(&corners.len()) {
+                let detail = format!("{} corners found, 3 to {MAX_CORNERS} expected", corners.len());
+                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+            }
+            for (i, [x, y]) in corners.iter().enumerate().take(MAX_CORNERS) {
+                in_range(faults, &format!("/region/polygon_m/{i}/0"), (low.x, high.x), *x);
+                in_range(faults, &format!("/region/polygon_m/{i}/1"), (low.y, high.y), *y);
+            }
+            let ring: Vec<Vec2> = corners.iter().map(|[x, y]| Vec2::new(*x, *y)).collect();
+            if faults.len() == before && ring_area_m2(&ring) < 0.1 {
+                let detail = "a ring that encloses some area expected";
+                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+            }
+            Region::Polygon(ring)
+        }
+        (None, Some(circle)) => {
+            in_range(faults, "/region/circle/x_m", (low.x, high.x), circle.x_m);
+            in_range(faults, "/region/circle/y_m", (low.y, high.y), circle.y_m);
+            in_range(
+                faults,
+                "/region/circle/radius_m",
+                (0.5, 2.0 * scene::MAX_COORDINATE_M),
+                circle.radius_m,
+            );
+            Region::Circle { center: Vec2::new(circle.x_m, circle.y_m), radius_m: circle.radius_m }
+        }
+        _ => {
+            let detail = "exactly one of polygon_m and circle is needed";
+            faults.push(FieldProblem::new("/region", "invalid-field", detail));
+            Region::Everywhere
+        }
+    }
+}

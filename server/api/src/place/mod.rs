@@ -1,0 +1,35 @@
+//! Placement: road users where there are none yet.
+
+mod checks;
+mod reply;
+pub mod request;
+
+pub use reply::PlaceReply;
+pub use request::PlaceBody;
+
+use crate::code::Code;
+use crate::problem::Problem;
+use experts::placement::Placement;
+use experts::{Cancel, GenerateError, Placer};
+use request::ArrivalsDoc;
+use scene::Scene;
+use std::sync::Arc;
+
+impl PlaceBody {
+    /// Checks the options and places.
+    ///
+    /// # Errors
+    /// Every fault of the options; a cancelled call.
+    pub fn run(&self, scene: &Arc<Scene>, placer: &Placer, cancel: &Cancel) -> Result<Placement, Problem> {
+        let request = self.engine_request(scene)?;
+        placer.place(&request, cancel).map_err(|error| match error {
+            GenerateError::UnknownAgent(_) => Problem::field("/keep", Code::UnknownAgent, error.to_string()),
+            GenerateError::UnknownArm { ref arm, .. } => {
+                let named = |a: &&ArrivalsDoc| a.arm.chars().take(64).eq(arm.chars());
+                let at = self.arrivals.iter().position(|a| named(&a)).unwrap_or(0);
+                Problem::field(&format!("/arrivals/{at}/arm"), Code::InvalidField, error.to_string())
+            }
+            other => other.into(),
+        })
+    }
+}

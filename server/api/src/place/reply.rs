@@ -1,0 +1,90 @@
+//! What was placed, as JSON.
+
+use experts::placement::{ArmTraffic, Method, Placement};
+use formats::native::AgentDoc;
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// What was placed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PlaceReply {
+    /// New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
+    /// has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
+    pub agents: Vec<AgentDoc>,
+    /// Road users asked for that found no place.
+    pub unplaced: usize,
+    /// Why, in one sentence; null when all were placed.
+    pub reason: Option<String>,
+    /// `model`, or `lane-sampler` where the weights folder has no placement weights.
+    pub method: Method,
+    /// Where roads come into the map or the region, with what came of the traffic asked for.
+    pub arms: Vec<ArmDoc>,
+    /// Places at kerbs and in lots; null without `parked`.
+    pub parking_places: Option<usize>,
+}
+
+/// A lane by which an arm leads in.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ArmLaneDoc {
+    /// Id of the lane.
+    pub lane: String,
+    /// Arc length at which it comes in, metres.
+    pub s_m: f64,
+}
+
+/// Where a road comes in.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ArmDoc {
+    /// The compass point that it comes from, with a number where several do: `north-east`, `west-2`.
+    pub id: String,
+    /// Middle of its lanes there, metres.
+    pub x_m: f64,
+    /// The same, metres.
+    pub y_m: f64,
+    /// Direction in which it leads, radians.
+    pub heading_rad: f64,
+    /// From right to left.
+    pub lanes: Vec<ArmLaneDoc>,
+    /// To its line, metres: the first junction, or where the road ends or joins another.
+    pub length_m: f64,
+    /// Most vehicles an hour that its lanes take.
+    pub most_per_hour: f64,
+    /// Vehicles of its traffic that are there at the start.
+    pub placed: usize,
+    /// Those that come in later.
+    pub later: usize,
+}
+
+impl ArmDoc {
+    fn of(traffic: &ArmTraffic, scene: &Scene) -> Self {
+        let ArmTraffic { arm, length_m, most_per_hour, placed, later } = traffic;
+        // The first lanes of the graph are those of the map.
+        let lane = |i: usize| scene.map.lanes.get(i).map(|lane| lane.id.clone()).unwrap_or_default();
+        Self {
+            id: arm.id.clone(),
+            x_m: arm.position.x,
+            y_m: arm.position.y,
+            heading_rad: arm.heading_rad,
+            lanes: arm.lanes.iter().map(|l| ArmLaneDoc { lane: lane(l.lane), s_m: l.s_m }).collect(),
+            length_m: *length_m,
+            most_per_hour: *most_per_hour,
+            placed: *placed,
+            later: *later,
+        }
+    }
+}
+
+impl PlaceReply {
+    /// Of a placement in this scene.
+    pub fn of(placement: &Placement, scene: &Scene) -> Self {
+        Self {
+            agents: placement.agents.iter().map(AgentDoc::from_agent).collect(),
+            unplaced: placement.unplaced.values().sum(),
+            reason: placement.reason.clone(),
+            method: placement.method,
+            arms: placement.arms.iter().map(|arm| ArmDoc::of(arm, scene)).collect(),
+            parking_places: placement.parking_places,
+        }
+    }
+}

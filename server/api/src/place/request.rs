@@ -1,0 +1,153 @@
+//! What a placement is asked for: the request with its defaults.
+
+use crate::home::{AboutScene, SceneRef, one_scene};
+use formats::native::{Members, SceneDoc};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A circle.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CircleDoc {
+    /// Centre, metres.
+    pub x_m: f64,
+    /// Centre, metres.
+    pub y_m: f64,
+    /// Metres.
+    #[schemars(range(min = 0.5, max = 20000.0))]
+    pub radius_m: f64,
+}
+
+/// Where centres may lie: exactly one of the two.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionDoc {
+    /// Open ring of corners, metres; even-odd rule.
+    #[serde(default)]
+    pub polygon_m: Option<Vec<[f64; 2]>>,
+    /// Circle.
+    #[serde(default)]
+    pub circle: Option<CircleDoc>,
+}
+
+/// How many: exactly one of the two.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DensityDoc {
+    /// Road users for each kilometre of lane for motor vehicles in the region, junctions left out.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 200.0))]
+    pub per_lane_km: Option<f64>,
+    /// Road users in all.
+    #[serde(default)]
+    #[schemars(range(min = 1, max = 256))]
+    pub count: Option<u64>,
+}
+
+/// Between which speeds motor vehicles start that move.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedsDoc {
+    /// m/s.
+    #[schemars(range(min = 0.0, max = 40.0))]
+    pub min_mps: f64,
+    /// m/s; not less than `min_mps`.
+    #[schemars(range(min = 0.0, max = 40.0))]
+    pub max_mps: f64,
+}
+
+/// Traffic that comes in by an arm.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArrivalsDoc {
+    /// Id of one of the reply's `arms`.
+    pub arm: String,
+    /// Motor vehicles an hour, all lanes together.
+    #[schemars(range(min = 0.0, max = 20000.0))]
+    pub per_hour: f64,
+}
+
+/// Cars parked along kerbs and in lots: exactly one of the two.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParkedDoc {
+    /// Share of the places that are taken.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub share: Option<f64>,
+    /// Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub per_100m: Option<f64>,
+}
+
+/// Body of a placement. Exactly one of `scene` and `scene_id` is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(transform = one_scene)]
+pub struct PlaceBody {
+    /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+    pub scene: Option<SceneDoc>,
+    /// A scene of this server.
+    pub scene_id: Option<String>,
+    /// With `scene_id`: refuse when the scene has changed.
+    pub etag: Option<String>,
+    /// Where; null is the whole map. It may reach 50 m beyond the map's box.
+    pub region: Option<RegionDoc>,
+    /// How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`.
+    pub density: Option<DensityDoc>,
+    /// Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
+    #[schemars(with = "Option<BTreeMap<String, f64>>")]
+    pub types: Option<Members<f64>>,
+    /// Road users of the scene that stay; null keeps all. The others are taken to be gone.
+    pub keep: Option<Vec<String>>,
+    /// Scene time at which they start, seconds.
+    #[schemars(range(min = 0.0, max = 59.9))]
+    pub at_s: f64,
+    /// The same seed gives the same answer.
+    #[schemars(range(max = 9007199254740991u64))]
+    pub seed: u64,
+    /// Least room along the lane between those who drive, metres. Everybody else keeps 0.1 m.
+    #[schemars(range(min = 0.0, max = 50.0))]
+    pub min_gap_m: f64,
+    /// Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands.
+    pub speeds: Option<SpeedsDoc>,
+    /// Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone.
+    #[schemars(length(max = 256))]
+    pub arrivals: Vec<ArrivalsDoc>,
+    /// Parked cars, beside those that `density` asks for.
+    pub parked: Option<ParkedDoc>,
+}
+
+impl Default for PlaceBody {
+    /// What a placement has when the body does not say.
+    fn default() -> Self {
+        Self {
+            scene: None,
+            scene_id: None,
+            etag: None,
+            region: None,
+            density: None,
+            types: None,
+            keep: None,
+            at_s: 0.0,
+            seed: 0,
+            min_gap_m: 2.0,
+            speeds: None,
+            arrivals: Vec::new(),
+            parked: None,
+        }
+    }
+}
+
+impl AboutScene for PlaceBody {
+    fn take_scene(&mut self) -> SceneRef {
+        SceneRef {
+            scene: self.scene.take(),
+            scene_id: self.scene_id.take(),
+            etag: self.etag.take(),
+            hold: false,
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Refusals as values: a code of one table, what happened, and where.
+//!
+//! A carrier writes them in its own form: HTTP as RFC 9457, the command line as a sentence with an exit code. Programs
+//! switch on `code`, which never changes.
+
+use crate::code::Code;
+use crate::english::{Sentence, Values};
+use experts::GenerateError;
+use formats::{FieldProblem, Kind, ReadError};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+/// What a refusal says beyond its sentence; each member only where it means something.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct ProblemMembers {
+    /// All faults that were found in the body or the query.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 32))]
+    pub errors: Option<Vec<FieldProblem>>,
+    /// The bound that was met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<u64>,
+    /// ETag of the scene as it is stored now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub etag: Option<String>,
+    /// When the scene was stored, RFC 3339.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub updated_at: Option<String>,
+    /// Seconds after which to ask again, as in Retry-After.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retry_after_s: Option<u64>,
+    /// Byte of the decoded file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset: Option<u64>,
+    /// What the reader of a file found there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Line of the fault, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// Column of the fault in bytes, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<usize>,
+    /// The revision that took over.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_revision: Option<u64>,
+    /// The highest revision that the client has sent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub highest_revision: Option<u64>,
+    /// What is not ready.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failing: Option<Vec<&'static str>>,
+    /// Refinement step at which an expert failed; 0 is the first guess.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<usize>,
+    /// Road user that an expert failed for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub agent: Option<String>,
+}
+
+/// One refusal.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// What sort.
+    pub code: Code,
+    /// What happened this time, in English; never has paths, queries or stack traces.
+    pub detail: String,
+    /// Further members, such as `limit` or `errors`.
+    pub members: Box<ProblemMembers>,
+    /// What `detail` was made of, by name, for carriers and languages that say it in another way.
+    pub values: Values,
+    /// Of a defect: what the log has to say about it. Not for the caller.
+    pub cause: Option<String>,
+}
+
+impl Problem {
+    /// A refusal with one sentence.
+    pub fn new(code: Code, detail: impl Into<String>) -> Self {
+        Self { code, detail: detail.into(), members: Box::default(), values: Values::new(), cause: None }
+    }
+
+    /// A refusal with a sentence of the table and its values.
+    pub fn said<const N: usize>(code: Code, sentence: Sentence, values: [(&'static str, Value); N]) -> Self {
+        let values = Values::from(values);
+        Self { values: values.clone(), ..Self::new(code, sentence.english(&values)) }
+    }
+
+    /// One field's fault.
+    pub fn field(pointer: &str, code: Code, detail: impl Into<String>) -> Self {
+        Self::new(code, detail).at(pointer)
+    }
+
+    /// A number outside its range.
+    pub fn range(pointer: &str, min: f64, max: f64, got: f64) -> Self {
+        let error = FieldProblem::range(pointer, min, max, got);
+        let values = Values::from([("min", min.into()), ("max", max.into()), ("got", got.into())]);
+        let problem = Self { values, ..Self::new(Code::OutOfRange, error.detail.clone()) };
+        problem.with(|m| m.errors = Some(vec![error]))
+    }
+
+    /// A defect: the cause is for the log, the caller gets a plain sentence.
+    pub fn internal(cause: impl std::fmt::Display) -> Self {
+        Self { cause: Some(cause.to_string()), ..Self::said(Code::Internal, Sentence::Defect, []) }
+    }
+
+    /// Says that it is about one field.
+    #[must_use]
+    pub fn at(self, pointer: &str) -> Self {
+        let error = FieldProblem::new(pointer, self.code.name(), self.detail.clone());
+        self.with(|m| m.errors = Some(vec![error]))
+    }
+
+    /// Sets members.
+    #[must_use]
+    pub fn with(mut self, set: impl FnOnce(&mut ProblemMembers)) -> Self {
+        set(&mut self.members);
+        self
+    }
+
+    /// Adds a value.
+    #[must_use]
+    pub fn value(mut self, name: &'static str, value: impl Into<Value>) -> Self {
+        self.values.insert(name, value.into());
+        self
+    }
+
+    /// Names the bound that was met.
+    #[must_use]
+    pub fn limit(self, limit: u64) -> Self {
+        self.with(|m| m.limit = Some(limit))
+    }
+
+    /// Seconds after which to ask again.
+    #[must_use]
+    pub fn retry_after(self, seconds: u64) -> Self {
+        self.with(|m| m.retry_after_s = Some(seconds))
+    }
+
+    /// Puts a prefix before the pointers: the problem is about a part of the body.
+    #[must_use]
+    pub fn under(mut self, prefix: &str) -> Self {
+        for error in self.members.errors.iter_mut().flatten() {
+            error.pointer.insert_str(0, prefix);
+        }
+        self
+    }
+}
+
+/// Refuses what has faults.
+///
+/// # Errors
+/// All of them, at most [`formats::problem::MAX_PROBLEMS`].
+pub fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
+    if faults.is_empty() { Ok(()) } else { Err(ReadError::invalid(faults).into()) }
+}
+
+/// The fault of an id that no road user of the scene has.
+pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
+    let shown: String = id.chars().take(64).collect();
+    let detail = Sentence::UnknownAgent.english(&Values::from([("id", shown.into())]));
+    FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, detail)
+}
+
+impl From<ReadError> for Problem {
+    fn from(error: ReadError) -> Self {
+        let code = match error.kind {
+            Kind::MalformedJson { .. } => Code::MalformedJson,
+            Kind::MalformedFile { .. } => Code::MalformedFile,
+            _ => Code::from_name(error.code()).unwrap_or(Code::InvalidField),
+        };
+        let first = error.problems.first();
+        let mut detail = first.map_or_else(String::new, |p| match p.pointer.as_str() {
+            "" => p.detail.clone(),
+            pointer => format!("{pointer}: {}", p.detail),
+        });
+        match error.kind {
+            Kind::MalformedJson { line, column } => {
+                detail = format!("line {line}, column {column}: {detail}")
+            }
+            Kind::MalformedFile { offset } => detail = format!("byte {offset}: {detail}"),
+            _ => {}
+        }
+        if error.problems.len() > 1 {
+            detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
+        }
+        let problem = Self::new(code, detail);
+        match error.kind {
+            Kind::MalformedJson { line, column } => {
+                problem.with(|m| (m.line, m.column) = (Some(line), Some(column)))
+            }
+            Kind::MalformedFile { offset } => {
+                let reason = error.problems.into_iter().next().map(|p| p.detail).unwrap_or_default();
+                problem.with(|m| (m.offset, m.reason) = (Some(offset), Some(reason)))
+            }
+            Kind::TooLarge { limit } => problem.limit(limit),
+            Kind::Invalid => problem.with(|m| m.errors = Some(error.problems)),
+        }
+    }
+}
+
+impl From<GenerateError> for Problem {
+    fn from(error: GenerateError) -> Self {
+        let detail = error.to_string();
+        match error {
+            GenerateError::UnknownAgent(_) => Self::field("/agents", Code::UnknownAgent, detail),
+            GenerateError::UnknownArm { .. } => Self::field("/arrivals", Code::InvalidField, detail),
+            GenerateError::StartMissing { agent, field } => {
+                let pointer = format!("/conditions/{}/start/{field}", formats::pointer_token(&agent));
+                Self::field(&pointer, Code::StartMissing, detail)
+            }
+            GenerateError::TooManyAgents { most, .. } => {
+                Self::field("/agents", Code::TooManyAgents, detail).limit(most as u64)
+            }
+            GenerateError::NonFinite { step, agent } => Self::new(Code::NonFiniteOutput, detail)
+                .with(|m| (m.step, m.agent) = (Some(step), Some(agent))),
+            GenerateError::Cancelled => Self::new(Code::Cancelled, detail),
+            GenerateError::Expert(cause) => Self::internal(cause),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Problem;
+
+    #[test]
+    fn a_part_of_a_body_is_named_by_its_place() {
+        let problem = Problem::range("/time/steps", 1.0, 600.0, 0.0).under("/scene");
+        assert_eq!(problem.members.errors.unwrap()[0].pointer, "/scene/time/steps");
+    }
+
+    #[test]
+    fn the_cause_of_a_defect_stays_out_of_what_the_caller_reads() {
+        let problem = Problem::internal("disk 7 is gone");
+        assert!(!problem.detail.contains("disk"), "{}", problem.detail);
+        assert_eq!(problem.cause.as_deref(), Some("disk 7 is gone"));
+    }
+}

@@ -1,0 +1,253 @@
+//! The work on an upload: reads its files and makes their scenes ready.
+
+use super::reply::{
+    ImportReply, ImportedBody, ImportedFile, ImportedFiles, ImportedScene, SkippedRecord, around_scenes,
+};
+use crate::base::netconvert::companions;
+use crate::base::problem::ProblemDoc;
+use crate::base::{id, metrics};
+use crate::http::body::Room;
+use crate::http::packed::{PackedText, TextPacker};
+use crate::http::upload::{self, Upload};
+use crate::scenes::store::PackedScene;
+use crate::scenes::{Facts, record};
+use api::import::{Companions, ReadScene, SceneFile, names};
+use api::{Code, Problem};
+use experts::Cancel;
+use formats::native::{MapForm, SceneDoc};
+use formats::{FieldProblem, Source};
+use scene::licence::is_noncommercial;
+use std::sync::Arc;
+
+/// A file to be read.
+struct ImportFile {
+    file: Arc<dyn Source>,
+    /// Name that the file was given: a label, nothing is opened.
+    label: Option<String>,
+    /// What came with it.
+    beside: Companions,
+}
+
+impl ImportFile {
+    /// What was uploaded: a file, or the parts `file` of a form of this type, at most so many, each with the parts
+    /// `net` and `columns` where they are there.
+    fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
+        let Some(content_type) = form else {
+            let beside = companions();
+            return Ok(vec![Self { file: Arc::<Upload>::clone(upload), label: None, beside }]);
+        };
+        let names = [("file", most), ("net", 1), ("columns", 1)];
+        let [files, mut net, mut columns] = upload::parts(upload, content_type, names)?;
+        if files.is_empty() {
+            return Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"));
+        }
+        let source = |part| Arc::new(part) as Arc<dyn Source>;
+        let beside =
+            Companions { net: net.pop().map(source), columns: columns.pop().map(source), ..companions() };
+        let file = |mut part: upload::Part| {
+            let label = part.label.take();
+            Self { file: source(part), label, beside: beside.clone() }
+        };
+        Ok(files.into_iter().map(file).collect())
+    }
+}
+
+/// Files that were read.
+pub(super) enum Ready {
+    /// Scenes to be stored, in the order of the reply.
+    Store(ImportedBody, Vec<(String, PackedScene)>),
+    /// The reply of a dry run.
+    Tried(PackedText),
+}
+
+/// What the worker is to do with an upload.
+pub(super) struct Order {
+    pub(super) upload: Arc<Upload>,
+    /// Content-Type of a form.
+    pub(super) form: Option<String>,
+    pub(super) format: Option<String>,
+    pub(super) name: Option<String>,
+    /// Scenes to pass over, and how many to take.
+    pub(super) window: (usize, usize),
+    pub(super) most: usize,
+    pub(super) most_files: usize,
+    pub(super) dry_run: bool,
+    pub(super) refuse_nc: bool,
+}
+
+impl Order {
+    /// Reads the files and makes their scenes ready: nothing is stored unless all of them can be. Also the formats
+    /// of the files that were read.
+    pub(super) fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
+        let ready = self.read(room, cancel);
+        // A body that is broken is told before what was made of it.
+        self.upload.check()?;
+        ready
+    }
+
+    fn read(&self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
+        let files = ImportFile::all(&self.upload, self.form.as_deref(), self.most_files)?;
+        let mut taken = ImportProgress::new(self)?;
+        let body = taken.files(&files, cancel)?;
+        let ready = match self.dry_run {
+            true => Ready::Tried(taken.text.finish(room)?),
+            false => Ready::Store(body, taken.rows),
+        };
+        Ok((ready, taken.formats))
+    }
+}
+
+/// What there is of an upload so far. Of each scene only what is stored or replied is kept, in compressed form.
+struct ImportProgress<'o> {
+    order: &'o Order,
+    /// Scenes of all files.
+    count: usize,
+    /// Formats of the files that were read.
+    formats: Vec<&'static str>,
+    rows: Vec<(String, PackedScene)>,
+    /// The reply of a dry run.
+    text: TextPacker,
+    /// Scenes of the file at hand stand at the end of the text.
+    open: bool,
+}
+
+impl<'o> ImportProgress<'o> {
+    fn new(order: &'o Order) -> Result<Self, Problem> {
+        let (formats, rows, text) = (Vec::new(), Vec::new(), TextPacker::new()?);
+        Ok(Self { order, count: 0, formats, rows, text, open: false })
+    }
+
+    fn files(&mut self, files: &[ImportFile], cancel: &Cancel) -> Result<ImportedBody, Problem> {
+        if let [file] = files {
+            return Ok(ImportedBody::One(self.file(file, None, cancel)?));
+        }
+        let (mut told, mut faults) = (Vec::new(), Vec::new());
+        for (at, file) in files.iter().enumerate() {
+            self.text.push(if at == 0 { b"{\"files\":[" } else { b"," })?;
+            let (name, kept) = (file.label.clone(), self.rows.len());
+            told.push(match self.file(file, name.as_deref(), cancel) {
+                Ok(read) => ImportedFile { name, read: Some(read), problem: None },
+                Err(problem) if self.ends(&problem) => return Err(problem),
+                Err(problem) => {
+                    self.rows.truncate(kept);
+                    let error =
+                        FieldProblem::new(format!("/file/{at}"), problem.code.name(), &problem.detail);
+                    faults.push((problem.code, error));
+                    self.fault(name, &problem)?
+                }
+            });
+        }
+        self.text.push(b"]}")?;
+        match faults.first().filter(|_| faults.len() == files.len()) {
+            None => Ok(ImportedBody::Several(ImportedFiles { files: told })),
+            Some((code, _)) => {
+                let detail = format!("Not one of the {} files can be read.", files.len());
+                let errors = faults.iter().map(|(_, error)| error.clone()).collect();
+                Err(Problem::new(*code, detail).with(|m| m.errors = Some(errors)))
+            }
+        }
+    }
+
+    /// It is the call that cannot be answered, not one of its files that cannot be read.
+    fn ends(&self, problem: &Problem) -> bool {
+        self.count > self.order.most || matches!(problem.code, Code::Cancelled | Code::Internal)
+    }
+
+    /// One of several files that cannot be read.
+    fn fault(&mut self, name: Option<String>, problem: &Problem) -> Result<ImportedFile, Problem> {
+        metrics::transfer(false, known(self.order.format.as_deref().unwrap_or("auto")), "error");
+        let told = ImportedFile { name, read: None, problem: Some(ProblemDoc::of(problem, None, None)) };
+        if std::mem::take(&mut self.open) {
+            self.text.push(b"],\"skipped\":[],\"problem\":")?;
+            self.text.push_json(&told.problem)?;
+            self.text.push(b"}")?;
+        } else {
+            self.text.push_json(&told)?;
+        }
+        Ok(told)
+    }
+
+    /// Takes the scenes of a file. `name`: what it is called among several.
+    fn file(
+        &mut self,
+        file: &ImportFile,
+        name: Option<&str>,
+        cancel: &Cancel,
+    ) -> Result<ImportReply, Problem> {
+        let order = self.order;
+        let labels = [order.name.as_deref(), file.label.as_deref()];
+        let label = name.or_else(|| labels.into_iter().flatten().next()).unwrap_or_default();
+        let wanted = SceneFile::of(&file.file, order.format.as_deref(), label, &file.beside, order.window)?;
+        let mut read = ImportReply { format: wanted.format, scenes: Vec::new(), skipped: Vec::new() };
+        let mut refused = None;
+        let skipped = wanted.each(&file.file, |imported| {
+            if cancel.is_cancelled() {
+                return Err(Problem::new(Code::Cancelled, "The job was cancelled."));
+            }
+            self.count += 1;
+            if self.count > order.most {
+                let most = order.most;
+                let detail = format!(
+                    "The file has more than {most} scenes; take some with index, or use the command line."
+                );
+                return Err(Problem::field("/query/index", Code::OutOfRange, detail).limit(most as u64));
+            }
+            if order.refuse_nc && imported.scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
+                let detail = "The source is for non-commercial use only.";
+                refused.get_or_insert_with(|| Problem::new(Code::LicenceRefused, detail));
+            }
+            if refused.is_some() { Ok(()) } else { self.take(imported, name, &mut read) }
+        })?;
+        if let Some(refused) = refused {
+            return Err(refused);
+        }
+        let skipped = skipped.iter();
+        read.skipped = skipped
+            .map(|(index, problem)| SkippedRecord {
+                index: *index,
+                problem: ProblemDoc::of(problem, None, None),
+            })
+            .collect();
+        if order.dry_run {
+            let (lead, rest) = around_scenes(name, &read)?;
+            if !std::mem::take(&mut self.open) {
+                self.text.push(lead.as_bytes())?;
+            }
+            self.text.push(rest.as_bytes())?;
+        }
+        self.formats.push(read.format);
+        Ok(read)
+    }
+
+    fn take(
+        &mut self,
+        imported: ReadScene,
+        name: Option<&str>,
+        read: &mut ImportReply,
+    ) -> Result<(), Problem> {
+        let ReadScene { scene, warnings } = imported;
+        let facts = Facts::of(&scene);
+        let (counts, steps, called) = (facts.counts, facts.steps, scene.name.clone());
+        let mut told =
+            ImportedScene { id: None, etag: None, name: called, warnings, counts, steps, scene: None };
+        if self.order.dry_run {
+            told.scene = Some(SceneDoc::from_scene(&scene, MapForm::Inline));
+            drop(scene);
+            match std::mem::replace(&mut self.open, true) {
+                false => self.text.push(around_scenes(name, read)?.0.as_bytes())?,
+                true => self.text.push(b",")?,
+            }
+            return self.text.push_json(&told);
+        }
+        let id = id::fresh();
+        let row = record::of_scene(scene, &id)?.packed()?;
+        self.rows.push((id, row));
+        read.scenes.push(told);
+        Ok(())
+    }
+}
+
+/// A name of the table, for labels.
+pub(super) fn known(format: &str) -> &'static str {
+    names().into_iter().find(|name| *name == format).unwrap_or("auto")
+}

@@ -1,0 +1,112 @@
+//! What files gave, as JSON.
+
+use crate::base::problem::ProblemDoc;
+use crate::scenes::Counts;
+use api::Problem;
+use formats::native::SceneDoc;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// One scene of a file.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(transform = formats::never_null)]
+pub struct ImportedScene {
+    /// Id it was stored under; not in a dry run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) id: Option<String>,
+    /// As in the ETag header; not in a dry run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) etag: Option<String>,
+    /// For people.
+    pub(super) name: String,
+    /// What the reader changed or left out.
+    pub(super) warnings: Vec<formats::Warning>,
+    /// Road users by type.
+    pub(super) counts: Counts,
+    /// Steps of 0.1 s.
+    pub(super) steps: usize,
+    /// The scene itself, in a dry run alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) scene: Option<SceneDoc>,
+}
+
+/// A record of a file that is no scene.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SkippedRecord {
+    /// Position in the file, from 0.
+    pub(super) index: usize,
+    /// Why.
+    pub(super) problem: ProblemDoc,
+}
+
+/// What a file gave.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ImportReply {
+    /// A name of the formats table.
+    pub(super) format: &'static str,
+    /// Scenes in the order of the file.
+    pub(super) scenes: Vec<ImportedScene>,
+    /// Records that are no scenes.
+    pub(super) skipped: Vec<SkippedRecord>,
+}
+
+/// One of several files: what it gave, or why it gave nothing.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(transform = formats::never_null)]
+pub struct ImportedFile {
+    /// Name of the file, as the form gave it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    #[serde(flatten)]
+    pub(super) read: Option<ImportReply>,
+    /// Why nothing of it was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) problem: Option<ProblemDoc>,
+}
+
+/// What several files gave.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ImportedFiles {
+    /// In the order of the form.
+    pub(super) files: Vec<ImportedFile>,
+}
+
+/// What a file gave, or each of several.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ImportedBody {
+    /// The file that came alone.
+    One(ImportReply),
+    /// Files of a form that has several.
+    Several(ImportedFiles),
+}
+
+impl ImportedBody {
+    /// All scenes, in the order of the files.
+    pub(super) fn scenes(&mut self) -> Box<dyn Iterator<Item = &mut ImportedScene> + '_> {
+        match self {
+            Self::One(read) => Box::new(read.scenes.iter_mut()),
+            Self::Several(all) => {
+                let read = all.files.iter_mut().filter_map(|file| file.read.as_mut());
+                Box::new(read.flat_map(|read| &mut read.scenes))
+            }
+        }
+    }
+}
+
+/// The text about a file's scenes begins behind this.
+const SCENES: &str = "\"scenes\":[";
+
+/// The text of a reply about a file, before its scenes and behind them. `name`: what it is called among several.
+pub(super) fn around_scenes(name: Option<&str>, read: &ImportReply) -> Result<(String, String), Problem> {
+    #[derive(Serialize)]
+    struct NamedReply<'a> {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        name: Option<&'a str>,
+        #[serde(flatten)]
+        read: &'a ImportReply,
+    }
+    let text = serde_json::to_string(&NamedReply { name, read }).map_err(Problem::internal)?;
+    let (lead, rest) = text.split_once(SCENES).ok_or_else(|| Problem::internal("a reply without scenes"))?;
+    Ok((lead.to_owned() + SCENES, rest.to_owned()))
+}

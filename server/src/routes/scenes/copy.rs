@@ -1,0 +1,61 @@
+//! Copies of scenes.
+
+use super::saved;
+use crate::app::App;
+use crate::base::id;
+use crate::base::problem::Refusal;
+use crate::http::body::{self, Reading};
+use crate::http::extract::Id;
+use crate::scenes::store::Expect;
+use api::{Home, Problem};
+use axum::extract::{FromRef, Request, State};
+use axum::http::{StatusCode, header};
+use axum::response::Response;
+use scene::MAX_NAME_CHARS;
+use serde::Deserialize;
+
+/// How the copy is called.
+#[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DuplicateRequest {
+    /// The original's with "copy" after it when absent.
+    name: Option<String>,
+}
+
+refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull);
+
+/// Copies a scene, read-only ones too; `meta.parent_id` names the original.
+#[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",
+    params(("id" = String, Path)),
+    request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json",
+        example = json!({"name": "left turn, later"})),
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncopied))]
+pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+    let typed = request.headers().contains_key(header::CONTENT_TYPE);
+    if typed {
+        body::media_type(request.headers(), body::JSON)?;
+    }
+    let reading = Reading::from_ref(&app);
+    let bytes = reading.json(request).await?;
+    let options: DuplicateRequest = if bytes.bytes().is_empty() && !typed {
+        DuplicateRequest::default()
+    } else {
+        reading.parse(bytes).await?
+    };
+    let opened = app.catalog.open(&id).await?;
+    let mut scene = (*opened.scene).clone();
+    scene.name = match options.name {
+        Some(name) if name.chars().count() > MAX_NAME_CHARS => {
+            return Err(
+                Problem::range("/name", 0.0, MAX_NAME_CHARS as f64, name.chars().count() as f64).into()
+            );
+        }
+        Some(name) => name,
+        // The longest names lose what the word needs.
+        None => scene.name.chars().take(MAX_NAME_CHARS - 5).chain(" copy".chars()).collect(),
+    };
+    scene.meta.parent_id = Some(id);
+    let copy = id::fresh();
+    let written = app.catalog.save(&copy, Expect::Absent, scene).await?;
+    Ok(saved(StatusCode::CREATED, copy, written.etag))
+}

@@ -1,0 +1,116 @@
+//! One scene: the document, and what a small picture of it shows.
+
+use crate::app::App;
+use crate::base::problem::Refusal;
+use crate::http::coding;
+use crate::http::extract::{Id, Params, if_none_match};
+use crate::scenes::{bytes_of, preview};
+use api::Home;
+use api::home::not_found;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use formats::native::{self, MapForm};
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// Query of a read.
+#[derive(Debug, Default, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub struct ReadParams {
+    /// The map itself or its hash alone: `inline` or `ref`.
+    #[param(default = "inline", inline)]
+    map: MapParam,
+}
+
+/// How the map is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MapParam {
+    /// Whole.
+    #[default]
+    Inline,
+    /// `{"ref":"sha256:HEX"}`.
+    Ref,
+}
+
+refusals!(Unread: QUERY STORE WORK, NotFound);
+
+/// Reads a scene.
+#[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
+    params(("id" = String, Path), ReadParams),
+    responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene"),
+            content_type = "application/vnd.dragtraffic.scene+json"),
+        (status = 304, description = "not changed"), Unread))]
+pub async fn read(
+    State(app): State<App>,
+    Id(id): Id,
+    Params(params): Params<ReadParams>,
+    headers: HeaderMap,
+) -> Result<Response, Refusal> {
+    if let Some(opened) = app.catalog.library.open(&id).await? {
+        if !fresh(&headers, &opened.etag) {
+            return Ok(not_modified(&opened.etag));
+        }
+        let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
+        let json = app.catalog.written(opened.scene, form).await?;
+        return scene_reply(&app, headers, &opened.etag, json).await;
+    }
+    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    if !fresh(&headers, &summary.etag) {
+        return Ok(not_modified(&summary.etag));
+    }
+    let json = match params.map {
+        MapParam::Ref => json,
+        MapParam::Inline => app.catalog.with_map(json, &summary.map_sha).await?,
+    };
+    scene_reply(&app, headers, &summary.etag, json).await
+}
+
+/// Does the one who asks not have this version?
+fn fresh(headers: &HeaderMap, etag: &str) -> bool {
+    let known = if_none_match(headers).unwrap_or_default();
+    !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
+}
+
+async fn scene_reply(app: &App, headers: HeaderMap, etag: &str, json: Vec<u8>) -> Result<Response, Refusal> {
+    let head = [
+        (header::CONTENT_TYPE, native::MEDIA_TYPE.to_owned()),
+        (header::VARY, header::ACCEPT_ENCODING.as_str().to_owned()),
+    ];
+    let bytes = json.len();
+    let pack = move || Ok(coding::gzip(&headers, &json).ok_or(json));
+    Ok(match app.pool.document(bytes, pack).await? {
+        Ok(packed) => {
+            let coded = [(header::ETAG, coding::marked(etag)), (header::CONTENT_ENCODING, "gzip".to_owned())];
+            (head, coded, packed).into_response()
+        }
+        Err(json) => (head, [(header::ETAG, etag.to_owned())], json).into_response(),
+    })
+}
+
+refusals!(Unpreviewed: WORK, NotFound);
+
+/// Reads what a small picture of a scene shows: a scene with its lines in few points, and of each road user who
+/// is there at first the first and the last state.
+#[utoipa::path(get, path = "/v1/scenes/{id}/preview", operation_id = "previewScene", tag = "scenes",
+    params(("id" = String, Path)),
+    responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene"),
+            content_type = "application/vnd.dragtraffic.scene+json"),
+        (status = 304, description = "not changed"), Unpreviewed))]
+pub async fn preview_of(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<Response, Refusal> {
+    let opened = app.catalog.open(&id).await?;
+    let kept = [(header::CACHE_CONTROL, "private, no-cache")];
+    if !fresh(&headers, &opened.etag) {
+        return Ok((kept, not_modified(&opened.etag)).into_response());
+    }
+    let (scene, bytes) = (Arc::clone(&opened.scene), bytes_of(&opened.scene));
+    let write = move || Ok(native::write_doc(&preview(&scene)));
+    let json = app.pool.document(bytes, write).await?;
+    Ok((kept, scene_reply(&app, headers, &opened.etag, json).await?).into_response())
+}
+
+fn not_modified(etag: &str) -> Response {
+    (StatusCode::NOT_MODIFIED, [(header::ETAG, etag.to_owned())]).into_response()
+}

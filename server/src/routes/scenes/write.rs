@@ -1,0 +1,143 @@
+//! Changes of scenes: create, replace, rename, delete.
+
+use super::saved;
+use crate::app::App;
+use crate::base::id;
+use crate::base::problem::Refusal;
+use crate::http::body::{self, Json, Reading};
+use crate::http::extract::{Id, if_match, if_none_match};
+use crate::scenes::record;
+use crate::scenes::store::Expect;
+use api::home::not_found;
+use api::{Code, Home, Problem};
+use axum::extract::{FromRef, FromRequest, Request, State};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::Response;
+use formats::native::{self, SceneDoc};
+use serde::Deserialize;
+
+refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull);
+
+/// Saves a new scene; the id of the document is ignored.
+#[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
+    request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
+pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {
+    let id = id::fresh();
+    let scene = app.catalog.read(doc).await?;
+    let written = app.catalog.save(&id, Expect::Absent, scene).await?;
+    Ok(saved(StatusCode::CREATED, id, written.etag))
+}
+
+refusals!(Unreplaced: CHANGES BODY SCENE STORE WORK,
+    NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
+
+/// Replaces a scene (If-Match) or makes one under the client's own id (If-None-Match: *).
+#[utoipa::path(put, path = "/v1/scenes/{id}", operation_id = "replaceScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = Option<String>, Header), ("If-None-Match" = Option<String>, Header)),
+    request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
+    responses((status = 200, description = "replaced", body = ref("#/components/schemas/Saved")),
+        (status = 201, description = "made", body = ref("#/components/schemas/Saved")), Unreplaced))]
+pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+    let expect = match (if_match(request.headers()), if_none_match(request.headers())) {
+        (Some(tags), _) => Expect::Etags(tags),
+        (None, Some(tags)) if tags == ["*"] => Expect::Absent,
+        _ => return Err(precondition_required().into()),
+    };
+    writable(&app, &id)?;
+    let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
+    let scene = app.catalog.read(doc).await?;
+    let written = app.catalog.save(&id, expect, scene).await.map_err(|problem| match problem.code {
+        // PUT could make it: then it is the precondition that fails (RFC 9110, 13.1.1).
+        Code::NotFound => Problem::new(Code::StaleEtag, "There is no scene to replace under this id."),
+        _ => problem,
+    })?;
+    let status = if written.created { StatusCode::CREATED } else { StatusCode::OK };
+    Ok(saved(status, id, written.etag))
+}
+
+fn precondition_required() -> Problem {
+    let detail = "Send If-Match with the ETag you read, or If-None-Match: * to create with PUT.";
+    Problem::new(Code::PreconditionRequired, detail)
+}
+
+fn writable(app: &App, id: &str) -> Result<(), Problem> {
+    if app.catalog.library.has(id) {
+        let detail = "This scene is read-only; POST to its /duplicate and change the copy.";
+        return Err(Problem::new(Code::ReadOnly, detail));
+    }
+    Ok(())
+}
+
+/// Merge patch of what people say about a scene.
+#[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ScenePatch {
+    /// New name; null empties it.
+    #[serde(deserialize_with = "present")]
+    name: Option<Option<String>>,
+    /// New tags; null removes all.
+    #[serde(deserialize_with = "present")]
+    tags: Option<Option<Vec<String>>>,
+    /// New notes; null empties them.
+    #[serde(deserialize_with = "present")]
+    notes: Option<Option<String>>,
+}
+
+/// Tells null from absence.
+fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
+    d: D,
+) -> Result<Option<Option<T>>, D::Error> {
+    Option::deserialize(d).map(Some)
+}
+
+refusals!(Unrenamed: CHANGES BODY SCENE STORE WORK,
+    NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
+
+/// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
+#[utoipa::path(patch, path = "/v1/scenes/{id}", operation_id = "renameScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = String, Header)),
+    request_body(content = ref("#/components/schemas/ScenePatch"),
+        content_type = "application/merge-patch+json", example = json!({"name": "left turn, late"})),
+    responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved")), Unrenamed))]
+pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+    let tags = if_match(request.headers()).ok_or_else(precondition_required)?;
+    body::media_type(request.headers(), &["application/merge-patch+json", "application/json"])?;
+    writable(&app, &id)?;
+    let reading = Reading::from_ref(&app);
+    let patch: ScenePatch = reading.parse(reading.json(request).await?).await?;
+    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let bytes = json.len();
+    let mut doc = app.pool.document(bytes, move || Ok(native::read_doc(&json)?)).await?;
+    if let Some(name) = patch.name {
+        doc.name = name.unwrap_or_default();
+    }
+    if let Some(tags) = patch.tags {
+        doc.meta.tags = tags.unwrap_or_default();
+    }
+    if let Some(notes) = patch.notes {
+        doc.meta.notes = notes.unwrap_or_default();
+    }
+    // The whole scene is checked again, so that a patch cannot store what a PUT could not.
+    app.catalog.read(doc.clone()).await?;
+    let make = move || record::of_doc(&doc, summary.parent_id, summary.meta, summary.map_sha);
+    let record = app.pool.document(bytes, make).await?;
+    // Between the read above and this write the scene may have changed: the ETag read decides too.
+    let held = tags.iter().any(|t| t == "*" || *t == summary.etag);
+    let expect = if held { vec![summary.etag] } else { tags };
+    let written = app.catalog.save_record(&id, Expect::Etags(expect), record).await?;
+    Ok(saved(StatusCode::OK, id, written.etag))
+}
+
+refusals!(Undeleted: CHANGES STORE, NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
+
+/// Deletes a scene.
+#[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = String, Header)),
+    responses((status = 204, description = "deleted"), Undeleted))]
+pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Refusal> {
+    let tags = if_match(&headers).ok_or_else(precondition_required)?;
+    writable(&app, &id)?;
+    app.catalog.delete(&id, Expect::Etags(tags)).await?;
+    Ok(StatusCode::NO_CONTENT)
+}

@@ -1,0 +1,119 @@
+//! The same calls by HTTP, by the command line and directly: the same answers, byte for byte.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
+
+use api::generate::Generation;
+use api::{AboutScene, GenerateRequest, Operations, SceneRef, Subject};
+use dragtraffic_tests::Server;
+use dragtraffic_tests::program::{program, root};
+use experts::{Cancel, Engine};
+use formats::native;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::process::Command;
+use std::sync::LazyLock;
+
+static OPERATIONS: LazyLock<Operations> = LazyLock::new(|| Operations::new(Engine::built_in().unwrap()));
+
+fn path() -> String {
+    root().join("assets/scenes/demo-crossing.json").display().to_string()
+}
+
+fn demo() -> Value {
+    serde_json::from_slice(&std::fs::read(path()).unwrap()).unwrap()
+}
+
+/// A request and its scene, as any carrier has them: from JSON, with a home that has no scenes of its own.
+fn opened<T: DeserializeOwned + AboutScene>(body: &Value) -> (T, Subject) {
+    let mut request: T = serde_json::from_value(body.clone()).unwrap();
+    let wanted: SceneRef = request.take_scene();
+    let subject = api::home::at_once(OPERATIONS.open(wanted, &BTreeMap::new())).unwrap();
+    (request, subject.map_err(|problem| problem.detail).unwrap())
+}
+
+fn printed(arguments: &[&str]) -> Vec<u8> {
+    let output = Command::new(program()).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+fn posted(server: &Server, path: &str, body: &Value) -> String {
+    let reply = server.post(path, body).unwrap();
+    assert_eq!(reply.status, 200, "{}", reply.text());
+    reply.text().to_string()
+}
+
+/// An answer without the times that it took and the date.
+fn timeless(mut answer: Value) -> String {
+    answer["timing"] = Value::Null;
+    answer["generated"]["created_at"] = Value::Null;
+    for member in ["event", "seq", "job", "elapsed_ms"] {
+        answer.as_object_mut().unwrap().remove(member);
+    }
+    answer.to_string()
+}
+
+#[test]
+fn a_generation() {
+    let server = Server::start(&[]).unwrap();
+    let body = json!({"scene": demo(), "agents": ["6"], "react": true, "seed": 7, "samples": 2,
+        "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}, "frame": "scene"}}});
+    let (request, subject) = opened::<GenerateRequest>(&body);
+    let call = OPERATIONS.generate(&request, &subject, Cancel::default());
+    let answered = call.and_then(Generation::answer).map_err(|problem| problem.detail).unwrap();
+    let direct = serde_json::to_value(answered.body()).unwrap();
+    let sent: Value = serde_json::from_str(&posted(&server, "/v1/generate", &body)).unwrap();
+    assert_eq!(timeless(sent), timeless(direct.clone()));
+    let flags = ["--agents", "6", "--react", "--seed", "7", "--samples", "2", "--goal", "6=-40,8", "--quiet"];
+    let file: Value =
+        serde_json::from_slice(&printed(&[&["generate", &path()], &flags[..]].concat())).unwrap();
+    for (i, sample) in direct["samples"].as_array().unwrap().iter().enumerate() {
+        let written = &file["generated"]["samples"][i]["agents"];
+        assert_eq!(written.to_string(), sample["agents"].to_string());
+    }
+    for member in ["input_sha256", "weights", "seed", "request", "stale"] {
+        assert_eq!(
+            file["generated"][member].to_string(),
+            direct["generated"][member].to_string(),
+            "{member}"
+        );
+    }
+}
+
+#[test]
+fn a_placement() {
+    let server = Server::start(&[]).unwrap();
+    let body =
+        json!({"scene": demo(), "keep": [], "density": {"count": 12}, "seed": 3, "parked": {"share": 0.5}});
+    let (request, subject) = opened(&body);
+    let placed = OPERATIONS.place(&request, &subject, &Cancel::default());
+    let direct = serde_json::to_value(placed.map_err(|problem| problem.detail).unwrap()).unwrap();
+    let sent: Value = serde_json::from_str(&posted(&server, "/v1/place", &body)).unwrap();
+    assert_eq!(sent.to_string(), direct.to_string());
+    let flags = ["--keep", "--count", "12", "--seed", "3", "--parked", "0.5", "--quiet"];
+    let file: Value = serde_json::from_slice(&printed(&[&["place", &path()], &flags[..]].concat())).unwrap();
+    assert_eq!(file["agents"].to_string(), direct["agents"].to_string());
+}
+
+#[test]
+fn a_map_and_its_score() {
+    let server = Server::start(&[]).unwrap();
+    let body = json!({"template": "roundabout", "parameters": {}});
+    let direct = OPERATIONS.map(serde_json::from_value(body.clone()).unwrap());
+    let direct = direct.map_err(|problem| problem.detail).unwrap();
+    let sent = posted(&server, "/v1/map", &body);
+    assert_eq!(sent, serde_json::to_string(&direct).unwrap());
+    assert_eq!(printed(&["map", "--template", "roundabout", "--quiet"]), native::write_doc(&direct.scene));
+
+    let body = json!({"scene": demo()});
+    let (request, subject) = opened(&body);
+    let direct = OPERATIONS.score(&request, &subject).map_err(|problem| problem.detail).unwrap();
+    let direct = serde_json::to_string(&direct).unwrap();
+    assert_eq!(posted(&server, "/v1/score", &body), direct);
+    let mut line: Value = serde_json::from_slice(&printed(&["score", &path(), "--json"])).unwrap();
+    for own in ["file", "source_id", "sample"] {
+        line.as_object_mut().unwrap().remove(own);
+    }
+    assert_eq!(line.to_string(), serde_json::from_str::<Value>(&direct).unwrap().to_string());
+}
