@@ -4,7 +4,7 @@ use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
-use crate::sentences::{self, subject};
+use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
 use scene::message::Word;
@@ -159,6 +159,6 @@ mod tests {
             (taken[0].as_str(), taken[2].as_str(), ids.take(&"x".repeat(90)).len()),
             ("a", "lane_7_b", 64)
         );
-        assert!(ids.warning(subject::MAP_FEATURES).is_some());
+        assert!(ids.warning(sentences::subject::MAP_FEATURES).is_some());
     }
 }

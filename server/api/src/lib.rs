@@ -36,6 +36,7 @@ pub mod import;
 pub mod info;
 pub mod limits;
 pub mod map;
+pub mod messages;
 mod opened;
 mod operations;
 pub mod place;

@@ -9,8 +9,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const TARGET: &str = "wasm32-unknown-unknown";
-const CRATES: &[&str] =
-    &["dragtraffic-scene", "dragtraffic-formats", "dragtraffic-layouts", "dragtraffic-experts", "dragtraffic-api"];
+const CRATES: &[&str] = &[
+    "dragtraffic-scene",
+    "dragtraffic-formats",
+    "dragtraffic-layouts",
+    "dragtraffic-experts",
+    "dragtraffic-api",
+];
 /// Debian's packages: compiler, sources of the standard library, and the libraries that the compiler loads.
 const PACKAGES: &[&str] = &["rustc-web", "rust-web-src", "libstd-rust-web-dev"];
 const LOADED: &[&str] = &["libstd-rust-web-", "libllvm"];

@@ -1,11 +1,10 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/document/scene-json';
-import { messageText } from '../model/words/message-text';
 import { Refused, type Beside, type Client } from '../net/client';
 import { faultOf } from '../net/problem';
 import { inWords } from '../net/refusal';
-import type { ImportReply, Problem } from '../net/types';
+import type { ImportReply, ImportWarning, Problem } from '../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
@@ -36,7 +35,7 @@ export interface FileVerdict {
   /** The rest of it can be taken: without what. */
   readonly without?: readonly string[];
   /** What the reader assumed, left out or changed. */
-  readonly notes?: readonly string[];
+  readonly notes?: readonly ImportWarning[];
   /** A table whose columns have names of their own: which of them says what? */
   readonly columns?: readonly string[];
   /** Nobody answered: the same may go well later. */
@@ -230,7 +229,8 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
     count: countAll(counts),
   }));
   const { skipped } = reply;
-  const notes = [...new Set(reply.scenes.flatMap((s) => s.warnings.map((w) => messageText(w.message, w.detail))))];
+  const warnings = reply.scenes.flatMap((s) => s.warnings);
+  const notes = [...new Map(warnings.map((w) => [w.detail, w])).values()];
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
   if (!skipped.length) return { file, kind, ok: true, scenes, notes };
   const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);

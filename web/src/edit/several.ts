@@ -30,7 +30,6 @@ import { shifted } from '../model/document/newcomer';
 import { TEXTS } from '../texts/moves';
 import { inSentence } from '../texts/language';
 
-
 /** The server works out the motion of no more at once. */
 export const MOST_AT_ONCE = 128;
 

@@ -10,6 +10,7 @@ export type SceneList = Schemas['SceneList'];
 /** Road users in the shape of a document. */
 export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };
 export type ImportReply = Schemas['ImportReply'];
+export type ImportWarning = Schemas['ImportWarning'];
 export type FormatInfo = Schemas['FormatInfo'];
 
 /** A refusal. An answer that came without a problem document has its status as its code, and a title. */

@@ -12,7 +12,6 @@ use crate::recording::{Drawn, MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, U
 use crate::sentences;
 use crate::source::Source;
 use scene::geometry::direction;
-use scene::message::Word;
 use scene::{AgentType, Meta, STEP_S, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::hash_map::DefaultHasher;

@@ -1,7 +1,7 @@
 use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
 use super::{Page, Sort, Store, StoreError};
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use api::{Code, Problem};
 use std::sync::Arc;
 
 fn record(name: &str) -> PackedScene {

@@ -2,6 +2,8 @@
 import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
+import { messageText } from '../../model/words/message-text';
+import { TEXTS as SENTENCES } from '../../texts/file-messages';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
@@ -149,8 +151,8 @@ function FileRow({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) 
       {v.wrong ? <Wrong verdict={v} open={open} /> : null}
       {v.notes?.length ? (
         <ul class="notes">
-          {v.notes.map((note) => (
-            <li key={note}>{note[0].toUpperCase() + note.slice(1)}.</li>
+          {v.notes.map(({ message, detail }) => (
+            <li key={detail}>{messageText(message, detail, SENTENCES)}.</li>
           ))}
         </ul>
       ) : null}

@@ -248,12 +248,14 @@ function Warnings({ agent }: { agent: LiveAgent }) {
   if (!list?.length) return null;
   return (
     <div class="sect">
-      {list.map((w) => messageText(w)).map((w) => (
-        <div key={w} class="hint plain">
-          <Icon name="warn" size={17} />
-          <div class="tx">{w}</div>
-        </div>
-      ))}
+      {list
+        .map((w) => messageText(w))
+        .map((w) => (
+          <div key={w} class="hint plain">
+            <Icon name="warn" size={17} />
+            <div class="tx">{w}</div>
+          </div>
+        ))}
     </div>
   );
 }

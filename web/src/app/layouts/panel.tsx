@@ -4,6 +4,7 @@ import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { messageText } from '../../model/words/message-text';
+import { TEXTS as SENTENCES } from '../../texts/map-messages';
 import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
@@ -511,10 +512,10 @@ function Checks() {
                   stage.glide.by((v) => v.centre(x, y));
                 }}
               >
-                <b>{failed.indexOf(c) + 1}</b> {messageText(c.message, c.text)}
+                <b>{failed.indexOf(c) + 1}</b> {messageText(c.message, c.text, SENTENCES)}
               </button>
             ) : (
-              messageText(c.message, c.text)
+              messageText(c.message, c.text, SENTENCES)
             )}
           </li>
         ))}

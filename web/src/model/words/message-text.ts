@@ -4,21 +4,18 @@ import type { Message } from '../document/message';
 import { armTitle } from './arm-names';
 import { TEXTS, type Values } from '../../texts/messages';
 
-type Code = keyof typeof TEXTS.sentences;
-type Sentence = string | ((values: Values) => string);
+/** Sentences by code, and the words of values that name a thing of a list. */
+export interface Sentences {
+  readonly sentences: Readonly<Record<string, string | ((values: Values) => string)>>;
+  readonly lists: Readonly<Record<string, Readonly<Record<string, string>>>>;
+}
 
-/** Values that name a thing of a fixed list: the words for it. */
-const LISTS: Readonly<Record<string, Readonly<Record<string, string>>>> = {
-  kind: TEXTS.kinds,
-  subject: TEXTS.subjects,
-  vehicle: TEXTS.vehicles,
-};
 /** Values that name an arm of a junction. */
 const ARMS: ReadonlySet<string> = new Set(['from', 'to', 'first', 'second']);
 
 /** A value as text: its unit is the suffix of its name. */
-function valueText(name: string, value: string | number, onFoot: boolean): string {
-  if (typeof value === 'string') return LISTS[name]?.[value] ?? (ARMS.has(name) ? armTitle(value) : value);
+function valueText(name: string, value: string | number, onFoot: boolean, { lists }: Sentences): string {
+  if (typeof value === 'string') return lists[name]?.[value] ?? (ARMS.has(name) ? armTitle(value) : value);
   if (name.endsWith('_mps2')) return acceleration(value);
   if (name.endsWith('_mps')) return speedInUse(value, onFoot);
   if (name.endsWith('_m')) return metres(value);
@@ -26,16 +23,14 @@ function valueText(name: string, value: string | number, onFoot: boolean): strin
   return num(value, 0);
 }
 
-/** The sentence, or what the server calls it in English where this page does not know the code. */
-export function messageText({ code, values }: Message, english = code): string {
-  if (!(code in TEXTS.sentences)) return english;
-  const sentence: Sentence = TEXTS.sentences[code as Code];
-  const { since_s: since } = values;
+/** A sentence of a table, or what the server calls it in English where the table does not have its code. */
+export function messageText({ code, values }: Message, english = code, table: Sentences = TEXTS): string {
+  const sentence = table.sentences[code];
+  if (sentence === undefined) return english;
   const onFoot = values.kind === 'pedestrian';
-  const texts = new Proxy<Values>(
-    {},
-    { get: (_, name) => (String(name) in values ? valueText(String(name), values[String(name)], onFoot) : '') },
-  );
-  const text = typeof sentence === 'string' ? sentence : sentence(texts);
-  return typeof since === 'number' ? TEXTS.since(seconds(since), text) : text;
+  const text = (name: string): string => (name in values ? valueText(name, values[name], onFoot, table) : '');
+  const written =
+    typeof sentence === 'string' ? sentence : sentence(new Proxy<Values>({}, { get: (_, name) => text(String(name)) }));
+  const { since_s: since } = values;
+  return typeof since === 'number' ? TEXTS.since(seconds(since), written) : written;
 }

@@ -9,10 +9,10 @@ use crate::generator::extrapolation::Guessed;
 use crate::generator::others::Reacted;
 use crate::generator::report::{self, Outcome};
 use crate::planning::world::World;
-use crate::sentences;
 use crate::request::{
     Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
 };
+use crate::sentences;
 use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -1,0 +1,71 @@
+// Sentences of the server: each code has its English and its German, and each says all of its values.
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { toldIn } from '../src/model/base/units';
+import { messageText } from '../src/model/words/message-text';
+import { TEXTS as FILES } from '../src/texts/file-messages';
+import { german as germanFiles } from '../src/texts/german/file-messages';
+import { german as germanMaps } from '../src/texts/german/map-messages';
+import { german } from '../src/texts/german/messages';
+import { TEXTS as MAPS } from '../src/texts/map-messages';
+import { TEXTS } from '../src/texts/messages';
+
+const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
+const together = (...tables: { readonly sentences: object }[]): object =>
+  Object.assign({}, ...tables.map((table) => table.sentences));
+const LANGUAGES = {
+  english: together(TEXTS, FILES, MAPS),
+  german: together(german, germanFiles, germanMaps),
+} as Record<string, Record<string, string | ((values: Record<string, string>) => string)>>;
+
+/** The values that a sentence asks for. */
+function asked(sentence: string | ((values: Record<string, string>) => string)): string[] {
+  if (typeof sentence === 'string') return [];
+  const names = new Set<string>();
+  sentence(new Proxy({}, { get: (_, name) => (names.add(String(name)), `<${String(name)}>`) }));
+  return [...names].sort();
+}
+
+describe('sentences of the server', () => {
+  it.each(Object.keys(LANGUAGES))('all stand in %s, with all of their values', (language) => {
+    const sentences = LANGUAGES[language];
+    expect(Object.keys(sentences).sort()).toEqual(kinds.map((kind) => kind.code).sort());
+    const differing = kinds.filter(({ code, values }) => asked(sentences[code]).join() !== [...values].sort().join());
+    expect(differing.map((kind) => kind.code)).toEqual([]);
+  });
+
+  it('come with lengths and speeds in the units of the page', () => {
+    const far = { time_s: 4, goal_m: 61, start_mps: 13.9, kind: 'vehicle', most_m: 48.2 };
+    const text = () => messageText({ code: 'goal-too-far', values: far });
+    expect(text()).toBe(
+      'Too far for 4.0 s. The goal is 61 m away. In 4.0 s from 50 km/h this vehicle gets 48 m at most.',
+    );
+    toldIn('mph');
+    expect(text()).toBe(
+      'Too far for 4.0 s. The goal is 200 ft away. In 4.0 s from 31 mph this vehicle gets 158 ft at most.',
+    );
+    toldIn('km/h');
+    const walking = messageText({ code: 'goal-too-fast', values: { time_s: 2, start_mps: 1.4, kind: 'pedestrian' } });
+    expect(walking).toBe('Cannot accelerate that much in 2.0 s from 1.4 m/s.');
+  });
+
+  it('say since when they hold, and name arms and lists in the words of the page', () => {
+    const values = { since_s: 9, kind: 'cyclist' };
+    expect(messageText({ code: 'goal-turn-too-tight', values })).toBe(
+      'From 9.0 s on: Too tight a turn for this cyclist.',
+    );
+    const arms = { first: 'North', second: 'North-west 2' };
+    expect(messageText({ code: 'greens-conflict', values: arms }, '', MAPS)).toBe(
+      'North and North-west 2 conflict and have green at the same time',
+    );
+    expect(messageText({ code: 'ids-suffixed', values: { count: 3, subject: 'road-users' } }, '', FILES)).toBe(
+      '3 road users repeat an id and got a suffix',
+    );
+  });
+
+  it('stay in English where the page does not know the code', () => {
+    expect(messageText({ code: 'of-a-newer-server', values: {} }, 'As the server says it.')).toBe(
+      'As the server says it.',
+    );
+  });
+});
