@@ -1,7 +1,7 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
 import type { Message } from './message';
 import type { AgentFuturesJson, ReactionJson } from './scene-json';
-import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './future-facts';
+import { NOTHING_SAID, readAbout, sentAbout, type FutureFacts, type FaultKind, type SentAbout } from './future-facts';
 import type { Point, Pose } from '../base/geometry';
 import { furthestApart, motionFrom, type Motion } from '../base/motion';
 
@@ -15,7 +15,7 @@ export interface Future {
   /** What the name rests on: a relation, or a manner. */
   readonly basis?: string;
   /** What the generator says about it; null where it says nothing. */
-  readonly about?: About | null;
+  readonly about?: FutureFacts | null;
   /** The same as it was sent. */
   readonly sent?: SentAbout;
   /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */

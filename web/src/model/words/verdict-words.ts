@@ -4,7 +4,7 @@ import {
   faultMark,
   leavesRoad,
   markOf,
-  type About,
+  type FutureFacts,
   type Fault,
   type FaultKind,
   type Mark,
@@ -165,7 +165,7 @@ interface Said {
 
 const group = (key: string, many: string, one: string): Group => ({ key, letters: [], many, one });
 
-function groupOf(f: Futures, i: number, about: About | null, said: Said): Group | null {
+function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): Group | null {
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
