@@ -294,6 +294,29 @@ fn crates_import_what_the_architecture_allows() {
     }
 }
 
+#[test]
+fn type_names_of_the_engine_are_unique() {
+    let mut homes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in files(&root().join("models/experts/src")).unwrap() {
+        let path = file.to_str().unwrap().to_owned();
+        if path.ends_with("tests.rs") {
+            continue;
+        }
+        for line in std::fs::read_to_string(&file).unwrap().lines() {
+            let mut words =
+                line.split_whitespace().skip_while(|word| word.starts_with("pub") || word.ends_with(')'));
+            if matches!(words.next(), Some("struct" | "enum" | "trait")) {
+                let name = words.next().unwrap_or_default();
+                let end = name.find(|c: char| !c.is_alphanumeric()).unwrap_or(name.len());
+                homes.entry(name[..end].to_owned()).or_default().insert(path.clone());
+            }
+        }
+    }
+    assert!(homes.len() > 200, "{} types", homes.len());
+    let shared: Vec<_> = homes.iter().filter(|(_, files)| files.len() > 1).collect();
+    assert!(shared.is_empty(), "{shared:?}");
+}
+
 /// Constants of floating point numbers in a text, by name; tests at its end are left out.
 fn float_constants(text: &str) -> Vec<&str> {
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);

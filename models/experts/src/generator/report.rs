@@ -1,6 +1,6 @@
 //! The report of a call beside its futures: the value and origin of each field, the verdict on the goal, warnings.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::trajectory::Rollout;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{
@@ -28,8 +28,8 @@ impl From<&MotionState> for NearestState {
     }
 }
 
-/// What became of one road user over all windows.
-pub(super) struct Outcome<'a> {
+/// The outcome of one agent over all windows.
+pub(super) struct AgentOutcome<'a> {
     /// At the start of the call.
     pub(super) present: &'a AgentAtStart,
     /// As the user fixed them.
@@ -47,8 +47,8 @@ pub(super) struct Outcome<'a> {
 }
 
 /// Fields and verdict of one road user; `world` is that of the first window.
-pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
-    let Outcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
+pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved {
+    let AgentOutcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
     let agent = world.agent(present);
     let logged = agent.state_at(world.step).is_some();
     let start = |value: f64, fixed: bool| {
@@ -110,7 +110,7 @@ fn vias(vias: &[Via], step: usize, states: &[State]) -> Vec<ResolvedVia> {
 /// Verdict of one window on its target. `since_s` is the scene time at the start of a later window: the reason then
 /// holds from there on. `blocked_by` is the agent before which the motion stops.
 pub(super) fn reach_report(
-    actor: &Actor,
+    actor: &PlannedActor,
     motion: &Rollout,
     since_s: Option<f64>,
     blocked_by: Option<&AgentId>,
@@ -138,7 +138,7 @@ pub(super) fn reach_report(
 
 /// Why a goal is out of reach, and what is within reach.
 fn reason(
-    actor: &Actor,
+    actor: &PlannedActor,
     nearest: &MotionState,
     limiting: Limiting,
     needs: Option<f64>,
@@ -182,7 +182,7 @@ fn reason(
 /// `asked` gives an agent's conditions and the number of steps until its goal is due.
 pub(super) fn warnings<'a>(
     world: &World<'_>,
-    actors: &[Actor],
+    actors: &[PlannedActor],
     asked: impl Fn(usize) -> (&'a Conditions, usize),
 ) -> Vec<Warning> {
     let mut out = Vec::new();
