@@ -19,14 +19,14 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A client of a line.
 struct Line(WebSocket<TcpStream>);
 
-/// What was told of a question in one message.
+/// A message about a question.
 #[derive(Debug)]
-struct Told {
+struct ServerMessage {
     head: Value,
     lines: Vec<Value>,
 }
 
-impl Told {
+impl ServerMessage {
     fn of(text: &str) -> Self {
         let mut lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
         Self { head: lines.next().unwrap(), lines: lines.collect() }
@@ -65,10 +65,10 @@ impl Line {
         self.say(json!({"ask": number, "body": body}).to_string());
     }
 
-    fn hear(&mut self) -> Told {
+    fn hear(&mut self) -> ServerMessage {
         loop {
             match self.0.read().unwrap() {
-                Message::Text(text) => return Told::of(&text),
+                Message::Text(text) => return ServerMessage::of(&text),
                 Message::Ping(_) => {}
                 other => panic!("{other:?}"),
             }
@@ -77,7 +77,7 @@ impl Line {
 
     /// Everything about one question, which is the only one.
     fn answer(&mut self, number: u64) -> (Value, Vec<Value>) {
-        let Told { head, mut lines } = self.hear();
+        let ServerMessage { head, mut lines } = self.hear();
         let mut last = head["last"] == json!(true);
         while !last {
             let told = self.hear();
@@ -161,8 +161,13 @@ fn questions_do_not_wait_for_each_other_and_can_be_given_up() {
     }
     line.say(r#"{"end": 1}"#);
     until(&server, GIVEN_UP, |count| count == 1.0);
+    while told.head["ask"] != json!(1) || !told.is_last() {
+        told = line.hear();
+    }
+    assert_eq!(told.head, json!({"ask": 1, "last": true}));
     // Its number is free again.
     line.ask(1, &generate(1));
+    told = line.hear();
     while told.head["ask"] != json!(1) || !told.is_last() {
         told = line.hear();
     }
@@ -188,6 +193,77 @@ fn more_at_once_than_allowed_wait_to_be_heard() {
         }
     }
     assert_eq!(over, [1, 2, 3, 4]);
+}
+
+#[test]
+fn a_line_with_all_its_questions_running_hears_an_end_a_ping_and_a_close() {
+    let server = Server::start(&["--limit", "line_questions=1"]).unwrap();
+    let mut line = Line::to(&server);
+    line.ask(1, &long());
+    assert!(!line.hear().is_last());
+    line.ask(2, &generate(1));
+    line.0.send(Message::Ping("here".into())).unwrap();
+    let mut pong = line.0.read().unwrap();
+    while !matches!(pong, Message::Pong(_)) {
+        assert!(!pong.to_text().unwrap().contains(r#""last":true"#), "the long one is over first");
+        pong = line.0.read().unwrap();
+    }
+    line.say(r#"{"end": 1}"#);
+    let mut told = line.hear();
+    while !told.is_last() {
+        told = line.hear();
+    }
+    assert_eq!(told.head, json!({"ask": 1, "last": true}));
+    assert_eq!(line.answer(2).0["status"], json!(200), "what was held back runs now");
+    line.ask(3, &long());
+    assert!(!line.hear().is_last());
+    line.0.close(None).unwrap();
+    let closed = std::iter::repeat_with(|| line.0.read()).find_map(Result::err).unwrap();
+    assert!(matches!(closed, Error::ConnectionClosed), "{closed}");
+    until(&server, GIVEN_UP, |count| count == 2.0);
+}
+
+#[test]
+fn a_question_with_the_number_of_one_given_up_reads_its_own_answer_alone() {
+    let server = Server::start(&["--limit", "line_questions=1"]).unwrap();
+    let mut line = Line::to(&server);
+    let mut body = long();
+    body["stream_modes"] = json!("all");
+    for _ in 0..3 {
+        line.ask(1, &body);
+        assert!(!line.hear().is_last());
+        // Pieces of the answer are on their way and wait for this reader.
+        std::thread::sleep(Duration::from_millis(300));
+        line.say(r#"{"end": 1}"#);
+        line.ask(1, &json!({"scene_id": "nowhere"}));
+        let mut told = line.hear();
+        while !told.is_last() {
+            assert!(told.head.get("status").is_none(), "{:?}", told.head);
+            told = line.hear();
+        }
+        assert_eq!(told.head, json!({"ask": 1, "last": true}));
+        assert_eq!(line.answer(1).0["status"], json!(404));
+    }
+}
+
+#[test]
+fn a_question_that_waits_can_be_given_up_and_too_many_are_refused() {
+    let server = Server::start(&["--limit", "line_questions=1"]).unwrap();
+    let mut line = Line::to(&server);
+    line.ask(1, &long());
+    (2..=80).for_each(|number| line.ask(number, &generate(1)));
+    line.say(r#"{"end": 2}"#);
+    let (mut refused, mut told) = (Vec::new(), line.hear());
+    while told.head["ask"] != json!(2) {
+        assert!(told.head["ask"] != json!(1) || !told.is_last(), "the long one is over first");
+        if told.is_last() {
+            assert_eq!((&told.head["status"], &told.lines[0]["code"]), (&json!(503), &json!("busy")));
+            refused.push(told.head["ask"].as_u64().unwrap());
+        }
+        told = line.hear();
+    }
+    assert_eq!(told.head, json!({"ask": 2, "last": true}));
+    assert_eq!(refused, (66..=80).collect::<Vec<_>>(), "64 wait");
 }
 
 #[test]

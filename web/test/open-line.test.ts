@@ -102,6 +102,16 @@ it('a refusal is told with its words and when to come back', async () => {
   expect(await read(pieces)).toEqual([]);
 });
 
+it('an answer that breaks off fails with the words of its problem', async () => {
+  const { line, sockets } = stage();
+  sockets[0].open();
+  const asking = line.ask(BODY, never);
+  sockets[0].tell({ ask: 1, status: 200 }, ACCEPTED);
+  const { pieces } = await asking;
+  sockets[0].tell({ ask: 1, status: 500, last: true }, { code: 'internal', detail: 'The server failed.' });
+  await expect(read(pieces)).rejects.toThrow('The server failed.');
+});
+
 it('what a lost connection took along is asked by a request; half an answer is a failure', async () => {
   const { line, sockets, requests } = stage();
   sockets[0].open();

@@ -6,15 +6,16 @@
 
 use super::net::Carrier;
 use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
 use axum::http::{HeaderMap, HeaderValue, Request, header};
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 use futures_util::{FutureExt, SinkExt, StreamExt};
 use http_body_util::BodyExt;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::time::Duration;
 use tokio::sync::mpsc;
 use tokio::task::{self, AbortHandle, JoinSet};
@@ -22,15 +23,21 @@ use tokio::time::Instant;
 
 /// Pieces of answers that wait for the reader, of all questions together.
 const PIECES: usize = 8;
+/// Questions beyond `line_questions` that wait for their turn; further ones are refused.
+const WAITING: usize = 64;
+/// Messages of the line itself that wait for the reader; while there are so many, nothing is read.
+const REPLIES: usize = 64;
 /// Keeps a silent line open, and finds out when its other end has vanished.
 const PING: Duration = Duration::from_secs(30);
+/// When a client may ask again whose questions were refused, seconds.
+const RETRY_AFTER_S: u64 = 1;
 /// Most of a reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
 
-/// What a client says.
+/// A message of the client: a question, or the number of one that it gives up.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Said<'a> {
+struct ClientMessage<'a> {
     /// A question, by a number of the client's own.
     #[serde(default)]
     ask: Option<u64>,
@@ -42,14 +49,40 @@ struct Said<'a> {
     end: Option<u64>,
 }
 
-/// The first text line of what is told of a question. What follows is a piece of the reply's body.
+/// The first text line of a message about a question. What follows is a piece of the reply's body.
 #[derive(Serialize)]
-struct Told {
+struct ServerMessage {
     ask: u64,
     #[serde(flatten)]
     head: Option<Head>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     last: bool,
+}
+
+impl ServerMessage {
+    /// With a piece of the body behind it.
+    fn with(&self, piece: &[u8]) -> Result<Message, axum::Error> {
+        let mut text = serde_json::to_vec(self).map_err(axum::Error::new)?;
+        text.push(b'\n');
+        text.extend_from_slice(piece);
+        Ok(Message::Text(Utf8Bytes::try_from(Bytes::from(text)).map_err(axum::Error::new)?))
+    }
+
+    /// The last message of a question that is given up.
+    fn given_up(ask: u64) -> Result<Message, axum::Error> {
+        Self { ask, head: None, last: true }.with(b"")
+    }
+
+    /// The last message of a question that came too late.
+    fn closing(ask: u64) -> Result<Message, axum::Error> {
+        Self::failed(ask, Problem::new(Code::ShuttingDown, "The server ends."))
+    }
+
+    /// The last message of a question that cannot be answered, or no further.
+    fn failed(ask: u64, problem: Problem) -> Result<Message, axum::Error> {
+        let document = serde_json::to_vec(&problem.doc(None, None)).map_err(axum::Error::new)?;
+        Self { ask, head: Some(Head::of(&problem.into_response())), last: true }.with(&document)
+    }
 }
 
 /// What a client needs to know of the head of a reply.
@@ -97,102 +130,187 @@ struct Line {
 
 /// A part of an answer on its way.
 struct Piece {
+    ask: u64,
+    /// The question itself: numbers are used again.
+    task: task::Id,
     message: Message,
-    /// The task whose last one it is.
-    ends: Option<task::Id>,
+    is_last: bool,
 }
 
-/// Questions that are open.
+/// The questions of a client, by the numbers that it gave them.
 #[derive(Default)]
-struct Open {
+struct Questions {
     tasks: JoinSet<()>,
-    /// By the numbers of the client.
-    numbers: HashMap<u64, AbortHandle>,
+    /// Those whose last piece has not gone out.
+    running: HashMap<u64, AbortHandle>,
+    /// Those that are held back, with their bodies.
+    waiting: VecDeque<(u64, String)>,
+    /// The server ends: no question begins any more.
+    closing: bool,
 }
 
-impl Open {
-    /// Who asks more at the same time waits to be heard.
-    fn has_room(&self, limits: &Limits) -> bool {
-        (self.tasks.len() as u64) < limits.line_questions.max(1)
+impl Questions {
+    fn knows(&self, number: u64) -> bool {
+        self.running.contains_key(&number) || self.waiting.iter().any(|(waiting, _)| *waiting == number)
+    }
+
+    /// Ends a question; whether its last piece was still to come.
+    fn end(&mut self, number: u64) -> bool {
+        let before = self.waiting.len();
+        self.waiting.retain(|(waiting, _)| *waiting != number);
+        let task = self.running.remove(&number);
+        if let Some(task) = &task {
+            task.abort();
+        }
+        task.is_some() || self.waiting.len() < before
+    }
+
+    /// Whether a piece belongs to a question that still runs. The last one frees its number.
+    fn takes(&mut self, piece: &Piece) -> bool {
+        let runs = self.running.get(&piece.ask).is_some_and(|task| task.id() == piece.task);
+        if runs && piece.is_last {
+            self.running.remove(&piece.ask);
+        }
+        runs
+    }
+
+    /// The number of a question whose task has broken down, which it frees.
+    fn broken(&mut self, task: task::Id) -> Option<u64> {
+        let number = self.running.iter().find(|(_, running)| running.id() == task).map(|(number, _)| *number);
+        number.inspect(|number| drop(self.running.remove(number)))
+    }
+
+    /// Whether a question of so many bytes may wait: together they take at most twice one message's memory.
+    fn may_wait(&self, limits: &Limits) -> bool {
+        let bytes: usize = self.waiting.iter().map(|(_, body)| body.len()).sum();
+        self.waiting.len() < WAITING && bytes < limits.line_bytes as usize
     }
 }
 
 impl Line {
-    /// Until the client leaves, says what cannot be understood or takes nothing more, or the server ends.
+    /// Until the client leaves, sends what cannot be understood or takes nothing more, or the server ends.
     async fn serve(mut self, socket: WebSocket) {
         let (mut sink, mut stream) = socket.split();
         let (pieces, mut ready) = mpsc::channel(PIECES);
-        let mut open = Open::default();
+        let mut questions = Questions::default();
+        let mut replies = VecDeque::new();
         let mut ping = tokio::time::interval_at(Instant::now() + PING, PING);
-        let mut closing = false;
-        loop {
-            let message = tokio::select! {
-                piece = ready.recv() => match piece {
-                    Some(Piece { message, ends }) => {
-                        // Who has heard the last of a question may give its number to the next one at once.
-                        open.numbers.retain(|_, task| Some(task.id()) != ends);
-                        message
-                    }
-                    None => parting(close_code::NORMAL, ""),
-                },
-                Some(_) = open.tasks.join_next() => {
-                    open.numbers.retain(|_, task| !task.is_finished());
-                    continue;
+        // Until when the reader may leave the message that is being sent.
+        let mut sending = None;
+        let parting = loop {
+            if sending.is_none()
+                && let Some(message) = replies.pop_front()
+            {
+                // The sink has room for one message, so this does not wait.
+                if sink.feed(message).await.is_err() {
+                    return;
                 }
-                said = stream.next(), if !closing && open.has_room(&self.carrier.limits) => match said {
-                    Some(Ok(Message::Text(text))) => match self.hear(&text, &mut open, &pieces) {
-                        Ok(()) => continue,
-                        Err(why) => parting(close_code::POLICY, &why),
-                    },
-                    Some(Ok(Message::Binary(_))) => parting(close_code::UNSUPPORTED, "Text expected."),
-                    Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
-                    Some(Err(error)) => parting(close_code::PROTOCOL, &error.to_string()),
-                    Some(Ok(Message::Close(_))) | None => return,
-                },
-                () = self.carrier.closes(), if !closing => {
-                    closing = true;
-                    continue;
-                }
-                _ = ping.tick() => Message::Ping(Bytes::new()),
-                () = std::future::ready(()), if closing && open.tasks.is_empty() && ready.is_empty() => {
-                    parting(close_code::AWAY, "The server ends.")
-                }
-            };
-            let parts = matches!(message, Message::Close(_));
-            let sent = tokio::time::timeout(self.carrier.patience, sink.send(message)).await;
-            if parts || !matches!(sent, Ok(Ok(()))) {
-                return;
+                sending = Some(Instant::now() + self.carrier.patience);
             }
-        }
+            let is_over =
+                questions.closing && questions.tasks.is_empty() && ready.is_empty() && sending.is_none();
+            let heard = tokio::select! {
+                sent = sink.flush(), if sending.is_some() => {
+                    if sent.is_err() {
+                        return;
+                    }
+                    sending = None;
+                    continue;
+                }
+                () = tokio::time::sleep_until(sending.unwrap_or_else(Instant::now)), if sending.is_some() => return,
+                Some(piece) = ready.recv(), if sending.is_none() => {
+                    if questions.takes(&piece) {
+                        replies.push_back(piece.message);
+                    }
+                    continue;
+                }
+                Some(ended) = questions.tasks.join_next_with_id() => {
+                    if let Err(error) = ended
+                        && let Some(number) = questions.broken(error.id())
+                    {
+                        replies.extend(ServerMessage::failed(number, Problem::internal(error)));
+                    }
+                    self.start_waiting(&mut questions, &pieces);
+                    continue;
+                }
+                heard = stream.next(), if replies.len() < REPLIES => heard,
+                () = self.carrier.closes(), if !questions.closing => {
+                    questions.closing = true;
+                    let waiting = std::mem::take(&mut questions.waiting);
+                    replies.extend(waiting.into_iter().flat_map(|(number, _)| ServerMessage::closing(number)));
+                    continue;
+                }
+                _ = ping.tick() => {
+                    replies.push_back(Message::Ping(Bytes::new()));
+                    continue;
+                }
+                () = std::future::ready(()), if is_over => break parting(close_code::AWAY, "The server ends."),
+            };
+            match heard {
+                Some(Ok(Message::Text(text))) => match self.hear(&text, &mut questions, &pieces) {
+                    Ok(reply) => replies.extend(reply),
+                    Err(why) => break parting(close_code::POLICY, &why),
+                },
+                Some(Ok(Message::Binary(_))) => break parting(close_code::UNSUPPORTED, "Text expected."),
+                Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
+                Some(Err(error)) => break parting(close_code::PROTOCOL, &error.to_string()),
+                Some(Ok(Message::Close(_))) | None => {
+                    let _ = tokio::time::timeout(self.carrier.patience, sink.close()).await;
+                    return;
+                }
+            }
+        };
+        let _ = tokio::time::timeout(self.carrier.patience, sink.send(parting)).await;
     }
 
-    /// Begins or ends a question.
+    /// Begins, holds back, refuses or ends a question; gives the message that answers it at once.
     ///
     /// # Errors
     /// Why the client cannot be understood.
-    fn hear(&self, text: &str, open: &mut Open, pieces: &mpsc::Sender<Piece>) -> Result<(), String> {
-        match serde_json::from_str(text).map_err(|error| error.to_string())? {
-            Said { ask: Some(number), body: Some(body), end: None } => {
-                if open.numbers.contains_key(&number) {
+    fn hear(
+        &self,
+        text: &str,
+        questions: &mut Questions,
+        pieces: &mpsc::Sender<Piece>,
+    ) -> Result<Option<Message>, String> {
+        let reply = match serde_json::from_str(text).map_err(|error| error.to_string())? {
+            ClientMessage { ask: Some(number), body: Some(body), end: None } => {
+                if questions.knows(number) {
                     return Err(format!("Question {number} is open already."));
                 }
-                let answer = answer(self.carrier.clone(), self.request(body.get()), number, pieces.clone());
-                open.numbers.insert(number, open.tasks.spawn(answer));
-            }
-            Said { ask: None, body: None, end: Some(number) } => {
-                // It may have been answered in the meantime.
-                if let Some(task) = open.numbers.remove(&number) {
-                    task.abort();
+                if questions.closing {
+                    Some(ServerMessage::closing(number))
+                } else if questions.may_wait(&self.carrier.limits) {
+                    questions.waiting.push_back((number, body.get().to_owned()));
+                    self.start_waiting(questions, pieces);
+                    None
+                } else {
+                    let problem = Problem::new(Code::Busy, "Too many questions wait on this line.");
+                    Some(ServerMessage::failed(number, problem.retry_after(RETRY_AFTER_S)))
                 }
             }
+            ClientMessage { ask: None, body: None, end: Some(number) } => {
+                // Its last piece may have gone out in the meantime.
+                questions.end(number).then(|| ServerMessage::given_up(number))
+            }
             _ => return Err("{\"ask\": NUMBER, \"body\": {..}} or {\"end\": NUMBER} expected.".to_owned()),
+        };
+        reply.transpose().map_err(|error| error.to_string())
+    }
+
+    /// Starts questions that wait, as many as may run at the same time.
+    fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<Piece>) {
+        while (questions.tasks.len() as u64) < self.carrier.limits.line_questions.max(1)
+            && let Some((number, body)) = questions.waiting.pop_front()
+        {
+            let answer = answer(self.carrier.clone(), self.request(body), number, pieces.clone());
+            questions.running.insert(number, questions.tasks.spawn(answer));
         }
-        Ok(())
     }
 
     /// The request that a question would have been.
-    fn request(&self, body: &str) -> Request<Body> {
-        let mut request = Request::new(Body::from(body.to_owned()));
+    fn request(&self, body: String) -> Request<Body> {
+        let mut request = Request::new(Body::from(body));
         *request.method_mut() = axum::http::Method::POST;
         *request.uri_mut() = axum::http::Uri::from_static(self.path);
         *request.headers_mut() = self.headers.clone();
@@ -200,22 +318,33 @@ impl Line {
     }
 }
 
-/// Asks, and tells what comes until it is over or given up.
+/// Asks, and passes the reply on until it is over or given up.
 async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<Piece>) {
     let (reply, _busy) = carrier.ask(request).await;
-    let mut told = Told { ask, head: Some(Head::of(&reply)), last: false };
+    pass_on(reply, ask, pieces).await;
+}
+
+/// Sends a reply in pieces. Where its body breaks off, the last piece is a problem.
+async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<Piece>) {
+    let mut head = ServerMessage { ask, head: Some(Head::of(&reply)), last: false };
     let mut body = reply.into_body();
     let mut piece = next(&mut body).await;
-    while !told.last {
+    while !head.last {
         // Whether it is the last is mostly known at once, and each message costs the reader a task.
-        let following = if piece.is_some() { next(&mut body).now_or_never() } else { Some(None) };
-        told.last = matches!(following, Some(None));
-        let Ok(message) = message(&told, &piece.unwrap_or_default()) else { return };
-        let part = Piece { message, ends: told.last.then(task::id) };
+        let following =
+            if matches!(piece, Some(Ok(_))) { next(&mut body).now_or_never() } else { Some(None) };
+        head.last = matches!(following, Some(None));
+        let message = piece.unwrap_or_else(|| Ok(Bytes::new())).and_then(|bytes| head.with(&bytes));
+        let message = message.or_else(|error| {
+            head.last = true;
+            ServerMessage::failed(ask, Problem::internal(error))
+        });
+        let Ok(message) = message else { return };
+        let part = Piece { ask, task: task::id(), message, is_last: head.last };
         if pieces.send(part).await.is_err() {
             return;
         }
-        told.head = None;
+        head.head = None;
         piece = match following {
             Some(piece) => piece,
             None => next(&mut body).await,
@@ -224,22 +353,43 @@ async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc
 }
 
 /// The next piece of a body; `None` after the last.
-async fn next(body: &mut Body) -> Option<Bytes> {
+async fn next(body: &mut Body) -> Option<Result<Bytes, axum::Error>> {
     loop {
-        if let Ok(bytes) = body.frame().await?.ok()?.into_data() {
-            return Some(bytes);
+        match body.frame().await? {
+            Ok(frame) => {
+                if let Ok(bytes) = frame.into_data() {
+                    return Some(Ok(bytes));
+                }
+            }
+            Err(error) => return Some(Err(error)),
         }
     }
-}
-
-fn message(told: &Told, piece: &[u8]) -> Result<Message, Box<dyn std::error::Error>> {
-    let mut text = serde_json::to_vec(told)?;
-    text.push(b'\n');
-    text.extend_from_slice(piece);
-    Ok(Message::Text(Utf8Bytes::try_from(Bytes::from(text))?))
 }
 
 fn parting(code: u16, reason: &str) -> Message {
     let reason: String = reason.chars().filter(char::is_ascii).take(REASON_BYTES).collect();
     Message::Close(Some(CloseFrame { code, reason: reason.into() }))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed test panics")]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_body_that_breaks_off_ends_with_a_problem() {
+        let chunks = [Ok("{}\n"), Err(std::io::Error::other("the disk is gone"))];
+        let reply = Response::new(Body::from_stream(futures_util::stream::iter(chunks)));
+        let (pieces, mut ready) = mpsc::channel(PIECES);
+        tokio::spawn(pass_on(reply, 7, pieces)).await.unwrap();
+        let mut texts = Vec::new();
+        while let Some(piece) = ready.recv().await {
+            texts.push((piece.is_last, piece.message.into_text().unwrap().to_string()));
+        }
+        assert_eq!(texts.len(), 2, "{texts:?}");
+        assert_eq!(texts[0], (false, "{\"ask\":7,\"status\":200}\n{}\n".to_owned()));
+        let (head, problem) = texts[1].1.split_once('\n').unwrap();
+        assert_eq!((texts[1].0, head), (true, r#"{"ask":7,"status":500,"last":true}"#));
+        assert!(problem.contains(r#""code":"internal""#), "{problem}");
+    }
 }

@@ -61,7 +61,7 @@ fn guided(arguments: &[String]) -> anyhow::Result<Outcome> {
         }
     }
     if !failed.is_empty() {
-        bail!("findings in {}: see {}", failed.join(", "), target.display());
+        bail!("{} failed; inputs that break a reader are in {}", failed.join(", "), target.display());
     }
     Ok(Outcome::Passed)
 }

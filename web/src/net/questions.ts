@@ -1,5 +1,6 @@
 // Questions that are open on a line which carries several at once, told apart by numbers.
 import type { Head } from './line';
+import { faultOf } from './problem';
 
 /** A question on its way: whoever waits for its head, and what has come and was not read yet. */
 class Question<Piece> {
@@ -11,6 +12,8 @@ class Question<Piece> {
   });
   readonly #come: Piece[] = [];
   #over: { readonly error: unknown } | null = null;
+  /** Its head was heard. */
+  isAnswered = false;
   #wake: (() => void) | null = null;
 
   add(pieces: readonly Piece[]): void {
@@ -79,9 +82,12 @@ export class Questions<Piece> {
     const question = this.#open.get(id);
     if (!question) return;
     if (last) this.#open.delete(id);
+    // A second head says why the answer breaks off.
+    const broken = question.isAnswered && head?.problem ? new Error(faultOf(head.problem)) : null;
     if (head) question.head(head);
+    question.isAnswered ||= head !== null;
     question.add(pieces);
-    if (last) question.end();
+    if (last) question.end(broken);
   }
 
   fail(id: number, error: Error): void {

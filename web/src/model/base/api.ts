@@ -82,6 +82,9 @@ export interface paths {
          *     the client's choice, or gives up: `{"end": 1}`. What is told of a question is a line `{"ask": 1, "status": 200}`,
          *     in the first message with `retry_after_s` and `scene` (the header `Dragtraffic-Scene`) where the reply would have
          *     them, in the last one with `"last": true`; after it come lines as a `POST` streams them as NDJSON, or the problem.
+         *     A question that is given up ends with `{"ask": 1, "last": true}` too, and then its number is free. One whose answer
+         *     breaks off ends with a second `status` and its problem. Questions beyond `line_questions` wait until another one
+         *     ends; while 64 wait, or 1 MB (`line_bytes`), a further one is refused with 503 `busy`.
          */
         get: operations["openLine"];
         put?: never;
