@@ -153,8 +153,17 @@ const HOUSES: &[House] = &[
             &["subgoal", "resources", "samples"],
             &["actor", "choice", "via_steering"],
             &["trajectory", "drafts", "window_setting"],
-            &["others", "repulsion", "replan", "candidates", "draft_traces", "duplicate_modes", "report"],
-            &["joint_drafts", "costs", "guidance", "overlaps", "variations"],
+            &[
+                "others",
+                "repulsion",
+                "replan",
+                "candidates",
+                "road_rules",
+                "draft_traces",
+                "duplicate_modes",
+                "report",
+            ],
+            &["joint_drafts", "costs", "decisions", "guidance", "overlaps", "variations"],
             &["decide", "diversity", "draft_relations"],
             &["sampling"],
             &["drafting"],
@@ -275,6 +284,32 @@ fn crates_import_what_the_architecture_allows() {
             );
         }
     }
+}
+
+#[test]
+fn type_names_of_the_engine_are_unique() {
+    let mut homes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in files(&root().join("models/experts/src")).unwrap() {
+        let path = file.to_str().unwrap().to_owned();
+        if path.ends_with("tests.rs") {
+            continue;
+        }
+        for line in std::fs::read_to_string(&file).unwrap().lines() {
+            let mut words =
+                line.split_whitespace().skip_while(|word| word.starts_with("pub") || word.ends_with(')'));
+            if matches!(words.next(), Some("struct" | "enum" | "trait")) {
+                let word = words.next().unwrap_or_default();
+                // What a macro names begins with a `$`.
+                let name: String = word.chars().take_while(|c| c.is_alphanumeric()).collect();
+                if !name.is_empty() {
+                    homes.entry(name).or_default().insert(path.clone());
+                }
+            }
+        }
+    }
+    assert!(homes.len() > 200, "{} types", homes.len());
+    let shared: Vec<_> = homes.iter().filter(|(_, files)| files.len() > 1).collect();
+    assert!(shared.is_empty(), "{shared:?}");
 }
 
 /// Constants of floating point numbers in a text, by name; tests at its end are left out.

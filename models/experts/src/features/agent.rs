@@ -2,7 +2,7 @@
 
 use super::AgentFeatures;
 use super::ahead::PathFacts;
-use super::encode::{self, Frame};
+use super::encode::{self, AgentFrame};
 use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::anchors::{Anchor, anchors};
@@ -63,7 +63,7 @@ pub fn plan(world: &World<'_>, who: &AgentAtStart) -> AgentPlan {
 pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) -> AgentPlan {
     let model = world.model(who);
     let target = world.target(who);
-    let frame = Frame::of(who);
+    let frame = AgentFrame::of(who);
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);
     let mut lights: [Vec<Gate>; MODES] = Default::default();

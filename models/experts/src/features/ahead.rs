@@ -20,19 +20,19 @@ pub(super) struct PathFacts {
     /// Standing road users on the path within [`QUEUE_M`].
     pub(super) queue: usize,
     /// The first light on the path.
-    pub(super) light: Option<Light>,
+    pub(super) light: Option<LightAhead>,
     /// Distance to the first stop sign, metres.
     pub(super) stop_sign_m: Option<f64>,
     /// Whose straight way on crosses the path soonest.
-    pub(super) crossing: Option<Crossing>,
+    pub(super) crossing: Option<CrossingAhead>,
     /// The first junction on the path.
-    pub(super) junction: Option<Junction>,
+    pub(super) junction: Option<JunctionAhead>,
     /// Lanes that run beside the first one: the same way on its left and on its right, the other way.
     pub(super) beside: [usize; 3],
 }
 
 /// A light on a path.
-pub(super) struct Light {
+pub(super) struct LightAhead {
     pub(super) state: SignalState,
     pub(super) distance_m: f64,
     /// How long it has been in this state.
@@ -41,7 +41,7 @@ pub(super) struct Light {
 
 /// Where another road user, going straight on, meets a path.
 #[derive(Clone, Copy)]
-pub(super) struct Crossing {
+pub(super) struct CrossingAhead {
     /// Along the path.
     pub(super) distance_m: f64,
     /// When it is there.
@@ -50,7 +50,7 @@ pub(super) struct Crossing {
 }
 
 /// The first junction on a path, as the map's connecting lanes say.
-pub(super) struct Junction {
+pub(super) struct JunctionAhead {
     pub(super) from_m: f64,
     pub(super) to_m: f64,
     /// How far the path turns in it, radians to the left.
@@ -69,7 +69,7 @@ impl PathFacts {
         let light = anchor.route.as_ref().and_then(|route| {
             let ahead = speed::first_signal(route, &world.graph, &world.signals)?;
             let age_s = world.signal_ages_s.get(ahead.index).copied()?;
-            Some(Light { state: ahead.state, distance_m: ahead.distance_m, age_s })
+            Some(LightAhead { state: ahead.state, distance_m: ahead.distance_m, age_s })
         });
         let stop_sign_m =
             anchor.route.as_ref().and_then(|route| speed::stop_sign_distance_m(route, &world.graph));
@@ -89,7 +89,7 @@ impl PathFacts {
 }
 
 /// The first junction that a route passes, or in which it begins.
-fn junction(route: &Route, graph: &LaneGraph) -> Option<Junction> {
+fn junction(route: &Route, graph: &LaneGraph) -> Option<JunctionAhead> {
     let connects = |leg: &Leg| graph.lanes()[leg.lane].interpolating;
     let first = route.legs.iter().position(connects)?;
     let through = route.legs[first..].iter().take_while(|leg| connects(leg)).count();
@@ -97,7 +97,7 @@ fn junction(route: &Route, graph: &LaneGraph) -> Option<Junction> {
     let (from_m, to_m) = (route.legs[first].path_from_m, last.path_from_m + last.to_m - last.from_m);
     let heading = |s_m: f64| route.path.sample(s_m).heading_rad;
     let ways = first.checked_sub(1).map_or(1, |k| graph.lanes()[route.legs[k].lane].successors.len());
-    Some(Junction { from_m, to_m, turn_rad: wrap_angle(heading(to_m) - heading(from_m)), ways })
+    Some(JunctionAhead { from_m, to_m, turn_rad: wrap_angle(heading(to_m) - heading(from_m)), ways })
 }
 
 /// Lanes beside the start of a route: see [`PathFacts::beside`].
@@ -111,8 +111,8 @@ fn beside(route: &Route, graph: &LaneGraph) -> [usize; 3] {
 }
 
 /// The road user whose straight way on meets the path soonest.
-fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<Crossing> {
-    let mut soonest: Option<Crossing> = None;
+fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<CrossingAhead> {
+    let mut soonest: Option<CrossingAhead> = None;
     for other in obstacles.iter().filter(|o| o.speed_mps > 0.5) {
         let (from, ahead) = (other.outline.center(), other.outline.forward());
         for seconds in [1.0, 2.0, 3.0, 4.5, 6.0] {
@@ -124,7 +124,7 @@ fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<Crossing> 
             let across = direction(foot.heading_rad).dot(&ahead).abs() < 0.75;
             if foot.s_m > 3.0 && across {
                 let speed_mps = other.speed_mps;
-                soonest = Some(Crossing { distance_m: foot.s_m, time_s: seconds, speed_mps });
+                soonest = Some(CrossingAhead { distance_m: foot.s_m, time_s: seconds, speed_mps });
                 break;
             }
         }

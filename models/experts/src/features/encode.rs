@@ -1,7 +1,7 @@
 //! A road user, its neighbours and its anchors as rows of the tables.
 
 use super::NEIGHBOURS;
-use super::ahead::{Light, PathFacts};
+use super::ahead::{LightAhead, PathFacts};
 use super::block::{encoded, flag};
 use super::tables::{
     ANCHOR, AnchorInputs, BASE_STEPS, BaseInstant, KindFlags, LightFlags, NEIGHBOUR, Neighbour, OWN, Own,
@@ -23,12 +23,12 @@ const FAR_M: f64 = 100.0;
 const NEVER_S: f64 = 12.0;
 
 /// The road user's frame: x ahead, y left.
-pub(super) struct Frame {
+pub(super) struct AgentFrame {
     origin: Vec2,
     heading_rad: f64,
 }
 
-impl Frame {
+impl AgentFrame {
     pub(super) fn of(who: &AgentAtStart) -> Self {
         Self { origin: who.start.position(), heading_rad: who.start.heading_rad }
     }
@@ -61,7 +61,7 @@ pub(super) fn own(
     who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
-    frame: &Frame,
+    frame: &AgentFrame,
 ) -> [f32; OWN] {
     let v0 = model.start_speed_mps();
     let subtype = world.agent(who).subtype;
@@ -111,7 +111,7 @@ pub(super) fn own(
 }
 
 /// The others that matter most: near ones first, those ahead before those behind, moving before standing.
-pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
+pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &AgentFrame) -> Vec<[f32; NEIGHBOUR]> {
     let mut order: Vec<(f64, &AgentAtStart)> = world
         .present
         .iter()
@@ -129,7 +129,7 @@ pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &Frame) -
     order.into_iter().map(|(_, p)| neighbour(world, p, frame)).collect()
 }
 
-fn neighbour(world: &World<'_>, other: &AgentAtStart, frame: &Frame) -> [f32; NEIGHBOUR] {
+fn neighbour(world: &World<'_>, other: &AgentAtStart, frame: &AgentFrame) -> [f32; NEIGHBOUR] {
     let local = frame.point(other.start.position());
     let heading = frame.heading(other.start.heading_rad);
     let velocity = frame.vector(other.start.velocity());
@@ -155,7 +155,7 @@ fn neighbour(world: &World<'_>, other: &AgentAtStart, frame: &Frame) -> [f32; NE
     })
 }
 
-fn light_flags(light: Option<&Light>) -> LightFlags {
+fn light_flags(light: Option<&LightAhead>) -> LightFlags {
     let state = light.map(|light| light.state);
     LightFlags {
         known: flag(state.is_some()),
@@ -165,7 +165,7 @@ fn light_flags(light: Option<&Light>) -> LightFlags {
     }
 }
 
-fn path_points(frame: &Frame, anchor: &Anchor) -> [PathPoint; PATH_POINTS] {
+fn path_points(frame: &AgentFrame, anchor: &Anchor) -> [PathPoint; PATH_POINTS] {
     let reach_m = 1.3 * anchor.base[HORIZON_STEPS].max(12.0);
     std::array::from_fn(|i| {
         let s = reach_m * (i + 1) as f64 / PATH_POINTS as f64;
@@ -184,7 +184,7 @@ fn path_points(frame: &Frame, anchor: &Anchor) -> [PathPoint; PATH_POINTS] {
 }
 
 /// An anchor in its slot, with what lies ahead on its path.
-pub(super) fn anchor(frame: &Frame, anchor: &Anchor, facts: &PathFacts, slot: usize) -> [f32; ANCHOR] {
+pub(super) fn anchor(frame: &AgentFrame, anchor: &Anchor, facts: &PathFacts, slot: usize) -> [f32; ANCHOR] {
     let base = &anchor.base;
     let route = anchor.route.as_ref();
     let light = facts.light.as_ref();

@@ -12,10 +12,10 @@ use scene::motion::{Gear, Kind};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
 
 /// A road user that gets new futures.
-pub(super) struct Actor {
+pub(super) struct PlannedActor {
     pub(super) id: AgentId,
     pub(super) plan: AgentPlan,
-    /// What it does without this call; reacting road users keep it unless something is in the way.
+    /// Its motion without this call. A reacting agent keeps it unless another is in the way.
     pub(super) kept: Option<Vec<State>>,
     /// The future that a person picked: it stays as it is.
     pub(super) pinned: Option<Vec<State>>,
@@ -46,7 +46,7 @@ pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
     order
 }
 
-impl Actor {
+impl PlannedActor {
     /// A road user with a plan; `kept` is the motion that it has without this call, if it has one.
     pub(super) fn new(id: AgentId, plan: AgentPlan, kept: Option<Vec<State>>) -> Self {
         Self {
@@ -125,7 +125,7 @@ impl Actor {
         self.rests && (self.stays_parked || !self.plan.is_free())
     }
 
-    /// Nobody can make it move otherwise: it rests, or a person picked its future.
+    /// Its motion is fixed: it rests, or a person picked its future.
     pub(super) fn keeps_still(&self) -> bool {
         self.rests || self.pinned.is_some()
     }

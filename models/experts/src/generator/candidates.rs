@@ -1,6 +1,6 @@
-//! What an actor could do, each with where it came from. The choice picks one of them for every actor.
+//! The candidate motions of an actor, each with its origin. The choice picks one of them for every actor.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::choice::distance;
 use super::drafts::Drafts;
 use super::slot::Slot;
@@ -14,10 +14,10 @@ use scene::motion::Reach;
 use scene::{AgentType, Vec2};
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
-/// only candidate that its actor has ([`Origin::Pinned`]). A rejected one belongs here as well: the modes
+/// only candidate that its actor has ([`CandidateOrigin::Pinned`]). A rejected one belongs here as well: the modes
 /// near it are taken out in [`candidates`], before anything is made from them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(super) enum CandidateOrigin {
     /// The motion that a reacting actor has without this call.
     Kept,
     /// The future that a person picked.
@@ -28,19 +28,19 @@ pub(super) enum Origin {
     Mode(Slot),
     /// The mean of all modes of one path, nearest to this one.
     PathMean(Slot),
-    /// What a person has seen last of this mode, brought to the goal as it is now.
+    /// The motion that a person has seen last of this mode, brought to the present goal.
     Shown(Slot),
     /// The draft of this mode after overlaps were resolved.
     Settled(Slot),
     /// The draft of this mode, guided out of a conflict of the chosen scene.
     Guided(Slot),
-    /// What was chosen on the path of this mode, led round what is in its way.
+    /// A motion on the path of this mode that swerves for what is in its way.
     Swerving(Slot),
-    /// What was chosen on the path of this mode, halting before whoever is in its way.
+    /// A motion on the path of this mode that stops before what is in its way.
     Stopping(Slot),
 }
 
-impl Origin {
+impl CandidateOrigin {
     /// The mode that it is, was made from, or is nearest to.
     pub(super) fn slot(self) -> Option<Slot> {
         match self {
@@ -69,35 +69,37 @@ impl Origin {
 
 /// One thing that an actor could do.
 #[derive(Clone, Debug)]
-pub(super) struct Candidate {
+pub(super) struct MotionCandidate {
     /// Of an alternative; zero for what is given or was made from alternatives.
     pub(super) probability: f64,
     /// Where it came from.
-    pub(super) origin: Origin,
-    /// What it is.
+    pub(super) origin: CandidateOrigin,
+    /// The motion itself.
     pub(super) motion: Rollout,
 }
 
 /// The drafts of one actor in one sample, to make candidates from.
 pub(super) struct Material<'a> {
-    pub(super) actor: &'a Actor,
+    pub(super) actor: &'a PlannedActor,
     pub(super) drafts: &'a Drafts,
     /// Planning window, from 0.
     pub(super) window: usize,
     pub(super) tuning: &'a MiddleTuning,
-    /// What a person has seen last, in the sample and window that follow it.
+    /// The future that a person has seen last, in the sample and window that follow it.
     pub(super) shown: Option<&'a ShownLast>,
 }
 
 impl Material<'_> {
     /// All that the actor could do, in the order in which ties are decided. What is given comes first.
-    pub(super) fn candidates(&self) -> Vec<Candidate> {
-        let Actor { plan, pinned, kept, .. } = self.actor;
-        let given = |origin, states| Candidate { probability: 0.0, origin, motion: as_it_is(plan, states) };
+    pub(super) fn candidates(&self) -> Vec<MotionCandidate> {
+        let PlannedActor { plan, pinned, kept, .. } = self.actor;
+        let given =
+            |origin, states| MotionCandidate { probability: 0.0, origin, motion: as_it_is(plan, states) };
         if let Some(pinned) = pinned {
-            return vec![given(Origin::Pinned, pinned)];
+            return vec![given(CandidateOrigin::Pinned, pinned)];
         }
-        let mut out: Vec<Candidate> = kept.iter().map(|kept| given(Origin::Kept, kept)).collect();
+        let mut out: Vec<MotionCandidate> =
+            kept.iter().map(|kept| given(CandidateOrigin::Kept, kept)).collect();
         let alternatives = self.alternatives(MODES);
         let means = self.path_means(&alternatives);
         let missed = alternatives.iter().all(|c| !c.motion.reach.is_reached());
@@ -108,15 +110,15 @@ impl Material<'_> {
         if let Some(residual) = &self.drafts.settled {
             let slot = self.drafts.leading;
             let motion = self.without_creep(to_trajectory(plan, slot, residual));
-            out.push(Candidate { probability: 0.0, origin: Origin::Settled(slot), motion });
+            out.push(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Settled(slot), motion });
         }
         out
     }
 
-    /// What was shown last, where it led next to the goal of now: so a hand that moves by little sees a motion that
-    /// moves by little, whatever the modes make of it. Where no draft gets to the goal (`missed` says why), it need
+    /// The motion that was shown last, where it led next to the present goal: a goal that moves by little then moves the
+    /// motion by little, whatever the modes are. Where no draft gets to the goal (`missed` says why), it need
     /// not either.
-    fn shown_last(&self, missed: Option<Reach>) -> Option<Candidate> {
+    fn shown_last(&self, missed: Option<Reach>) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
         let plan = &self.actor.plan;
         let motion = match missed {
@@ -124,17 +126,21 @@ impl Material<'_> {
             None if near => along_places(plan, slot, &places),
             None => return None,
         };
-        Some(Candidate { probability: 0.0, origin: Origin::Shown(slot), motion })
+        Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Shown(slot), motion })
     }
 
-    /// The same where what was shown last halts before somebody.
-    pub(super) fn shown_stopping(&self) -> Option<Candidate> {
+    /// The same where the motion that was shown last stops before another agent.
+    pub(super) fn shown_stopping(&self) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
         let motion = || short_along(&self.actor.plan, &places, false);
-        (!near).then(|| Candidate { probability: 0.0, origin: Origin::Stopping(slot), motion: motion() })
+        (!near).then(|| MotionCandidate {
+            probability: 0.0,
+            origin: CandidateOrigin::Stopping(slot),
+            motion: motion(),
+        })
     }
 
-    /// What was shown last: its mode, its places, and whether they lead next to the goal of now.
+    /// The mode and the places of the motion that was shown last, and whether they lead next to the present goal.
     fn seen(&self) -> Option<(Slot, [Vec2; INSTANTS], bool)> {
         let shown = self.shown.filter(|_| !self.actor.only_rests() && self.actor.kept.is_none())?;
         let slot = Slot::all().find(|slot| Some(slot.number()) == shown.anchor)?;
@@ -153,14 +159,18 @@ impl Material<'_> {
     }
 
     /// Rest where the actor may rest, then modes by falling probability, `count` in all.
-    pub(super) fn alternatives(&self, count: usize) -> Vec<Candidate> {
+    pub(super) fn alternatives(&self, count: usize) -> Vec<MotionCandidate> {
         let actor = self.actor;
         let mut out = Vec::with_capacity(count);
         let mut share = 1.0;
         if actor.rests {
             let certain = actor.only_rests();
             let probability = if certain { 1.0 } else { actor.stays_probability };
-            out.push(Candidate { probability, origin: Origin::Rest, motion: rest(&actor.plan) });
+            out.push(MotionCandidate {
+                probability,
+                origin: CandidateOrigin::Rest,
+                motion: rest(&actor.plan),
+            });
             if certain {
                 return out;
             }
@@ -171,34 +181,34 @@ impl Material<'_> {
             let residual = slot.of(&self.drafts.modes).map(|r| learned * r);
             let motion = self.without_creep(to_trajectory(&actor.plan, slot, &residual));
             let probability = share * self.drafts.probability[slot.index()];
-            out.push(Candidate { probability, origin: Origin::Mode(slot), motion });
+            out.push(MotionCandidate { probability, origin: CandidateOrigin::Mode(slot), motion });
         }
         out
     }
 
     /// Where no mode is the middle of what may happen, the mean of each path's modes, which is nearer to all of
     /// them than any one is.
-    fn path_means(&self, alternatives: &[Candidate]) -> Vec<Candidate> {
+    fn path_means(&self, alternatives: &[MotionCandidate]) -> Vec<MotionCandidate> {
         let actor = self.actor;
         if middle(actor).is_some() || actor.only_rests() {
             return Vec::new();
         }
         let path = |slot: Slot| actor.plan.anchors[slot.index()].path_identity();
-        let mut paths: Vec<(Slot, Vec<(Slot, &Candidate)>)> = Vec::new();
+        let mut paths: Vec<(Slot, Vec<(Slot, &MotionCandidate)>)> = Vec::new();
         for mode in alternatives {
-            let Origin::Mode(slot) = mode.origin else { continue };
+            let CandidateOrigin::Mode(slot) = mode.origin else { continue };
             match paths.iter_mut().find(|(first, _)| path(*first) == path(slot)) {
                 Some((_, modes)) => modes.push((slot, mode)),
                 None => paths.push((slot, vec![(slot, mode)])),
             }
         }
-        let mean = |(first, modes): (Slot, Vec<(Slot, &Candidate)>)| {
+        let mean = |(first, modes): (Slot, Vec<(Slot, &MotionCandidate)>)| {
             let drafts: Vec<_> =
                 modes.iter().map(|(slot, m)| (m.probability, *slot, slot.of(&self.drafts.modes))).collect();
             let motion = self.without_creep(mean_trajectory(&actor.plan, first, &drafts));
-            let apart = |m: &Candidate| distance(&m.motion.states, &motion.states);
+            let apart = |m: &MotionCandidate| distance(&m.motion.states, &motion.states);
             let (nearest, _) = modes.iter().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)))?;
-            Some(Candidate { probability: 0.0, origin: Origin::PathMean(*nearest), motion })
+            Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::PathMean(*nearest), motion })
         };
         paths.into_iter().filter(|(_, modes)| modes.len() > 1).filter_map(mean).collect()
     }
@@ -223,7 +233,7 @@ impl Material<'_> {
 }
 
 /// Share of what was learned in the mode in the middle.
-pub(super) fn learned_share(actor: &Actor, tuning: &MiddleTuning) -> f32 {
+pub(super) fn learned_share(actor: &PlannedActor, tuning: &MiddleTuning) -> f32 {
     let share = match actor.plan.present.agent_type {
         AgentType::Pedestrian => tuning.learned_on_foot,
         _ => tuning.learned,
@@ -232,48 +242,48 @@ pub(super) fn learned_share(actor: &Actor, tuning: &MiddleTuning) -> f32 {
 }
 
 /// The mode that is the middle of what may happen, where there is a place to go.
-pub(super) fn middle(actor: &Actor) -> Option<Slot> {
+pub(super) fn middle(actor: &PlannedActor) -> Option<Slot> {
     let moves = actor.pinned.is_none() && !actor.rests;
     (moves && actor.plan.target.position.is_some()).then_some(Slot::FIRST)
 }
 
 /// The candidate that is shown where nothing is chosen: what is given or rests, else the leading draft.
-pub(super) fn own(actor: &Actor, leading: Slot, candidates: &[Candidate]) -> usize {
-    let of = |origin: Origin| candidates.iter().position(|c| c.origin == origin);
+pub(super) fn own(actor: &PlannedActor, leading: Slot, candidates: &[MotionCandidate]) -> usize {
+    let of = |origin: CandidateOrigin| candidates.iter().position(|c| c.origin == origin);
     if actor.pinned.is_some() || actor.kept.is_some() || actor.rests {
         return 0;
     }
-    of(Origin::Settled(leading)).or_else(|| of(Origin::Mode(leading))).unwrap_or(0)
+    of(CandidateOrigin::Settled(leading)).or_else(|| of(CandidateOrigin::Mode(leading))).unwrap_or(0)
 }
 
 /// The alternatives of an answer by falling probability, at most `count`, and which of them is shown; `None` where the
 /// actor goes on with what it was given. A shown candidate that is no alternative takes the place of the one of its
 /// slot. `lawful` is the share of each candidate's probability that is left to it by the rules it breaks.
 pub(super) fn shown(
-    candidates: Vec<Candidate>,
+    candidates: Vec<MotionCandidate>,
     lawful: &[f64],
     chosen: usize,
     count: usize,
-) -> Option<(usize, Vec<Candidate>)> {
-    let Candidate { origin, motion, .. } = candidates.get(chosen)?.clone();
+) -> Option<(usize, Vec<MotionCandidate>)> {
+    let MotionCandidate { origin, motion, .. } = candidates.get(chosen)?.clone();
     if origin.is_given() {
         return None;
     }
-    let stands_for = |c: &Candidate| match origin {
-        Origin::Rest => c.origin == Origin::Rest,
+    let stands_for = |c: &MotionCandidate| match origin {
+        CandidateOrigin::Rest => c.origin == CandidateOrigin::Rest,
         _ => c.origin.slot() == origin.slot(),
     };
     let weighed = candidates.into_iter().zip(lawful);
-    let mut out: Vec<(Candidate, f64)> =
+    let mut out: Vec<(MotionCandidate, f64)> =
         weighed.filter(|(c, _)| c.origin.is_alternative()).map(|(c, share)| (c, *share)).collect();
     let at = out.iter().position(|(c, _)| stands_for(c))?;
-    out[at] = (Candidate { origin, motion, ..out[at].0 }, *lawful.get(chosen)?);
+    out[at] = (MotionCandidate { origin, motion, ..out[at].0 }, *lawful.get(chosen)?);
     let all: f64 = out.iter().map(|(c, _)| c.probability).sum();
     let left: f64 = out.iter().map(|(c, share)| c.probability * share).sum();
     for (c, share) in &mut out {
         c.probability *= *share * all / left.max(f64::MIN_POSITIVE);
     }
-    let mut out: Vec<(usize, Candidate)> = out.into_iter().map(|(c, _)| c).enumerate().collect();
+    let mut out: Vec<(usize, MotionCandidate)> = out.into_iter().map(|(c, _)| c).enumerate().collect();
     out.sort_by(|a, b| b.1.probability.total_cmp(&a.1.probability));
     let mut place = out.iter().position(|(i, _)| *i == at)?;
     if place >= count {
@@ -299,12 +309,12 @@ mod tests {
     use crate::generator::samples::car_on_a_street;
     use scene::Goal;
 
-    fn candidate(probability: f64, origin: Origin) -> Candidate {
-        Candidate { probability, origin, motion: rest(&car_on_a_street(0.0, Goal::default())) }
+    fn candidate(probability: f64, origin: CandidateOrigin) -> MotionCandidate {
+        MotionCandidate { probability, origin, motion: rest(&car_on_a_street(0.0, Goal::default())) }
     }
 
-    fn six() -> Vec<Candidate> {
-        Slot::all().map(|slot| candidate(0.1, Origin::Mode(slot))).collect()
+    fn six() -> Vec<MotionCandidate> {
+        Slot::all().map(|slot| candidate(0.1, CandidateOrigin::Mode(slot))).collect()
     }
 
     #[test]
@@ -312,10 +322,13 @@ mod tests {
         let slot = Slot::new(3);
         let mut all = six();
         all[3].probability = 0.5;
-        all.push(candidate(0.0, Origin::Guided(slot)));
+        all.push(candidate(0.0, CandidateOrigin::Guided(slot)));
         let (at, alternatives) = shown(all, &[1.0; 7], 6, 6).unwrap();
         assert_eq!((at, alternatives.len()), (0, 6));
-        assert_eq!((alternatives[0].origin, alternatives[0].probability), (Origin::Guided(slot), 0.5));
+        assert_eq!(
+            (alternatives[0].origin, alternatives[0].probability),
+            (CandidateOrigin::Guided(slot), 0.5)
+        );
     }
 
     #[test]
@@ -331,36 +344,42 @@ mod tests {
     #[test]
     fn what_is_shown_in_place_of_a_mode_that_breaks_rules_is_weighed_by_what_it_does_itself() {
         let mut all = six();
-        all.push(candidate(0.0, Origin::Swerving(Slot::new(2))));
+        all.push(candidate(0.0, CandidateOrigin::Swerving(Slot::new(2))));
         let (at, alternatives) = shown(all, &[1.0, 1.0, 0.1, 1.0, 1.0, 1.0, 1.0], 6, 6).unwrap();
-        assert_eq!((at, alternatives[2].origin), (2, Origin::Swerving(Slot::new(2))));
+        assert_eq!((at, alternatives[2].origin), (2, CandidateOrigin::Swerving(Slot::new(2))));
         assert!(alternatives.iter().all(|c| (c.probability - 0.1).abs() < 1e-12));
     }
 
     #[test]
     fn what_is_shown_is_among_the_alternatives_however_few_are_asked_for() {
         let mut all = six();
-        all.push(candidate(0.0, Origin::PathMean(Slot::new(4))));
+        all.push(candidate(0.0, CandidateOrigin::PathMean(Slot::new(4))));
         let (at, alternatives) = shown(all, &[1.0; 7], 6, 2).unwrap();
-        let origins: Vec<Origin> = alternatives.iter().map(|c| c.origin).collect();
-        assert_eq!((at, origins), (0, vec![Origin::PathMean(Slot::new(4)), Origin::Mode(Slot::new(1))]));
+        let origins: Vec<CandidateOrigin> = alternatives.iter().map(|c| c.origin).collect();
+        assert_eq!(
+            (at, origins),
+            (0, vec![CandidateOrigin::PathMean(Slot::new(4)), CandidateOrigin::Mode(Slot::new(1))])
+        );
     }
 
     #[test]
     fn what_is_given_is_no_part_of_the_answer() {
-        assert!(shown(vec![candidate(0.0, Origin::Pinned)], &[1.0], 0, 6).is_none());
-        let mut reacting = vec![candidate(0.0, Origin::Kept)];
+        assert!(shown(vec![candidate(0.0, CandidateOrigin::Pinned)], &[1.0], 0, 6).is_none());
+        let mut reacting = vec![candidate(0.0, CandidateOrigin::Kept)];
         reacting.extend(six());
         assert!(shown(reacting.clone(), &[1.0; 7], 0, 6).is_none());
         let (at, alternatives) = shown(reacting, &[1.0; 7], 1, 6).unwrap();
-        assert_eq!((at, alternatives.len(), alternatives[0].origin), (0, 6, Origin::Mode(Slot::FIRST)));
+        assert_eq!(
+            (at, alternatives.len(), alternatives[0].origin),
+            (0, 6, CandidateOrigin::Mode(Slot::FIRST))
+        );
     }
 
     #[test]
     fn rest_stands_for_itself() {
-        let mut all = vec![candidate(0.7, Origin::Rest)];
+        let mut all = vec![candidate(0.7, CandidateOrigin::Rest)];
         all.extend(six().into_iter().take(5));
         let (at, alternatives) = shown(all, &[1.0; 6], 0, 6).unwrap();
-        assert_eq!((at, alternatives[0].origin, alternatives.len()), (0, Origin::Rest, 6));
+        assert_eq!((at, alternatives[0].origin, alternatives.len()), (0, CandidateOrigin::Rest, 6));
     }
 }

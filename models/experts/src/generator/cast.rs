@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) const MOST_ACTORS: usize = 128;
 
 /// The parts in a window, by index into the scene's agents.
-pub(super) struct Cast {
+pub(super) struct WindowCast {
     /// The agents that get new futures in any case.
     pub(super) acting: BTreeSet<usize>,
     /// The agents that may react to them.

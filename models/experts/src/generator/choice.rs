@@ -237,9 +237,10 @@ mod tests {
     fn pairs_move_together() {
         // Changing alone meets the other's present choice; only both together are free.
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
+        let kept = ride(8.3, 8.0, 0.0);
         let choice = Choice {
             agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)],
-            fixed: &[ride(8.3, 8.0, 0.0).boxes()],
+            fixed: &[kept.boxes()],
             tuning: &SHIPPED.choice,
         };
         assert_eq!(choice.solve(), vec![0, 1]);
@@ -247,10 +248,11 @@ mod tests {
 
     #[test]
     fn fixed_motions_are_avoided() {
+        let kept = ride(0.0, 8.0, 0.0);
         let choice = Choice {
             tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]],
-            fixed: &[ride(0.0, 8.0, 0.0).boxes()],
+            fixed: &[kept.boxes()],
         };
         assert_eq!(choice.solve(), vec![1]);
     }

@@ -1,7 +1,7 @@
-//! What each candidate of an actor costs by itself.
+//! The cost of each candidate of an actor by itself.
 
-use super::actor::Actor;
-use super::candidates::{Candidate, Origin};
+use super::actor::PlannedActor;
+use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::choice::{JointOption, medoid_costs};
 use super::motion::Sweep;
 use super::others::Others;
@@ -21,11 +21,11 @@ use scene::score::{Actor as ScoreActor, Drivable};
 use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 use std::sync::Arc;
 
-/// What an actor's candidates are held against.
+/// The standards that an actor's candidates are compared with.
 pub(super) struct Yardstick<'a> {
     /// The mode that the scene is built around.
     pub(super) around: Option<Slot>,
-    /// What a person has seen last.
+    /// The future that a person has seen last.
     pub(super) shown: Option<&'a ShownLast>,
     pub(super) map: &'a KnownMap,
     pub(super) judge: &'a Judge<'a>,
@@ -37,12 +37,16 @@ pub(super) struct Yardstick<'a> {
     pub(super) tuning: &'a ChoiceTuning,
 }
 
-/// What the joint choice weighs: one entry a candidate, in their order.
-pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_>) -> Vec<JointOption> {
+/// The options of the joint choice: one entry a candidate, in their order.
+pub(super) fn options(
+    actor: &PlannedActor,
+    candidates: &[MotionCandidate],
+    by: &Yardstick<'_>,
+) -> Vec<JointOption> {
     let tuning = by.tuning;
     let size = &actor.plan.present.size;
-    let rule_cost = |c: &Candidate| match &c.motion.states {
-        // What is given costs nothing by itself.
+    let rule_cost = |c: &MotionCandidate| match &c.motion.states {
+        // A given motion costs nothing by itself.
         _ if c.origin.is_given() => 0.0,
         states => rule_cost_of(actor, states, by) + stepping_out(actor, states, by),
     };
@@ -54,21 +58,21 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .collect(),
         None => central(&actor.plan, candidates, by.around, tuning),
     };
-    let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
+    let is_shown = |c: &MotionCandidate| matches!(c.origin, CandidateOrigin::Shown(_));
     let shown_rule_cost = candidates.iter().position(is_shown).map_or(0.0, |shown| rule_cost[shown]);
-    let option = |((c, cost), rule_cost): ((&Candidate, f64), &f64)| {
+    let option = |((c, cost), rule_cost): ((&MotionCandidate, f64), &f64)| {
         let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
         // Where the others are alike, a swerving motion is far from all of them.
         let cost = match c.origin {
-            Origin::Swerving(_) | Origin::Shown(_) => cost.min(tuning.most_swerving),
-            Origin::Stopping(_) => {
+            CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) => cost.min(tuning.most_swerving),
+            CandidateOrigin::Stopping(_) => {
                 tuning.stopping + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
             }
             _ => cost,
         };
         let binds = if *rule_cost < shown_rule_cost - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
         let cost = if c.origin.is_given() { 0.0 } else { cost + rule_cost + binds * switching(c, by) };
-        JointOption { sweep, cost, rule_cost: *rule_cost, kept: c.origin == Origin::Kept }
+        JointOption { sweep, cost, rule_cost: *rule_cost, kept: c.origin == CandidateOrigin::Kept }
     };
     candidates.iter().zip(costs).zip(&rule_cost).map(option).collect()
 }
@@ -77,18 +81,18 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
 /// point.
 fn central(
     plan: &AgentPlan,
-    candidates: &[Candidate],
+    candidates: &[MotionCandidate],
     around: Option<Slot>,
     tuning: &ChoiceTuning,
 ) -> Vec<f64> {
     let all: Vec<&Trajectory> = candidates.iter().map(|c| &c.motion.states).collect();
-    let extra = |c: &Candidate| {
+    let extra = |c: &MotionCandidate| {
         if around.is_some() && c.origin.slot() == around { tuning.around } else { 0.0 }
     };
     let alternatives = candidates.iter().filter(|c| c.origin.is_alternative());
     let weighted: Vec<(&Trajectory, f64)> =
         alternatives.map(|c| (&c.motion.states, c.probability + extra(c))).collect();
-    let missed = |c: &Candidate| {
+    let missed = |c: &MotionCandidate| {
         let goal = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
         goal + tuning.goal_missed * vias_missed(plan, &c.motion.states) as f64
     };
@@ -96,15 +100,15 @@ fn central(
 }
 
 /// A vehicle whose box lies within the road's edges at the start.
-pub(super) fn starts_on_the_road(actor: &Actor, tuning: &ChoiceTuning) -> bool {
+pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) -> bool {
     let present = &actor.plan.present;
     let outline = OrientedBox::of_state(&present.start, &present.size);
     present.agent_type == AgentType::Vehicle
         && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
-/// What it costs to brake or steer harshly, by its seconds.
-fn harsh(actor: &Actor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
+/// Cost of harsh braking or steering, by its seconds.
+fn harsh(actor: &PlannedActor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
     if actor.plan.present.agent_type == AgentType::Pedestrian {
         return 0.0;
     }
@@ -119,9 +123,9 @@ fn harsh(actor: &Actor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
     if steps > 2 { tuning.harsh + tuning.harsh_second * steps as f64 * STEP_S } else { 0.0 }
 }
 
-/// What it costs to run a red light, to brake or steer harshly, and a vehicle to leave the road or drive against the
-/// traffic.
-fn rule_cost_of(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+/// Cost of running a red light, of harsh braking or steering, and for a vehicle of leaving the road or driving against
+/// the traffic.
+fn rule_cost_of(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {
         let moved = states.iter().skip(1).map(State::from).collect();
@@ -132,8 +136,8 @@ fn rule_cost_of(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     cost
 }
 
-/// What it costs a walker without a goal to step out before a vehicle that comes fast.
-fn stepping_out(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+/// Cost to a walker without a goal of stepping out before a fast vehicle.
+fn stepping_out(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let plan = &actor.plan;
     let beside = plan.target.position.is_none() && plan.kerbs.iter().any(Option::is_some);
     if !beside || by.others.traces().next().is_none() {
@@ -145,8 +149,8 @@ fn stepping_out(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     if before_any { by.tuning.stepping_out } else { 0.0 }
 }
 
-/// What it costs to show something else than a person has seen last.
-fn switching(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
+/// Cost of showing another motion than a person has seen last.
+fn switching(candidate: &MotionCandidate, by: &Yardstick<'_>) -> f64 {
     let Some(shown) = by.shown else { return 0.0 };
     let mut apart: Vec<f64> = Vec::with_capacity(INSTANTS);
     for (i, place) in shown.places.iter().take(INSTANTS).enumerate() {
@@ -163,9 +167,9 @@ fn switching(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
     tuning.switching * ((mean_m + 0.5 * most_m) / tuning.switching_m).min(1.0) + tuning.other_mode * other
 }
 
-/// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
-/// road's edges to have a corner beyond them, or to drive against the traffic.
-fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceTuning) -> f64 {
+/// Cost to a vehicle that starts on a lane of being away from every lane, and to one that starts within the road's edges
+/// of having a corner beyond them or driving against the traffic.
+fn off_road(actor: &PlannedActor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceTuning) -> f64 {
     let present = &actor.plan.present;
     let Some(start) = states.first().filter(|_| present.agent_type == AgentType::Vehicle) else {
         return 0.0;
@@ -218,17 +222,17 @@ mod tests {
     }
 
     /// Standing, at so many metres to the front.
-    fn at(x_m: f64, probability: f64, origin: Origin) -> Candidate {
+    fn at(x_m: f64, probability: f64, origin: CandidateOrigin) -> MotionCandidate {
         let mut motion = rest(&plan());
         motion.states.iter_mut().for_each(|s| s.position.x = x_m);
-        Candidate { probability, origin, motion }
+        MotionCandidate { probability, origin, motion }
     }
 
     #[test]
     fn the_middle_costs_least_and_what_a_scene_is_built_around_draws_it() {
         let modes = [0.0, 4.0, 8.0];
-        let of = |i: usize| at(modes[i], 1.0 / 3.0, Origin::Mode(Slot::new(i)));
-        let all = [of(0), of(1), of(2), at(4.0, 0.0, Origin::PathMean(Slot::new(1)))];
+        let of = |i: usize| at(modes[i], 1.0 / 3.0, CandidateOrigin::Mode(Slot::new(i)));
+        let all = [of(0), of(1), of(2), at(4.0, 0.0, CandidateOrigin::PathMean(Slot::new(1)))];
         let free = central(&plan(), &all, None, &SHIPPED.choice);
         assert!(free[1] < free[0] && free[1] < free[2] && free[1] == free[3], "{free:?}");
         let around = central(&plan(), &all, Some(Slot::new(2)), &SHIPPED.choice);
@@ -238,7 +242,10 @@ mod tests {
     #[test]
     fn a_missed_goal_is_worse() {
         use scene::motion::{GoalError, Limiting, Reach};
-        let mut all = [at(0.0, 0.5, Origin::Mode(Slot::new(0))), at(0.0, 0.5, Origin::Mode(Slot::new(1)))];
+        let mut all = [
+            at(0.0, 0.5, CandidateOrigin::Mode(Slot::new(0))),
+            at(0.0, 0.5, CandidateOrigin::Mode(Slot::new(1))),
+        ];
         let nearest = all[0].motion.states[0];
         all[0].motion.reach = Reach::Unreachable {
             residuals: GoalError::default(),

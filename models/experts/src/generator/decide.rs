@@ -1,13 +1,13 @@
 //! One future for each actor, once the drafts are refined.
 
-use super::actor::Actor;
-use super::candidates::{Candidate, Origin, own, shown};
+use super::actor::PlannedActor;
+use super::candidates::{CandidateOrigin, MotionCandidate, own, shown};
 use super::choice::{Choice, JointOption};
 use super::costs::{Yardstick, drives_against, options};
 use super::guidance::guided;
 use super::joint_drafts::JointDrafts;
 use super::motion::Sweep;
-use super::others::{Changed, Reacted, caused, reaction_of};
+use super::others::{ChangedMotion, Reacted, caused, reaction_of};
 use super::replan::{ReplanField, stop_before, swerve};
 use super::repulsion::{Outline, outlines};
 use super::trajectory::Rollout;
@@ -27,7 +27,7 @@ const MOST_TRIED: usize = 2;
 /// Rounds of replanning: an agent that swerves for one may meet another.
 const MOST_ROUNDS: usize = 2;
 
-/// What a window decided for one actor.
+/// The decision of a window for one actor.
 pub(super) struct Decided {
     /// Index into the scene's agents.
     pub(super) agent: usize,
@@ -36,7 +36,7 @@ pub(super) struct Decided {
     /// Index into `alternatives`.
     pub(super) chosen: usize,
     /// At most as many as the request asks for; never empty.
-    pub(super) alternatives: Vec<Candidate>,
+    pub(super) alternatives: Vec<MotionCandidate>,
     /// The cause of its change, where it had a motion before.
     pub(super) reaction: Option<Reaction>,
     /// The agent before which it stops and misses its goal.
@@ -48,7 +48,7 @@ pub(super) struct Decided {
 
 impl Decided {
     /// The candidate that is shown.
-    pub(super) fn shown(&self) -> &Candidate {
+    pub(super) fn shown(&self) -> &MotionCandidate {
         &self.alternatives[self.chosen]
     }
 
@@ -59,11 +59,11 @@ impl Decided {
 
     /// The actor stays where it is.
     pub(super) fn rests(&self) -> bool {
-        self.shown().origin == Origin::Rest
+        self.shown().origin == CandidateOrigin::Rest
     }
 }
 
-/// What a window decided.
+/// The decisions of a window.
 pub(super) struct Decisions {
     /// Of the actors. An actor that goes on with a given motion is left out.
     pub(super) actors: Vec<Decided>,
@@ -80,7 +80,7 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let fixed: Vec<&SweptBoxes> = of.others.kept().map(Sweep::swept).collect();
     let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
     let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
-    let mut table = Table { of, judge, choice, candidates };
+    let mut table = OptionTable { of, judge, choice, candidates };
     table.choice.agents = setting.workers().map(&of.indices(), |&i| table.options(i));
     let mut chosen = match setting.request.stages.shown {
         Shown::Chosen => table.choice.solve(),
@@ -95,14 +95,14 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let mut blockers: Vec<Option<AgentId>> = vec![None; of.actors.len()];
     let rounds = if setting.request.stages.guidance { MOST_ROUNDS } else { 0 };
     let first = table.settled(chosen);
-    let replan = |table: &mut Table<'_>, settled: &Settled| {
+    let replan = |table: &mut OptionTable<'_>, settled: &Settled| {
         table.replan(settled, &mut blockers).then(|| {
             let mut chosen = table.choice.solve();
             table.restore_uncaused(&mut chosen);
             chosen
         })
     };
-    let settled = replan_rounds(rounds, &mut table, first, replan, Table::settled);
+    let settled = replan_rounds(rounds, &mut table, first, replan, OptionTable::settled);
     table.decisions(settled, &blockers)
 }
 
@@ -130,24 +130,24 @@ struct Settled {
     chosen: Vec<usize>,
     /// The agent that causes the change of each reacting actor.
     causes: Vec<Option<AgentId>>,
-    /// What the others see of the actors.
-    changed: Vec<Changed>,
+    /// The actors' motions, as the others see them.
+    changed: Vec<ChangedMotion>,
     reacted: Vec<Reacted>,
 }
 
 /// The candidates of all actors, and the options that the joint choice weighs: one for each candidate.
-struct Table<'a> {
+struct OptionTable<'a> {
     of: JointDrafts<'a>,
     judge: Judge<'a>,
     choice: Choice<'a>,
-    candidates: Vec<Vec<Candidate>>,
+    candidates: Vec<Vec<MotionCandidate>>,
 }
 
-impl Table<'_> {
+impl OptionTable<'_> {
     /// A choice with its uncaused reactions undone, and the reactions of the others to it.
     fn settled(&self, mut chosen: Vec<usize>) -> Settled {
         let causes = self.restore_uncaused(&mut chosen);
-        let changed: Vec<Changed> = chosen
+        let changed: Vec<ChangedMotion> = chosen
             .iter()
             .enumerate()
             .map(|(i, option)| {
@@ -159,15 +159,15 @@ impl Table<'_> {
         Settled { chosen, causes, changed, reacted }
     }
 
-    fn change(&self, i: usize, taken: &Candidate, sweep: Arc<Sweep>) -> Changed {
-        Changed { id: self.of.actors[i].id.clone(), sweep, kept: taken.origin == Origin::Kept }
+    fn change(&self, i: usize, taken: &MotionCandidate, sweep: Arc<Sweep>) -> ChangedMotion {
+        ChangedMotion { id: self.of.actors[i].id.clone(), sweep, kept: taken.origin == CandidateOrigin::Kept }
     }
 
-    fn sweep(&self, i: usize, candidate: &Candidate) -> Sweep {
+    fn sweep(&self, i: usize, candidate: &MotionCandidate) -> Sweep {
         Sweep::of_rollout(&candidate.motion.states, &self.of.actors[i].plan.present.size)
     }
 
-    /// What is shown of each actor.
+    /// The futures of each actor, and which of them is shown.
     fn decisions(self, settled: Settled, blockers: &[Option<AgentId>]) -> Decisions {
         let setting = self.of.setting;
         let (count, unlawful) = (setting.request.modes.max(1), setting.tuning().probability.unlawful);
@@ -196,8 +196,8 @@ impl Table<'_> {
         &self,
         i: usize,
         chosen: usize,
-        alternatives: &[Candidate],
-        changed: &[Changed],
+        alternatives: &[MotionCandidate],
+        changed: &[ChangedMotion],
     ) -> Vec<Option<Vec<Reacted>>> {
         let JointDrafts { setting, others, .. } = self.of;
         if !setting.request.stages.judged
@@ -215,7 +215,7 @@ impl Table<'_> {
             if !shown_matters && !others.would_react_to(&other.sweep) {
                 return None;
             }
-            let seen: Vec<&Changed> =
+            let seen: Vec<&ChangedMotion> =
                 changed.iter().enumerate().map(|(j, c)| if j == i { &other } else { c }).collect();
             Some(others.reactions(&seen))
         })
@@ -243,11 +243,11 @@ impl Table<'_> {
         i: usize,
         settled: &Settled,
         others: &[(&AgentId, Cow<'_, Sweep>)],
-    ) -> (Vec<Candidate>, Option<AgentId>) {
+    ) -> (Vec<MotionCandidate>, Option<AgentId>) {
         let setting = self.of.setting;
         let (actor, candidates, chosen) = (&self.of.actors[i], &self.candidates[i], settled.chosen[i]);
         let shown = &candidates[chosen];
-        if actor.kept.is_some() || actor.keeps_still() || shown.origin == Origin::Rest {
+        if actor.kept.is_some() || actor.keeps_still() || shown.origin == CandidateOrigin::Rest {
             return (Vec::new(), None);
         }
         let actors = settled.changed.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| &*c.sweep);
@@ -270,15 +270,15 @@ impl Table<'_> {
                 && (may_react || met.is_some_and(|(_, sweep)| sweep.stands()))
                 && !is_asked_to_meet(actor, &shown.motion, &all);
         let size = &actor.plan.present.size;
-        let is_clear = |c: &Candidate| {
+        let is_clear = |c: &MotionCandidate| {
             let sweep = Sweep::of_rollout(&c.motion.states, size);
             !all.iter().any(|o| own.starts_apart(o) && overlap(sweep.swept(), o.swept()).overlaps)
         };
         // Where no candidate reaches the goal, it is missed for that reason and not for the agent in the way.
         let missed = |motion: Rollout, o: usize| motion.with_reason_of(candidates[o].motion.reach);
-        let mut found: Vec<Candidate> = Vec::new();
+        let mut found: Vec<MotionCandidate> = Vec::new();
         let before = self.of.material(i).shown_stopping().filter(|c| stops && is_clear(c));
-        found.extend(before.map(|c| Candidate { motion: missed(c.motion, chosen), ..c }));
+        found.extend(before.map(|c| MotionCandidate { motion: missed(c.motion, chosen), ..c }));
         let off_lanes_m = setting.tuning().choice.off_lanes_m;
         let weights = &setting.tuning().replan;
         let field = ReplanField { graph: &setting.map.graph, off_lanes_m, weights, others: &all };
@@ -291,12 +291,12 @@ impl Table<'_> {
         for (o, slot) in tried.take(MOST_TRIED) {
             let states = &candidates[o].motion.states;
             let mut add = |origin, motion: Option<Rollout>| {
-                found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
+                found.extend(motion.map(|motion| MotionCandidate { probability: 0.0, origin, motion }));
             };
-            add(Origin::Swerving(slot), swerve(&actor.plan, field, slot, states));
+            add(CandidateOrigin::Swerving(slot), swerve(&actor.plan, field, slot, states));
             if stops {
                 let stopping = stop_before(&actor.plan, field, states);
-                add(Origin::Stopping(slot), stopping.map(|motion| missed(motion, o)));
+                add(CandidateOrigin::Stopping(slot), stopping.map(|motion| missed(motion, o)));
             }
         }
         (found, met.map(|(id, _)| (*id).clone()))
@@ -377,7 +377,7 @@ impl Table<'_> {
         let matters = |&o: &usize| others.would_react_to(&options[o].sweep);
         let met: Vec<usize> = (0..candidates.len()).filter(matters).collect();
         let cost = |&o: &usize| {
-            if candidates[o].origin == Origin::Kept { 0.0 } else { others.burden(&options[o].sweep) }
+            if candidates[o].origin == CandidateOrigin::Kept { 0.0 } else { others.burden(&options[o].sweep) }
         };
         let burdens = setting.workers().map(&met, cost);
         for (o, burden) in met.into_iter().zip(burdens) {
@@ -386,7 +386,7 @@ impl Table<'_> {
         options
     }
 
-    /// What an option of an actor costs the others.
+    /// Cost of an actor's option to the others.
     fn burden(&self, i: usize, option: usize) -> f64 {
         let option = &self.choice.agents[i][option];
         if option.kept { 0.0 } else { self.of.others.burden(&option.sweep) }
@@ -394,7 +394,7 @@ impl Table<'_> {
 }
 
 /// A vehicle on the road leaves it although its goal, if it has one, lies on it.
-fn leaves_the_road(actor: &Actor, motion: &Rollout) -> bool {
+fn leaves_the_road(actor: &PlannedActor, motion: &Rollout) -> bool {
     let Some(ground) = &actor.plan.ground else { return false };
     let is_off = |state: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
@@ -405,7 +405,7 @@ fn leaves_the_road(actor: &Actor, motion: &Rollout) -> bool {
 }
 
 /// A vehicle on the road drives against the traffic.
-fn is_against_traffic(actor: &Actor, motion: &Rollout) -> bool {
+fn is_against_traffic(actor: &PlannedActor, motion: &Rollout) -> bool {
     let ground = actor.plan.ground.as_deref();
     ground.is_some_and(|ground| {
         motion.states.iter().step_by(PER_INSTANT).any(|state| drives_against(ground, state))
@@ -413,7 +413,7 @@ fn is_against_traffic(actor: &Actor, motion: &Rollout) -> bool {
 }
 
 /// Another agent is at the goal when it is due: the request asks to meet it there.
-fn is_asked_to_meet(actor: &Actor, motion: &Rollout, others: &[&Sweep]) -> bool {
+fn is_asked_to_meet(actor: &PlannedActor, motion: &Rollout, others: &[&Sweep]) -> bool {
     let target = &actor.plan.target;
     let there = motion.states.get(target.step).filter(|_| target.position.is_some());
     there.is_some_and(|state| {

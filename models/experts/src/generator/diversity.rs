@@ -5,7 +5,7 @@
 //! do not; else it takes another pace or line. What was made so is unlikely, and keeps what was made of it through
 //! refinement: an offset that the networks do not see.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::candidates::middle;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
@@ -19,7 +19,7 @@ const MOST_STREAMS: usize = 3;
 /// Modes that are no copies and make room for an order nobody else has.
 const MOST_GIVEN_UP: usize = 2;
 
-/// What is done to the modes of an actor so that they are six.
+/// The changes that make the modes of an actor six different futures.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DiverseModes {
     /// Added to each mode.
@@ -32,14 +32,14 @@ pub(super) struct DiverseModes {
 
 impl DiverseModes {
     /// Nothing is done.
-    pub(super) fn none(actor: &Actor) -> Self {
+    pub(super) fn none(actor: &PlannedActor) -> Self {
         let mut steady = [false; MODES];
         steady[best(actor).index()] = true;
         Self { offset: [[0.0; RESIDUAL]; MODES], probability: actor.probability, steady }
     }
 
     /// Of an actor among others. `share` is what counts of the residual of the mode in the middle.
-    pub(super) fn of(actor: &Actor, others: &[&Trace], share: f32, tuning: &DuplicateTuning) -> Self {
+    pub(super) fn of(actor: &PlannedActor, others: &[&Trace], share: f32, tuning: &DuplicateTuning) -> Self {
         let views: Vec<DraftView<'_>> = Slot::all()
             .map(|slot| {
                 let share = if middle(actor) == Some(slot) { share } else { 1.0 };
@@ -59,18 +59,18 @@ impl DiverseModes {
 }
 
 /// The mode that is the best guess: it is never changed.
-pub(super) fn best(actor: &Actor) -> Slot {
+pub(super) fn best(actor: &PlannedActor) -> Slot {
     middle(actor).unwrap_or(actor.likeliest())
 }
 
 /// Mean distance below which two modes are copies, metres.
-pub(super) fn copy_m(actor: &Actor, tuning: &DuplicateTuning) -> f64 {
+pub(super) fn copy_m(actor: &PlannedActor, tuning: &DuplicateTuning) -> f64 {
     if actor.plan.target.position.is_some() { tuning.copy_with_goal_m } else { tuning.copy_m }
 }
 
 struct Diversifying<'a> {
     diverse: DiverseModes,
-    actor: &'a Actor,
+    actor: &'a PlannedActor,
     near: Vec<&'a Trace>,
     /// By slot, as they are shown.
     views: Vec<DraftView<'a>>,
@@ -189,7 +189,7 @@ impl<'a> Diversifying<'a> {
     fn another(&self, i: usize, copy_m: f64) -> Option<DraftView<'a>> {
         let from = &self.views[i];
         let free_target = self.actor.plan.target.position.is_none();
-        // Who waits without being asked to go on has a reason to.
+        // An agent that waits without a goal has a reason to.
         let waits = free_target && from.ends_at_rest();
         let tries = pace_steps(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
         tries
@@ -237,10 +237,13 @@ mod tests {
     use scene::geometry::direction;
     use scene::{AgentType, Goal, Size, State, Subtype, Vec2};
 
-    fn driver(speed_mps: f64, goal_m: Option<f64>) -> Actor {
+    fn driver(speed_mps: f64, goal_m: Option<f64>) -> PlannedActor {
         let position = goal_m.map(|x| Vec2::new(x, 0.0));
-        let mut actor =
-            Actor::new("1".into(), car_on_a_street(speed_mps, Goal { position, ..Goal::default() }), None);
+        let mut actor = PlannedActor::new(
+            "1".into(),
+            car_on_a_street(speed_mps, Goal { position, ..Goal::default() }),
+            None,
+        );
         // All do what the first does.
         let first = actor.plan.anchors[0].clone();
         actor.plan.anchors.iter_mut().for_each(|anchor| *anchor = first.clone());
@@ -259,7 +262,7 @@ mod tests {
         Trace::new("7", AgentType::Vehicle, &size, 90, at)
     }
 
-    fn shown<'a>(actor: &'a Actor, diverse: &DiverseModes) -> Vec<DraftView<'a>> {
+    fn shown<'a>(actor: &'a PlannedActor, diverse: &DiverseModes) -> Vec<DraftView<'a>> {
         let offset = |slot: Slot| *slot.of(&diverse.offset);
         Slot::all().map(|slot| DraftView::of(actor, slot, &offset(slot))).collect()
     }
@@ -299,7 +302,7 @@ mod tests {
 
     #[test]
     fn who_would_step_out_before_a_fast_car_may_wait_at_the_kerb_too() {
-        let mut actor = Actor::new("1".into(), walker_beside_a_street(1.4), None);
+        let mut actor = PlannedActor::new("1".into(), walker_beside_a_street(1.4), None);
         actor.set_modes([[0.0; RESIDUAL]; MODES], [0.4, 0.12, 0.12, 0.12, 0.12, 0.12]);
         let car = |passes_s: f64| {
             let size = Size::default_for(AgentType::Vehicle, Subtype::Car);
@@ -325,7 +328,7 @@ mod tests {
         assert!(found.iter().any(|i| diverse.steady[*i] && *i != 0), "{found:?}");
         assert!(found.iter().all(|i| !shown(&actor, &diverse)[*i].trace().meets(&comes)));
         assert_eq!(diverse.offset[0], [0.0; RESIDUAL], "the best guess stays");
-        // Nobody comes who would have to brake.
+        // No vehicle comes that would have to brake.
         let alone = DiverseModes::of(&actor, &[&car(60.0)], 1.0, &SHIPPED.duplicates);
         assert!(!alone.steady[1..].contains(&true));
     }

@@ -1,6 +1,6 @@
 //! The relations of first drafts to other agents, and their manoeuvres: what a person reads while drafts are refined.
 
-use super::candidates::{Candidate, Origin};
+use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::draft_traces::trace_of_mode;
 use super::joint_drafts::JointDrafts;
 use super::slot::Slot;
@@ -11,14 +11,14 @@ use std::collections::BTreeMap;
 /// With more regenerated agents drafts have no relations; the answer has them.
 const MOST_NAMED: usize = 8;
 
-/// What is known of first drafts, by actor and slot. Refinement changes a draft by little, so later drafts keep it until
+/// The relations and manoeuvres of first drafts, by actor and slot. Refinement changes a draft by little, so later drafts keep it until
 /// the answer works it out again.
 #[derive(Default)]
 pub(super) struct DraftRelations(BTreeMap<(usize, Slot), About>);
 
 impl DraftRelations {
     /// Of the drafts that are shown, one list an actor.
-    pub(super) fn of(drafts: &JointDrafts<'_>, shown: &[Vec<Candidate>]) -> Self {
+    pub(super) fn of(drafts: &JointDrafts<'_>, shown: &[Vec<MotionCandidate>]) -> Self {
         let actors = drafts.actors;
         let asked = actors.iter().filter(|a| a.kept.is_none()).count();
         let mut relations = Self::default();
@@ -38,8 +38,8 @@ impl DraftRelations {
     }
 
     /// Of one draft of an actor.
-    pub(super) fn about(&self, actor: usize, draft: &Candidate) -> About {
-        if draft.origin == Origin::Rest {
+    pub(super) fn about(&self, actor: usize, draft: &MotionCandidate) -> About {
+        if draft.origin == CandidateOrigin::Rest {
             return About { manoeuvre: Some(Manoeuvre::Stays), ..About::default() };
         }
         let slot = draft.origin.slot();
@@ -47,7 +47,7 @@ impl DraftRelations {
     }
 }
 
-fn about(drafts: &JointDrafts<'_>, i: usize, draft: &Candidate, leading: &[Trace]) -> About {
+fn about(drafts: &JointDrafts<'_>, i: usize, draft: &MotionCandidate, leading: &[Trace]) -> About {
     let (actor, setting) = (&drafts.actors[i], drafts.setting);
     let present = &actor.plan.present;
     let states = setting.cut(&draft.motion.states);

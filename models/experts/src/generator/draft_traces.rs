@@ -1,6 +1,6 @@
 //! Drafts as motions that relations are read from, before they are fitted to the limits.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::slot::Slot;
 use super::trajectory::places;
 use crate::planning::{INSTANTS, Modes, PER_INSTANT};
@@ -8,7 +8,7 @@ use scene::judge::Trace;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
 
 /// The trace of a draft: straight from instant to instant.
-pub(super) fn trace_of(actor: &Actor, places: &[(Vec2, f64); INSTANTS]) -> Trace {
+pub(super) fn trace_of(actor: &PlannedActor, places: &[(Vec2, f64); INSTANTS]) -> Trace {
     let present = &actor.plan.present;
     let knot = |i: usize| match i {
         0 => (present.start.position(), present.start.heading_rad),
@@ -26,7 +26,7 @@ pub(super) fn trace_of(actor: &Actor, places: &[(Vec2, f64); INSTANTS]) -> Trace
 }
 
 /// The trace of one mode of an actor; of its start where it rests.
-pub(super) fn trace_of_mode(actor: &Actor, slot: Slot, modes: &Modes) -> Trace {
+pub(super) fn trace_of_mode(actor: &PlannedActor, slot: Slot, modes: &Modes) -> Trace {
     let start = &actor.plan.present.start;
     if actor.rests {
         return trace_of(actor, &[(start.position(), start.heading_rad); INSTANTS]);

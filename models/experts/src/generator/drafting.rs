@@ -1,12 +1,12 @@
-//! What the networks make of the actors of a window: first modes, a sample's draw, refinement steps.
+//! The networks' part in a window: first modes, a sample's draw, refinement steps.
 
-use super::actor::{Actor, by_probability};
+use super::actor::{PlannedActor, by_probability};
 use super::candidates::leads_by_probability;
 use super::diversity::DiverseModes;
 use super::drafts::Drafts;
 use super::duplicate_modes;
 use super::joint_drafts::JointDrafts;
-use super::noise::Key;
+use super::noise::NoiseKey;
 use super::overlaps::resolve_overlaps;
 use super::repulsion::{outlines, repulsions};
 use super::sampling::widen;
@@ -41,7 +41,7 @@ impl From<NetError> for GenerateError {
 /// Runs encoder and initializer on actors; `first` is the number of the first of them in the window.
 pub(super) fn encode(
     setting: &WindowSetting<'_>,
-    actors: &mut [Actor],
+    actors: &mut [PlannedActor],
     first: usize,
 ) -> Result<Vec<Batch>, GenerateError> {
     let workers = setting.workers();
@@ -76,7 +76,7 @@ pub(super) fn encode(
 /// Sets an actor's first modes, and whether it rests, from a row of the initializer's output.
 fn initialize(
     setting: &WindowSetting<'_>,
-    actor: &mut Actor,
+    actor: &mut PlannedActor,
     output: &InitialOutput,
     row: usize,
 ) -> Result<(), GenerateError> {
@@ -102,19 +102,19 @@ fn initialize(
 /// Fresh drafts for a sample, one entry an actor: the modes with the draw's noise. `diverse` has an entry an actor.
 pub(super) fn first_drafts(
     setting: &WindowSetting<'_>,
-    actors: &[Actor],
+    actors: &[PlannedActor],
     batches: &[Batch],
     diverse: &[Option<DiverseModes>],
     sample: usize,
 ) -> Result<Vec<Drafts>, GenerateError> {
     let request = &*setting.request;
-    let key = Key { seed: request.seed, sample, agent: "", window: setting.number, step: 0 };
+    let key = NoiseKey { seed: request.seed, sample, agent: "", window: setting.number, step: 0 };
     let likeliest_leads = leads_by_probability(request.stages.shown, sample);
-    let fresh = |actor: &Actor| {
+    let fresh = |actor: &PlannedActor| {
         let leading = if likeliest_leads {
             actor.likeliest()
         } else {
-            pick(&actor.probability, Key { agent: &actor.id, step: u64::MAX, ..key }.unit())
+            pick(&actor.probability, NoiseKey { agent: &actor.id, step: u64::MAX, ..key }.unit())
         };
         Drafts::of(actor, leading)
     };
@@ -123,7 +123,7 @@ pub(super) fn first_drafts(
         for batch in batches {
             let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].modes).collect();
             // Refinement takes the draw's noise out again but for a trace.
-            let noise = |i: &usize| Key { agent: &actors[*i].id, ..key }.normals(request.diversity);
+            let noise = |i: &usize| NoiseKey { agent: &actors[*i].id, ..key }.normals(request.diversity);
             let noise: Vec<Modes> = batch.actors.iter().map(noise).collect();
             let expert = setting.resources.expert(batch.agent_type)?;
             let noisy = expert.add_noise(&batch.prepared, &modes, &noise, level)?;
@@ -136,7 +136,7 @@ pub(super) fn first_drafts(
     let each: Vec<_> = actors.iter().zip(diverse).collect();
     let widened = setting.workers().map(&each, |(actor, diverse)| {
         let diverse = diverse.as_ref()?;
-        Some((diverse.offset, widen(actor, diverse, diversity, Key { agent: &actor.id, ..key }, tuning)))
+        Some((diverse.offset, widen(actor, diverse, diversity, NoiseKey { agent: &actor.id, ..key }, tuning)))
     });
     for (drafts, widened) in drafts.iter_mut().zip(widened) {
         let Some((offset, (added, probability))) = widened else { continue };

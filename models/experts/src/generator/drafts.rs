@@ -1,6 +1,6 @@
 //! The drafts of an actor in one sample.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::slot::Slot;
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 
@@ -22,7 +22,7 @@ pub(super) struct Drafts {
 
 impl Drafts {
     /// The first drafts of an actor.
-    pub(super) fn of(actor: &Actor, leading: Slot) -> Self {
+    pub(super) fn of(actor: &PlannedActor, leading: Slot) -> Self {
         let offset = [[0.0; RESIDUAL]; MODES];
         let (modes, probability, order) = (actor.modes, actor.probability, actor.order);
         Self { modes, offset, probability, order, leading, settled: None }

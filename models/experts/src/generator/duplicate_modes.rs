@@ -16,7 +16,7 @@ use scene::motion::Kind;
 use scene::{AgentType, KNOTS, Vec2};
 use std::sync::LazyLock;
 
-/// What counts as the same, and what is done instead.
+/// The distance below which two modes coincide, and the motion that replaces one.
 struct Rule {
     /// Mean distance below which two modes coincide, metres.
     same_m: f64,

@@ -1,7 +1,7 @@
 //! Guidance: drafts of a chosen scene that conflict, led out of each other's way.
 
-use super::actor::Actor;
-use super::candidates::{Candidate, Origin};
+use super::actor::PlannedActor;
+use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::repulsion::{Outline, SceneEnergy, Terms};
 use super::slot::Slot;
 use super::trajectory::{Rollout, places, to_trajectory};
@@ -12,15 +12,15 @@ use crate::tuning::GuidanceTuning;
 pub(super) fn guided(
     energy: &SceneEnergy<'_>,
     tuning: &GuidanceTuning,
-    actor: &Actor,
+    actor: &PlannedActor,
     modes: &Modes,
-    candidates: &[Candidate],
+    candidates: &[MotionCandidate],
     others: &[&Outline],
-) -> Vec<Candidate> {
-    let guide = |candidate: &Candidate| {
-        let Origin::Mode(slot) = candidate.origin else { return None };
+) -> Vec<MotionCandidate> {
+    let guide = |candidate: &MotionCandidate| {
+        let CandidateOrigin::Mode(slot) = candidate.origin else { return None };
         let motion = out_of_the_way(energy, tuning, actor, slot, slot.of(modes), others)?;
-        Some(Candidate { probability: 0.0, origin: Origin::Guided(slot), motion })
+        Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Guided(slot), motion })
     };
     candidates.iter().filter_map(guide).collect()
 }
@@ -29,7 +29,7 @@ pub(super) fn guided(
 fn out_of_the_way(
     energy: &SceneEnergy<'_>,
     tuning: &GuidanceTuning,
-    actor: &Actor,
+    actor: &PlannedActor,
     slot: Slot,
     residual: &Residual,
     others: &[&Outline],

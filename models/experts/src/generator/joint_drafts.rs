@@ -1,6 +1,6 @@
 //! The drafts of all actors in one sample.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::candidates::Material;
 use super::drafts::Drafts;
 use super::others::Others;
@@ -12,7 +12,7 @@ use crate::request::ShownLast;
 #[derive(Clone, Copy)]
 pub(super) struct JointDrafts<'a> {
     pub(super) setting: &'a WindowSetting<'a>,
-    pub(super) actors: &'a [Actor],
+    pub(super) actors: &'a [PlannedActor],
     /// One entry an actor.
     pub(super) drafts: &'a [Drafts],
     pub(super) others: &'a Others<'a>,
@@ -32,12 +32,12 @@ impl<'a> JointDrafts<'a> {
     }
 
     /// The future that a person has seen last of an actor: it binds the first sample of the first window.
-    pub(super) fn shown_last(&self, actor: &Actor) -> Option<&'a ShownLast> {
+    pub(super) fn shown_last(&self, actor: &PlannedActor) -> Option<&'a ShownLast> {
         let first = self.sample == 0 && self.setting.number == 0;
         self.setting.request.shown.get(&actor.id).filter(|_| first)
     }
 
-    /// What the candidates of an actor are made from.
+    /// The material of an actor's candidates.
     pub(super) fn material(&self, i: usize) -> Material<'a> {
         let (actor, drafts) = (&self.actors[i], &self.drafts[i]);
         let (window, tuning) = (self.setting.number, &self.setting.tuning().middle);

@@ -52,7 +52,7 @@ use scene::{Agent, LaneMap, Scene, State, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use workers::Workers;
+use workers::WorkerPool;
 
 /// The three experts with what is known of maps. Cheap to share; calls may run at the same time.
 pub struct Generator {
@@ -85,7 +85,7 @@ impl Generator {
         Ok(Self {
             resources: Resources {
                 experts: Arc::new(experts),
-                workers: Workers::of_machine(),
+                workers: WorkerPool::of_machine(),
                 clock: clock::standing,
                 tuning: tuning::SHIPPED,
             },
@@ -106,7 +106,7 @@ impl Generator {
     /// Cuts whole scenes over so many threads; the answer does not depend on it.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
-        let workers = Workers::new(threads);
+        let workers = WorkerPool::new(threads);
         Self { resources: Resources { workers, ..self.resources }, ..self }
     }
 
@@ -116,7 +116,7 @@ impl Generator {
         Self {
             resources: Resources {
                 experts: Arc::clone(&self.resources.experts),
-                workers: Workers::new(threads),
+                workers: WorkerPool::new(threads),
                 ..self.resources
             },
             info: self.info.clone(),
@@ -183,7 +183,7 @@ impl Generator {
     /// Begins a call. The iterator does the work, one event at a time; dropping it stops the call.
     ///
     /// # Errors
-    /// What can be told before any work: unknown ids, missing starts, too many road users.
+    /// Faults that are known before any work: unknown ids, missing starts, too many road users.
     pub fn start(&self, request: Request, cancel: Cancel) -> Result<Generation<'_>, GenerateError> {
         Generation::new(&self.resources, &self.maps, request, cancel)
     }
@@ -191,7 +191,7 @@ impl Generator {
     /// Runs a call to its end, without its drafts.
     ///
     /// # Errors
-    /// What the call reports.
+    /// The errors of the call.
     pub fn answer(&self, request: Request) -> Result<Answer, GenerateError> {
         for event in self.start(request, Cancel::default())? {
             if let Event::Final(answer) = event? {

@@ -3,9 +3,9 @@
 use crate::planning::{MODES, RESIDUAL};
 use scene::random;
 
-/// What a stream of numbers is for.
+/// The purpose of a stream of numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Key<'a> {
+pub(super) struct NoiseKey<'a> {
     pub(super) seed: u64,
     pub(super) sample: usize,
     pub(super) agent: &'a str,
@@ -14,7 +14,7 @@ pub(super) struct Key<'a> {
     pub(super) step: u64,
 }
 
-impl Key<'_> {
+impl NoiseKey<'_> {
     fn stream(&self) -> random::Stream {
         let numbers = [self.seed, self.sample as u64, self.window as u64, self.step];
         let key = numbers.into_iter().fold(random::Key::default(), random::Key::number);
@@ -45,12 +45,12 @@ mod tests {
 
     #[test]
     fn streams_are_their_own_and_repeat() {
-        let key = Key { seed: 7, sample: 0, agent: "12", window: 0, step: 3 };
+        let key = NoiseKey { seed: 7, sample: 0, agent: "12", window: 0, step: 3 };
         assert_eq!(key.normals(1.0), key.normals(1.0));
-        assert_ne!(key.normals(1.0), Key { agent: "13", ..key }.normals(1.0));
-        assert_ne!(key.normals(1.0), Key { step: 4, ..key }.normals(1.0));
+        assert_ne!(key.normals(1.0), NoiseKey { agent: "13", ..key }.normals(1.0));
+        assert_ne!(key.normals(1.0), NoiseKey { step: 4, ..key }.normals(1.0));
         let all: Vec<f32> =
-            (0..400).flat_map(|step| Key { step, ..key }.normals(1.0).as_flattened().to_vec()).collect();
+            (0..400).flat_map(|step| NoiseKey { step, ..key }.normals(1.0).as_flattened().to_vec()).collect();
         let mean = all.iter().sum::<f32>() / all.len() as f32;
         let power = all.iter().map(|x| x * x).sum::<f32>() / all.len() as f32;
         assert!(mean.abs() < 0.02 && (power - 1.0).abs() < 0.03, "{mean} {power}");

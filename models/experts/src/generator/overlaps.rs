@@ -1,6 +1,6 @@
 //! Overlaps of drawn drafts, resolved without the networks.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::drafts::Drafts;
 use super::motion::Places;
 use super::repulsion::{Outline, SceneEnergy, Terms, leading_outlines};
@@ -13,7 +13,7 @@ use crate::planning::Residual;
 /// they are: where the steps lead is one more thing that each actor could do, [`Drafts::settled`].
 pub(super) fn resolve_overlaps(
     energy: &SceneEnergy<'_>,
-    actors: &[Actor],
+    actors: &[PlannedActor],
     drafts: &mut [Drafts],
     background: &[Outline],
 ) {
@@ -51,7 +51,7 @@ pub(super) fn resolve_overlaps(
 /// A step downhill from a draft, the longest of a few that lowers the energy.
 fn step_downhill(
     energy: &SceneEnergy<'_>,
-    actor: &Actor,
+    actor: &PlannedActor,
     slot: Slot,
     residual: &Residual,
     others: &[&Outline],
@@ -85,7 +85,7 @@ mod tests {
                 let moved = anchor.path.points().iter().map(|p| p + Vec2::new(0.0, y));
                 anchor.path = scene::routes::Polyline::new(moved);
             }
-            Actor::new(id.into(), plan, None)
+            PlannedActor::new(id.into(), plan, None)
         };
         let actors = [ride("a", 0.0), ride("b", 1.2), ride("c", 40.0)];
         let mut drafts = vec![Drafts::of(&actors[0], Slot::FIRST); 3];

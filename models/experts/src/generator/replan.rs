@@ -66,14 +66,14 @@ impl Shift {
     }
 }
 
-/// What a motion is led through.
+/// The surroundings of a motion that is replanned.
 #[derive(Clone, Copy)]
 pub(super) struct ReplanField<'a> {
     pub(super) graph: &'a LaneGraph,
     /// How far from every lane a place is off the lanes, metres.
     pub(super) off_lanes_m: f64,
     pub(super) weights: &'a ReplanTuning,
-    /// Those who are there.
+    /// The motions of the other agents.
     pub(super) others: &'a [&'a Sweep],
 }
 
@@ -95,7 +95,7 @@ struct Unshifted {
 }
 
 impl ReplanMoment<'_> {
-    /// Somebody is in one of the boxes of a shift.
+    /// Another agent is in one of the boxes of a shift.
     fn is_in(&self, shift: Shift, of: impl Fn(&Unshifted) -> &OrientedBox) -> bool {
         let on = &self.unshifted[(shift.ahead + AHEADS) as usize];
         let outline = of(on).about(on.position + on.left * shift.aside_m());
@@ -121,7 +121,7 @@ struct ShiftSearch<'a> {
     path: Polyline,
     /// Metres along it, one a step.
     along_m: Vec<f64>,
-    /// Those of the field that its shifts may meet.
+    /// The motions of the field that its shifts may meet.
     near: Vec<&'a Sweep>,
 }
 
@@ -189,7 +189,7 @@ impl<'a> ShiftSearch<'a> {
         Some(search)
     }
 
-    /// Those who are within reach of the shifts at some instant, and were not met at the start.
+    /// The motions within reach of the shifts at some instant that do not overlap at the start.
     fn may_be_met(&self) -> Vec<&'a Sweep> {
         let own = self.outline(self.pose(0, Shift::NONE));
         let looked_at = (1..=HORIZON_STEPS).step_by(2);
@@ -226,7 +226,7 @@ impl<'a> ShiftSearch<'a> {
         !due || shift == Shift::NONE || hardly
     }
 
-    /// What each shift of an instant costs by itself.
+    /// Cost of each shift of an instant by itself.
     fn costs(&self, instant: usize) -> Vec<f64> {
         let weights = self.field.weights;
         let mut costs = vec![f64::INFINITY; SHIFTS];
@@ -247,7 +247,7 @@ impl<'a> ShiftSearch<'a> {
         costs
     }
 
-    /// What may be met at a step; `None` where nobody is near.
+    /// The boxes that may be met at a step; `None` where none is near.
     fn moment(&self, step: usize) -> Option<ReplanMoment<'a>> {
         let own = self.outline(self.pose(step, Shift::NONE));
         let reach_m = SHIFTED_M + own.grown(CLOSE_M + SPARE_M).radius_m();
@@ -267,7 +267,7 @@ impl<'a> ShiftSearch<'a> {
         Some(ReplanMoment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
     }
 
-    /// What the ground so far aside costs.
+    /// Cost of the ground so far aside.
     fn on_ground(&self, step: usize, aside: i32) -> f64 {
         let pose = self.pose(step, Shift { ahead: 0, aside });
         let away = self.keeps_to_lanes && self.is_off_lanes(pose.position);
@@ -299,7 +299,7 @@ impl<'a> ShiftSearch<'a> {
         along_m
     }
 
-    /// Nobody is met at this progress.
+    /// No box is met at this progress.
     fn is_free(&self, along_m: &[f64]) -> bool {
         (1..along_m.len()).step_by(2).all(|step| {
             let size = &self.plan.present.size;
@@ -309,7 +309,7 @@ impl<'a> ShiftSearch<'a> {
         })
     }
 
-    /// Somebody is in a box at a step.
+    /// Another agent is in a box at a step.
     fn is_met(&self, step: usize, outline: &OrientedBox) -> bool {
         self.near.iter().filter_map(|o| o.at(step)).any(|b| meets(b, outline))
     }
@@ -350,7 +350,7 @@ impl<'a> ShiftSearch<'a> {
             before.push(from);
         }
         let mut at = (0..SHIFTS).min_by(|a, b| total[*a].total_cmp(&total[*b]))?;
-        // What is spared must be worth another motion.
+        // The saving must be worth another motion.
         if !total[at].is_finite() || total[at] > unshifted - 0.5 * weights.off_road {
             return None;
         }
@@ -362,7 +362,7 @@ impl<'a> ShiftSearch<'a> {
         Some(shifts)
     }
 
-    /// Nobody rolls back along the path, and wheels go aside only as they roll.
+    /// Progress never falls, and wheels go aside only as they roll.
     fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
         let way_m = way_m + f64::from(ahead) * AHEAD_M;
         let rolls = self.plan.model.kind == Kind::Drive;

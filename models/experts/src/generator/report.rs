@@ -1,7 +1,7 @@
-//! What a call says besides futures: every field's value and origin, the verdict on the goal in plain
+//! The report of a call besides its futures: every field's value and origin, the verdict on the goal in plain
 //! words, and warnings.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::trajectory::Rollout;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{
@@ -24,8 +24,8 @@ impl From<&MotionState> for NearestState {
     }
 }
 
-/// What became of one road user over all windows.
-pub(super) struct Outcome<'a> {
+/// The outcome of one agent over all windows.
+pub(super) struct AgentOutcome<'a> {
     /// At the start of the call.
     pub(super) present: &'a AgentAtStart,
     /// As the user fixed them.
@@ -43,8 +43,8 @@ pub(super) struct Outcome<'a> {
 }
 
 /// Fields and verdict of one road user; `world` is that of the first window.
-pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
-    let Outcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
+pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved {
+    let AgentOutcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
     let agent = world.agent(present);
     let logged = agent.state_at(world.step).is_some();
     let start = |value: f64, fixed: bool| {
@@ -114,7 +114,7 @@ pub(super) fn missed_words(number: usize, via: &ResolvedVia) -> String {
 /// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:
 /// its words are about the way from there. `blocked_by` is in the way of a motion that halts before somebody.
 pub(super) fn reach_report(
-    actor: &Actor,
+    actor: &PlannedActor,
     motion: &Rollout,
     since_s: Option<f64>,
     blocked_by: Option<&AgentId>,
@@ -141,7 +141,7 @@ pub(super) fn reach_report(
 
 /// One sentence or two: what cannot be, and what can.
 fn words(
-    actor: &Actor,
+    actor: &PlannedActor,
     nearest: &MotionState,
     limiting: Limiting,
     needs: Option<f64>,
@@ -191,7 +191,7 @@ fn words(
 /// what the user fixed about a road user and after how many steps its goal is due.
 pub(super) fn warnings<'a>(
     world: &World<'_>,
-    actors: &[Actor],
+    actors: &[PlannedActor],
     asked: impl Fn(usize) -> (&'a Conditions, usize),
 ) -> Vec<Warning> {
     let mut out = Vec::new();

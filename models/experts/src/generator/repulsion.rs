@@ -1,13 +1,13 @@
 //! The scene's energy (boxes too close, now or soon, and corners past a kerb) and what repels a draft: the way
 //! downhill in it.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::drafts::Drafts;
 use super::kerb::kerb;
 use super::motion::{Places, Sweep};
 use super::slot::Slot;
 use super::trajectory::{as_it_is, places};
-use super::workers::Workers;
+use super::workers::WorkerPool;
 use crate::planning::pullback::Pullback;
 use crate::planning::{INSTANTS, MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::OverlapTuning;
@@ -87,7 +87,7 @@ impl SceneEnergy<'_> {
     /// The energy at a draft, and the way downhill in its knots; `None` where the energy is zero.
     pub(super) fn downhill(
         &self,
-        actor: &Actor,
+        actor: &PlannedActor,
         slot: Slot,
         residual: &Residual,
         others: &[&Outline],
@@ -110,7 +110,7 @@ impl SceneEnergy<'_> {
     /// The energy of a draft's places and its gradient to the box centres.
     pub(super) fn at(
         &self,
-        actor: &Actor,
+        actor: &PlannedActor,
         places: &[(Vec2, f64); INSTANTS],
         others: &[&Outline],
         terms: Terms,
@@ -152,11 +152,11 @@ fn energy_among(
     overlap_energy(own, half, obstacles, Growth::Square)
 }
 
-/// What repels every mode of every actor: the refiner's input.
+/// The repulsion of every mode of every actor: the refiner's input.
 pub(super) fn repulsions(
     energy: &SceneEnergy<'_>,
-    workers: &Workers,
-    actors: &[Actor],
+    workers: &WorkerPool,
+    actors: &[PlannedActor],
     drafts: &[Drafts],
     background: &[Outline],
 ) -> Vec<Modes> {
@@ -178,8 +178,12 @@ pub(super) fn repulsions(
 }
 
 /// Every actor along its leading draft.
-pub(super) fn leading_outlines(actors: &[Actor], drafts: &[Drafts], tuning: &OverlapTuning) -> Vec<Outline> {
-    let outline = |(actor, drafts): (&Actor, &Drafts)| {
+pub(super) fn leading_outlines(
+    actors: &[PlannedActor],
+    drafts: &[Drafts],
+    tuning: &OverlapTuning,
+) -> Vec<Outline> {
+    let outline = |(actor, drafts): (&PlannedActor, &Drafts)| {
         let start = &actor.plan.present.start;
         let places = if let Some(pinned) = &actor.pinned {
             // A picked future stays as it is, whatever the drafts are.
@@ -218,7 +222,7 @@ mod tests {
     fn energy_of(x: f64, y: f64, terms: Terms, draft: &Residual) -> Option<(f32, Residual)> {
         let plan = car_on_a_street(8.0, Goal::default());
         let size = plan.present.size;
-        let actor = Actor::new("1".into(), plan, None);
+        let actor = PlannedActor::new("1".into(), plan, None);
         let standing = Outline::new(&[Some((Vec2::new(x, y), 0.0)); INSTANTS], &size, &SHIPPED.overlaps);
         let pullback = Pullback::default();
         let energy = SceneEnergy { pullback: &pullback, tuning: &SHIPPED.overlaps };

@@ -1,6 +1,6 @@
-//! What all calls of a generator share: the experts, the threads, the clock and the tuned numbers.
+//! The resources that all calls of a generator share: experts, threads, clock and tuned numbers.
 
-use super::workers::Workers;
+use super::workers::WorkerPool;
 use crate::clock::Clock;
 use crate::net::Expert;
 use crate::request::GenerateError;
@@ -9,10 +9,10 @@ use scene::AgentType;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What a call runs with.
+/// The resources of a call.
 pub(super) struct Resources {
     pub(super) experts: Arc<BTreeMap<AgentType, Expert>>,
-    pub(super) workers: Workers,
+    pub(super) workers: WorkerPool,
     pub(super) clock: Clock,
     pub(super) tuning: Tuning,
 }

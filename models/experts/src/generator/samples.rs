@@ -1,4 +1,4 @@
-//! What tests of the generator's parts plan for.
+//! Plans for tests of the generator's parts.
 
 use crate::features::agent::{AgentPlan, plan};
 use crate::planning::world::World;

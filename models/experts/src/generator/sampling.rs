@@ -1,8 +1,8 @@
 //! Diversity: drafts that are drawn wider about what they do, and of those the ones that diverse most.
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::diversity::{DiverseModes, best};
-use super::noise::Key;
+use super::noise::NoiseKey;
 use super::slot::Slot;
 use super::variations::{DraftView, HURRY, moves_m, tangent};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
@@ -16,12 +16,12 @@ const FIRST_KEY: u64 = 1 << 32;
 /// Waves of a drawn pace, and of a drawn line.
 const WAVES: usize = 3;
 
-/// What a draw adds to the modes of an actor, and how likely they are after it.
+/// The offsets that a draw adds to the modes of an actor, and their probabilities after it.
 pub(super) fn widen(
-    actor: &Actor,
+    actor: &PlannedActor,
     diverse: &DiverseModes,
     diversity: f64,
-    key: Key<'_>,
+    key: NoiseKey<'_>,
     tuning: &DiversityTuning,
 ) -> (Modes, [f64; MODES]) {
     let (mut added, mut probability) = ([[0.0; RESIDUAL]; MODES], diverse.probability);
@@ -38,7 +38,7 @@ pub(super) fn widen(
     let mut taken: Vec<DraftView<'_>> =
         Slot::all().filter(steady).map(|slot| DraftView::of(actor, slot, &shown(slot))).collect();
     let draws: [Modes; DRAWS] =
-        std::array::from_fn(|draw| Key { step: FIRST_KEY + draw as u64, ..key }.normals(1.0));
+        std::array::from_fn(|draw| NoiseKey { step: FIRST_KEY + draw as u64, ..key }.normals(1.0));
     let drawn: Vec<Slot> = Slot::all().filter(|slot| !steady(slot) && *slot != best).collect();
     let mut waiting: Vec<DraftView<'_>> =
         drawn.iter().rev().map(|slot| DraftView::of(actor, *slot, &shown(*slot))).collect();
@@ -71,7 +71,7 @@ struct DrawSpread {
 }
 
 impl DrawSpread {
-    fn of(actor: &Actor, share: f64, t: &DiversityTuning) -> Self {
+    fn of(actor: &PlannedActor, share: f64, t: &DiversityTuning) -> Self {
         let goal = actor.plan.target.position.is_some();
         // A small setting stays near what is likely; the ends part with its square.
         let along = share * share;
@@ -100,7 +100,7 @@ impl DrawSpread {
     /// A drawn offset that keeps the goal, and how far it goes of what it may.
     fn offset<'a>(
         &self,
-        actor: &Actor,
+        actor: &PlannedActor,
         from: &DraftView<'a>,
         normals: &Residual,
     ) -> (Residual, f64, DraftView<'a>) {
@@ -149,14 +149,14 @@ mod tests {
     use crate::tuning::SHIPPED;
     use scene::{Goal, Vec2};
 
-    fn driver(goal_m: Option<f64>) -> Actor {
+    fn driver(goal_m: Option<f64>) -> PlannedActor {
         let position = goal_m.map(|x| Vec2::new(x, 0.0));
-        Actor::new("1".into(), car_on_a_street(9.0, Goal { position, ..Goal::default() }), None)
+        PlannedActor::new("1".into(), car_on_a_street(9.0, Goal { position, ..Goal::default() }), None)
     }
 
-    fn drawn(actor: &Actor, diversity: f64, seed: u64) -> Vec<DraftView<'_>> {
+    fn drawn(actor: &PlannedActor, diversity: f64, seed: u64) -> Vec<DraftView<'_>> {
         let diverse = DiverseModes::of(actor, &[], 1.0, &SHIPPED.duplicates);
-        let key = Key { seed, sample: 0, agent: "1", window: 0, step: 0 };
+        let key = NoiseKey { seed, sample: 0, agent: "1", window: 0, step: 0 };
         let (added, probability) = widen(actor, &diverse, diversity, key, &SHIPPED.diversity);
         assert!((probability.iter().sum::<f64>() - 1.0).abs() < 1e-12);
         let offset = |i: usize| std::array::from_fn(|k| diverse.offset[i][k] + added[i][k]);

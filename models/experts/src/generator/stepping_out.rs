@@ -1,4 +1,4 @@
-//! Walkers who step out before a vehicle that comes fast.
+//! Walkers that step out before a fast vehicle.
 
 use crate::tuning::fixed::stepping_out::{AFTER_S, FAST_MPS, HARD_MPS2};
 use scene::AgentType;

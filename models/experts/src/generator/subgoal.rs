@@ -103,7 +103,7 @@ fn on_the_way(
     NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps }
 }
 
-/// What a window is asked so that it ends in a state on the way: without a place to go to, where it goes
+/// The goal of a window that ends in a state on the way: without a place to go to, where it goes
 /// stays free, and its heading too while there is time to turn later.
 pub(super) fn as_goal(state: &NearestState, kind: Kind, goal: &Goal, left: usize, time_s: f64) -> Goal {
     let placed = goal.position.is_some();
@@ -155,7 +155,7 @@ fn path_to(
 }
 
 /// Metres along the way and speed after one window, for a way of `length_m` that takes `left` steps.
-/// Nobody goes backwards along it, and nobody goes faster than its kind can.
+/// Progress never falls, and the speed stays below the limit of the agent type.
 fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left: usize) -> (f64, f64) {
     let seconds = left as f64 * STEP_S;
     let top = model.limits.speed_mps.max(v0);

@@ -1,7 +1,7 @@
-//! What else a draft could do on its own path: another pace, another line, another order where paths cross. What is
-//! asked of it is kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
+//! Variations of a draft on its own path: another pace, another line, another order where paths cross. The goal is
+//! kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
 
-use super::actor::Actor;
+use super::actor::PlannedActor;
 use super::draft_traces::trace_of;
 use super::slot::Slot;
 use super::trajectory::{BASIS, route_coordinates};
@@ -25,7 +25,7 @@ const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
 
 /// A draft with its progress, as ideas are made from and measured.
 pub(super) struct DraftView<'a> {
-    actor: &'a Actor,
+    actor: &'a PlannedActor,
     pub(super) slot: Slot,
     pub(super) residual: Residual,
     /// Progress and offset at the instants, metres.
@@ -35,7 +35,7 @@ pub(super) struct DraftView<'a> {
 }
 
 impl<'a> DraftView<'a> {
-    pub(super) fn of(actor: &'a Actor, slot: Slot, residual: &Residual) -> Self {
+    pub(super) fn of(actor: &'a PlannedActor, slot: Slot, residual: &Residual) -> Self {
         let route = route_coordinates(&actor.plan, slot, residual);
         let anchor = &actor.plan.anchors[slot.index()];
         let places = route.map(|(along, across)| anchor.place(along, across));
@@ -137,7 +137,7 @@ impl<'a> DraftView<'a> {
     pub(super) fn ordered(&self, other: &Trace, before: bool) -> Option<Self> {
         let ground = crossing(self.trace(), other)?;
         let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
-        // Who wants to be first, or lets somebody pass, is brisker than who is alone.
+        // An agent that goes first, or lets another pass, is brisker than one that is alone.
         let (brakes, speeds_up) = usual_rates(self.actor.plan.present.agent_type);
         let brisk = (1.15 * brakes, 1.4 * speeds_up);
         let made = GAPS_S.iter().find_map(|gap_s| {
@@ -179,7 +179,7 @@ pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> 
             return None;
         }
     }
-    // What comes after the goal leaves the arrival as it is.
+    // A change after the goal leaves the arrival as it is.
     let after_goal = plan.target.position.is_some() && shifts.iter().any(|(t, _)| *t > goal_s);
     if plan.target.speed_mps.is_some() || after_goal {
         rows.push((row(integrated_hat, goal_s), 0.0));

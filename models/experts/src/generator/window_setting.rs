@@ -1,7 +1,7 @@
-//! What holds for all samples of a planning window.
+//! The setting of a planning window, which all of its samples share.
 
 use super::resources::Resources;
-use super::workers::Workers;
+use super::workers::WorkerPool;
 use crate::maps::KnownMap;
 use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
@@ -25,7 +25,7 @@ pub(super) struct WindowSetting<'g> {
 
 impl<'g> WindowSetting<'g> {
     /// The threads that the work is cut over.
-    pub(super) fn workers(&self) -> &'g Workers {
+    pub(super) fn workers(&self) -> &'g WorkerPool {
         &self.resources.workers
     }
 

@@ -5,13 +5,13 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::OnceLock;
 
 /// A fixed number of threads of a generator's own, started when they are first needed.
-pub(super) struct Workers {
+pub(super) struct WorkerPool {
     threads: usize,
     /// `None` where threads cannot be had: the caller's does the work then, and the answer is the same.
     pool: OnceLock<Option<ThreadPool>>,
 }
 
-impl Workers {
+impl WorkerPool {
     /// So many threads, at least one.
     pub(super) fn new(threads: usize) -> Self {
         Self { threads: threads.max(1), pool: OnceLock::new() }
@@ -56,13 +56,13 @@ impl Workers {
 
 #[cfg(test)]
 mod tests {
-    use super::Workers;
+    use super::WorkerPool;
 
     #[test]
     fn order_is_kept() {
         let items: Vec<usize> = (0..17).collect();
         for threads in [1, 2, 5, 40] {
-            let doubled = Workers::new(threads).map(&items, |i| i * 2);
+            let doubled = WorkerPool::new(threads).map(&items, |i| i * 2);
             assert_eq!(doubled, items.iter().map(|i| i * 2).collect::<Vec<_>>());
         }
     }
@@ -70,9 +70,9 @@ mod tests {
     #[test]
     fn threads_have_a_name_and_none_starts_for_one() {
         let name = |_: &usize| std::thread::current().name().map(str::to_owned);
-        let names = Workers::new(2).map(&[0; 8], name);
+        let names = WorkerPool::new(2).map(&[0; 8], name);
         assert!(names.iter().all(|n| n.as_ref().is_some_and(|n| n.starts_with("generator-"))), "{names:?}");
         let own = std::thread::current().name().map(str::to_owned);
-        assert_eq!(Workers::new(1).map(&[0; 2], name), [own.clone(), own]);
+        assert_eq!(WorkerPool::new(1).map(&[0; 2], name), [own.clone(), own]);
     }
 }

@@ -38,7 +38,7 @@ pub struct Card {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Header {
+struct WeightsHeader {
     architecture: Architecture,
     card: Card,
 }
@@ -125,7 +125,7 @@ impl Expert {
         let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER)).ok_or_else(|| {
             NetError::Header { member: HEADER, reason: "absent: these are not an expert's weights".into() }
         })?;
-        let header: Header = serde_json::from_str(text)
+        let header: WeightsHeader = serde_json::from_str(text)
             .map_err(|error| NetError::Header { member: HEADER, reason: error.to_string() })?;
         let tensors = candle_core::safetensors::load_buffer(bytes, &Device::Cpu)?.into_iter().collect();
         Self::build(header.architecture, header.card, Params::given(tensors, trainable, device))
@@ -146,7 +146,7 @@ impl Expert {
     /// # Errors
     /// When a tensor cannot be read back.
     pub fn save(&self) -> Result<Vec<u8>, NetError> {
-        let header = Header { architecture: self.architecture.clone(), card: self.card.clone() };
+        let header = WeightsHeader { architecture: self.architecture.clone(), card: self.card.clone() };
         let text = serde_json::to_string(&header).map_err(|error| NetError::Format(error.to_string()))?;
         let tensors = on_cpu(&self.tensors)?;
         safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))

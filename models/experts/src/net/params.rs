@@ -17,7 +17,7 @@ pub enum Init {
 }
 
 #[allow(clippy::large_enum_variant, reason = "one exists while a network is put together")]
-enum Source {
+enum ParamSource {
     Random(Stream),
     Given(BTreeMap<String, Tensor>),
 }
@@ -27,7 +27,7 @@ pub type Finished = (BTreeMap<String, Tensor>, BTreeMap<String, Var>);
 
 /// Hands out parameters by name while a network is put together.
 pub struct Params {
-    source: Source,
+    source: ParamSource,
     device: Device,
     trainable: bool,
     made: BTreeMap<String, Tensor>,
@@ -37,15 +37,19 @@ pub struct Params {
 impl Params {
     /// Parameters drawn from a seed, the same on every machine.
     pub fn random(seed: u64, trainable: bool, device: &Device) -> Self {
-        Self::new(Source::Random(Key::default().text("weights").number(seed).stream()), trainable, device)
+        Self::new(
+            ParamSource::Random(Key::default().text("weights").number(seed).stream()),
+            trainable,
+            device,
+        )
     }
 
     /// Parameters of a file.
     pub fn given(tensors: BTreeMap<String, Tensor>, trainable: bool, device: &Device) -> Self {
-        Self::new(Source::Given(tensors), trainable, device)
+        Self::new(ParamSource::Given(tensors), trainable, device)
     }
 
-    fn new(source: Source, trainable: bool, device: &Device) -> Self {
+    fn new(source: ParamSource, trainable: bool, device: &Device) -> Self {
         Self { source, device: device.clone(), trainable, made: BTreeMap::new(), vars: BTreeMap::new() }
     }
 
@@ -55,7 +59,7 @@ impl Params {
     /// When a file lacks it or has it in another shape.
     pub fn get(&mut self, name: &str, shape: &[usize], init: Init) -> Result<Tensor, NetError> {
         let tensor = match &mut self.source {
-            Source::Random(rng) => {
+            ParamSource::Random(rng) => {
                 let count = shape.iter().product::<usize>();
                 let values: Vec<f32> = match init {
                     Init::Constant(value) => vec![value as f32; count],
@@ -65,7 +69,7 @@ impl Params {
                 };
                 Tensor::from_vec(values, shape, &self.device)?
             }
-            Source::Given(tensors) => {
+            ParamSource::Given(tensors) => {
                 let tensor = tensors.remove(name).ok_or_else(|| NetError::Missing(name.into()))?;
                 if tensor.dims() != shape || tensor.dtype() != DType::F32 {
                     return Err(NetError::Shape {
@@ -99,7 +103,7 @@ impl Params {
     /// # Errors
     /// When a file has tensors that no part of the network asked for.
     pub fn finish(self) -> Result<Finished, NetError> {
-        if let Source::Given(left) = &self.source
+        if let ParamSource::Given(left) = &self.source
             && let Some((name, tensor)) = left.first_key_value()
         {
             return Err(NetError::Shape {

@@ -4,7 +4,7 @@
 use super::driving::allowed_mps;
 use super::region::Region;
 use super::request::SpeedRange;
-use super::stop_lines::{Lights, straightest};
+use super::stop_lines::{ShownLights, straightest};
 use crate::tuning::placing::arms::{
     BEHIND_M, FREE_SHARE, LONGEST_M, RAGGED_M, SAME_ROAD_M, SAME_ROAD_RAD, SHORTEST_M,
 };
@@ -182,7 +182,7 @@ fn arm(entries: &[(ArmLane, Pose)], mut group: Vec<usize>) -> Arm {
 
 /// A stretch of lane that a way leads along.
 #[derive(Clone, Copy, Debug)]
-struct Leg {
+struct ArmLeg {
     lane: usize,
     from_m: f64,
     /// Arc length of the way at which it begins, metres.
@@ -191,8 +191,8 @@ struct Leg {
 
 /// The way in by one lane of an arm, up to its line: the first junction, or where the road leaves the map or
 /// joins another.
-pub(super) struct Way {
-    legs: Vec<Leg>,
+pub(super) struct ArmPath {
+    legs: Vec<ArmLeg>,
     pub(super) path: Polyline,
     /// Seconds of free travel from its beginning, every [`TIME_STEP_M`].
     times_s: Vec<f64>,
@@ -200,10 +200,15 @@ pub(super) struct Way {
     speeds_mps: Vec<f64>,
 }
 
-impl Way {
+impl ArmPath {
     /// The way that begins with a lane.
-    pub(super) fn of(graph: &LaneGraph, lights: &Lights, entry: ArmLane, speeds: Option<SpeedRange>) -> Self {
-        let mut legs = vec![Leg { lane: entry.lane, from_m: entry.s_m, at_m: 0.0 }];
+    pub(super) fn of(
+        graph: &LaneGraph,
+        lights: &ShownLights,
+        entry: ArmLane,
+        speeds: Option<SpeedRange>,
+    ) -> Self {
+        let mut legs = vec![ArmLeg { lane: entry.lane, from_m: entry.s_m, at_m: 0.0 }];
         let mut points: Vec<Vec2> = Vec::new();
         let mut seen = HashSet::from([entry.lane]);
         let (mut at, mut from_m, mut length_m) = (entry.lane, entry.s_m, 0.0);
@@ -219,7 +224,7 @@ impl Way {
                 break;
             }
             (at, from_m) = (next, 0.0);
-            legs.push(Leg { lane: at, from_m, at_m: length_m });
+            legs.push(ArmLeg { lane: at, from_m, at_m: length_m });
         }
         let path = Polyline::new(points);
         let mut way = Self { legs, path, times_s: Vec::new(), speeds_mps: Vec::new() };
@@ -297,7 +302,7 @@ impl Way {
 }
 
 /// The road goes on from one lane to the next without anything to stop for, and nothing joins it there.
-fn goes_on(graph: &LaneGraph, lights: &Lights, at: usize, next: usize) -> bool {
+fn goes_on(graph: &LaneGraph, lights: &ShownLights, at: usize, next: usize) -> bool {
     let (lane, then) = (&graph.lanes()[at], &graph.lanes()[next]);
     let junction = lane.successors.iter().any(|s| graph.lanes()[*s].interpolating || lights.rules(*s));
     let parts = lane.successors.len() > 1 && lane.lane_type != LaneType::Freeway;
@@ -372,21 +377,21 @@ mod tests {
     fn a_way_ends_at_the_junction_and_takes_its_time() {
         let scene = Scene::bare("", map(), Vec::new());
         let graph = LaneGraph::new(&scene.map);
-        let lights = Lights::new(&scene, &graph, 0);
-        let way = Way::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, None);
+        let lights = ShownLights::new(&scene, &graph, 0);
+        let way = ArmPath::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, None);
         assert!((way.length_m() - 80.0).abs() < 1e-6);
         let free_mps = FREE_SHARE * graph.lanes()[0].speed_limit_mps;
         assert!((way.seconds() - 80.0 / free_mps).abs() < 1e-6);
         assert!((way.after_s(2.0) - 2.0 * free_mps).abs() < 1e-6);
         let slow = Some(SpeedRange { min_mps: 0.0, max_mps: 4.0 });
-        let way = Way::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, slow);
+        let way = ArmPath::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, slow);
         assert!((way.seconds() - 20.0).abs() < 1e-6);
         // A light in the middle of a road is a line too.
         let mut lit = scene.clone();
         lit.signals =
             vec![Signal { lane: "out".into(), stop: None, stop_z_m: None, runs: vec![(0, SignalState::Go)] }];
-        let lights = Lights::new(&lit, &graph, 0);
-        let way = Way::of(&graph, &lights, ArmLane { lane: 3, s_m: 0.0, at_map_edge: false }, None);
+        let lights = ShownLights::new(&lit, &graph, 0);
+        let way = ArmPath::of(&graph, &lights, ArmLane { lane: 3, s_m: 0.0, at_map_edge: false }, None);
         assert!((way.length_m() - 40.0).abs() < 1e-6);
     }
 }

@@ -5,10 +5,10 @@
 //! on average exactly rate times duration pass any place of an arm. Who came in before the scene begins is where
 //! free traffic is by then; who comes in later has a motion from the map's edge on.
 
-use super::arms::{Arm, ArmLane, Way, arms};
+use super::arms::{Arm, ArmLane, ArmPath, arms};
 use super::cells::CellKind;
 use super::checks::END_M;
-use super::following::{Course, Driver, drive};
+use super::following::{Course, FollowingDriver, drive};
 use super::place::Sampler;
 use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_size};
@@ -38,18 +38,18 @@ struct Arrival {
 }
 
 /// The vehicles of one lane, those in front first.
-struct Stretch {
+struct FreeStretch {
     arm: usize,
     entry: ArmLane,
     number: usize,
-    way: Way,
+    way: ArmPath,
     all: Vec<Arrival>,
 }
 
 /// What was made of all arms so far, and who is still to come in.
-pub(super) struct Traffic {
+pub(super) struct TrafficByArms {
     pub(super) arms: Vec<ArmTraffic>,
-    stretches: Vec<Stretch>,
+    stretches: Vec<FreeStretch>,
     /// Those for whom there was no room or no time.
     pub(super) unplaced: usize,
     /// Why, a sentence each.
@@ -89,7 +89,7 @@ impl Sampler<'_> {
         &mut self,
         free: &mut usize,
         cancel: &Cancel,
-    ) -> Result<Traffic, GenerateError> {
+    ) -> Result<TrafficByArms, GenerateError> {
         let found = arms(self.cells.graph, &self.request.region);
         let unknown = self.request.arrivals.iter().find(|a| found.iter().all(|arm| arm.id != a.arm));
         if let Some(Arrivals { arm, .. }) = unknown {
@@ -99,17 +99,19 @@ impl Sampler<'_> {
             });
         }
         let mut traffic =
-            Traffic { arms: Vec::new(), stretches: Vec::new(), unplaced: 0, reasons: Vec::new() };
+            TrafficByArms { arms: Vec::new(), stretches: Vec::new(), unplaced: 0, reasons: Vec::new() };
         let mut taken = HashSet::new();
         for (at, arm) in found.into_iter().enumerate() {
             if cancel.is_cancelled() {
                 return Err(GenerateError::Cancelled);
             }
             let asked = self.request.arrivals.iter().find(|a| a.arm == arm.id).map(|a| a.per_hour);
-            let way =
-                |entry: &ArmLane| Way::of(self.cells.graph, &self.cells.lights, *entry, self.request.speeds);
-            let ways: Vec<(ArmLane, Way)> = arm.lanes.iter().map(|entry| (*entry, way(entry))).collect();
-            let least = |way: &Way| LEAST_HEADWAY_S.max((CAR_M + self.request.min_gap_m) / way.slowest_mps());
+            let way = |entry: &ArmLane| {
+                ArmPath::of(self.cells.graph, &self.cells.lights, *entry, self.request.speeds)
+            };
+            let ways: Vec<(ArmLane, ArmPath)> = arm.lanes.iter().map(|entry| (*entry, way(entry))).collect();
+            let least =
+                |way: &ArmPath| LEAST_HEADWAY_S.max((CAR_M + self.request.min_gap_m) / way.slowest_mps());
             let most_per_hour = ways.iter().map(|(_, way)| 3600.0 / least(way)).sum::<f64>().floor();
             let length_m = ways.iter().map(|(_, way)| way.length_m()).fold(0.0, f64::max);
             if let Some(per_hour) = asked {
@@ -133,10 +135,10 @@ impl Sampler<'_> {
     /// Draws who comes in by an arm; how many its lanes do not take.
     fn stretches(
         &self,
-        traffic: &mut Traffic,
+        traffic: &mut TrafficByArms,
         at: usize,
         arm: &Arm,
-        ways: Vec<(ArmLane, Way)>,
+        ways: Vec<(ArmLane, ArmPath)>,
         per_hour: f64,
     ) -> usize {
         let to_s = self.duration_s();
@@ -158,7 +160,7 @@ impl Sampler<'_> {
                 Arrival { enters_s, size, subtype, share, placed: None }
             });
             let all = all.collect();
-            traffic.stretches.push(Stretch { arm: at, entry, number, way, all });
+            traffic.stretches.push(FreeStretch { arm: at, entry, number, way, all });
         }
         lost.round() as usize
     }
@@ -179,7 +181,7 @@ impl Sampler<'_> {
 
     /// Those who came in before the start stand where they are by then; who has no room there is farther back, or
     /// not in yet.
-    fn stand_all(&mut self, traffic: &mut Traffic, free: &mut usize) {
+    fn stand_all(&mut self, traffic: &mut TrafficByArms, free: &mut usize) {
         let (mut crowded, mut full, mut outside) = (0, 0, 0);
         for stretch in &mut traffic.stretches {
             let way = &stretch.way;
@@ -247,7 +249,7 @@ impl Sampler<'_> {
     }
 
     /// A vehicle at a place of a way.
-    fn on_way(&self, way: &Way, s_m: f64, arrival: &Arrival) -> PlacedAgent {
+    fn on_way(&self, way: &ArmPath, s_m: f64, arrival: &Arrival) -> PlacedAgent {
         let place = way.path.sample(s_m);
         let (lane, lane_m) = way.lane_at(s_m);
         let limits = Limits::of(AgentType::Vehicle, arrival.subtype, arrival.size.length_m);
@@ -270,7 +272,7 @@ impl Sampler<'_> {
     /// Those who come in later, with their motion; `speeds` are those of the placed.
     pub(super) fn late_comers(
         &self,
-        traffic: &mut Traffic,
+        traffic: &mut TrafficByArms,
         speeds: &[Option<f64>],
         kept: &[&Agent],
         ids: &mut impl Iterator<Item = AgentId>,
@@ -287,7 +289,7 @@ impl Sampler<'_> {
             }
             let purpose = format!("ways on {}", traffic.arms[stretch.arm].arm.id);
             let mut stream = random::stream(self.request.seed, &purpose, stretch.number);
-            let mut before: Vec<Driver> = Vec::new();
+            let mut before: Vec<FollowingDriver> = Vec::new();
             for arrival in &stretch.all {
                 let Some(mut own) = self.driver(stretch, arrival, speeds, &before, kept, &mut stream) else {
                     waiting += usize::from(arrival.placed.is_none());
@@ -318,20 +320,21 @@ impl Sampler<'_> {
     /// A vehicle at its first place; `None` where it found no way in, or was taken out again.
     fn driver(
         &self,
-        stretch: &Stretch,
+        stretch: &FreeStretch,
         arrival: &Arrival,
         speeds: &[Option<f64>],
-        before: &[Driver],
+        before: &[FollowingDriver],
         kept: &[&Agent],
         stream: &mut Stream,
-    ) -> Option<Driver> {
+    ) -> Option<FollowingDriver> {
         let (scene, way, range) = (&self.request.scene, &stretch.way, self.request.speeds);
         let reach_m = way.length_m() + 40.0 * self.duration_s().min(60.0) + 50.0;
         let course = Course::of(scene, self.cells.graph, way, reach_m, range, stream);
         let length_m = arrival.size.length_m;
         // Free traffic is a little below what is allowed; nobody drives faster than that.
         let share = (0.95 * arrival.share).min(1.0);
-        let mut own = Driver { course, length_m, share, first_step: self.request.step, steps: Vec::new() };
+        let mut own =
+            FollowingDriver { course, length_m, share, first_step: self.request.step, steps: Vec::new() };
         if let Some(at) = arrival.placed {
             let s_m = own.course.path.project(self.placed[at].pose.position).s_m;
             own.steps.push((s_m, speeds[at]?));
@@ -385,7 +388,7 @@ fn outline(position: Vec2, heading_rad: f64, size: Size) -> OrientedBox {
 }
 
 /// A vehicle with its motion from where it comes in on.
-fn arriving(id: AgentId, arrival: &Arrival, own: &Driver) -> Agent {
+fn arriving(id: AgentId, arrival: &Arrival, own: &FollowingDriver) -> Agent {
     let state = |(s_m, speed_mps): &(f64, f64)| {
         let place = own.course.path.sample(*s_m);
         let heading_rad = wrap_angle(rounded(place.heading_rad, 1e4));

@@ -1,6 +1,6 @@
 //! The cell and the lane that a road user of a scene is in.
 
-use super::cells::{Cell, CellKind, Cells};
+use super::cells::{CellKind, Cells, MapCell};
 use crate::tuning::placing::assign::{CROSSWALK_M, PARKED_EXTENT_M, PARKED_M, PAVEMENT_M};
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{Agent, AgentType, State, Vec2, wrap_angle};
@@ -85,10 +85,10 @@ fn walk_at(cells: &Cells<'_>, position: Vec2) -> Option<usize> {
 fn nearest(
     cells: &Cells<'_>,
     position: Vec2,
-    wanted: impl Fn(&Cell) -> bool,
-    cost: impl Fn(&Cell, &scene::routes::Foot) -> Option<f64>,
+    wanted: impl Fn(&MapCell) -> bool,
+    cost: impl Fn(&MapCell, &scene::routes::Foot) -> Option<f64>,
 ) -> Option<usize> {
-    let near = |cell: &Cell| (cell.center - position).norm() < PARKED_M + cell.extent();
+    let near = |cell: &MapCell| (cell.center - position).norm() < PARKED_M + cell.extent();
     let candidates = cells.all.iter().enumerate().filter(|(_, s)| wanted(s) && near(s));
     let costs = candidates.filter_map(|(at, cell)| {
         let foot = cells.path(cell)?.project_between(position, cell.from_m, cell.to_m);

@@ -6,7 +6,7 @@ mod build;
 use super::context::SpeedContext;
 use super::model::cell_kinds;
 use super::region::{Region, in_ring};
-use super::stop_lines::{Ahead, Lights};
+use super::stop_lines::{LineAhead, ShownLights};
 use scene::routes::Polyline;
 use scene::routes::graph::{GraphLane, LaneGraph};
 use scene::{AgentType, Scene, Vec2};
@@ -58,7 +58,7 @@ impl CellKind {
     /// How many classes each feature has.
     pub fn feature_classes(self) -> &'static [usize] {
         match self {
-            Self::Lane => const { &[8, 7, Ahead::CLASSES, 5, 9, 2 * (LEADER_M.len() + 1)] },
+            Self::Lane => const { &[8, 7, LineAhead::CLASSES, 5, 9, 2 * (LEADER_M.len() + 1)] },
             Self::Kerb => &[7, 2, 7, 4, 8],
             Self::Crosswalk => &[2],
             Self::Pavement => &[4, 5, 7, 2],
@@ -69,7 +69,7 @@ impl CellKind {
 
 /// One cell.
 #[derive(Clone, Debug)]
-pub(super) struct Cell {
+pub(super) struct MapCell {
     pub(super) kind: CellKind,
     /// Graph lane; of a pavement without lane the road edge; of a driveway its index.
     pub(super) line: usize,
@@ -83,10 +83,10 @@ pub(super) struct Cell {
     /// Kerbs: from the lane's border to the kerb, metres; infinite without one.
     pub(super) free_m: f64,
     pub(super) features: [u8; FEATURES],
-    pub(super) ahead: Ahead,
+    pub(super) ahead: LineAhead,
 }
 
-impl Cell {
+impl MapCell {
     /// What its rate is multiplied by: metres, or one for a driveway.
     pub(super) fn extent(&self) -> f64 {
         if self.kind == CellKind::Driveway { 1.0 } else { self.to_m - self.from_m }
@@ -97,10 +97,10 @@ impl Cell {
 pub(super) struct Cells<'a> {
     pub(super) scene: &'a Scene,
     pub(super) graph: &'a LaneGraph,
-    pub(super) lights: Lights,
+    pub(super) lights: ShownLights,
     /// Road edges as lines.
     pub(super) edges: Vec<Polyline>,
-    pub(super) all: Vec<Cell>,
+    pub(super) all: Vec<MapCell>,
     /// By graph lane: the cells of kind lane, of which the first may not be the lane's own first.
     by_lane: HashMap<usize, LaneCells>,
 }
@@ -127,7 +127,7 @@ impl<'a> Cells<'a> {
         let lanes_m: f64 = graph.lanes().iter().map(|l| l.path.length_m()).sum();
         let edges_m: f64 = edges.iter().map(Polyline::length_m).sum();
         let cell_m = CELL_M.max((2.0 * lanes_m + edges_m) / MAX_CELLS);
-        let lights = Lights::new(scene, graph, step);
+        let lights = ShownLights::new(scene, graph, step);
         let mut cells = Self { scene, graph, lights, edges, all: Vec::new(), by_lane: HashMap::new() };
         cells.lanes(cell_m, region);
         cells.kerbs(region);
@@ -138,13 +138,13 @@ impl<'a> Cells<'a> {
     }
 
     /// A type is looked for in such a cell.
-    pub(super) fn may_hold(&self, cell: &Cell, agent_type: AgentType) -> bool {
+    pub(super) fn may_hold(&self, cell: &MapCell, agent_type: AgentType) -> bool {
         let lane_fits = || self.graph.lanes().get(cell.line).is_some_and(|l| l.carries(agent_type));
         cell_kinds(agent_type).contains(&cell.kind) && (cell.kind != CellKind::Lane || lane_fits())
     }
 
     /// The line a cell lies on; `None` for driveways.
-    pub(super) fn path(&self, cell: &Cell) -> Option<&Polyline> {
+    pub(super) fn path(&self, cell: &MapCell) -> Option<&Polyline> {
         match cell.kind {
             CellKind::Driveway => None,
             CellKind::Pavement if !cell.on_lane => self.edges.get(cell.line),
@@ -170,7 +170,7 @@ impl<'a> Cells<'a> {
                 && self.graph.lanes().get(s.line).is_some_and(counts)
                 && region.contains(s.center)
         });
-        counted.map(Cell::extent).sum::<f64>() / 1000.0
+        counted.map(MapCell::extent).sum::<f64>() / 1000.0
     }
 
     /// Calls `found` with the cells behind the place at `s_m` of a lane and their distance to it, metres,

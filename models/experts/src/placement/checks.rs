@@ -2,7 +2,7 @@
 
 use super::cells::{CellKind, Cells};
 use super::placed::PlacedAgent;
-use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 pub(super) use crate::tuning::placing::checks::END_M;
 use crate::tuning::placing::checks::{BAND, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M};
 use scene::geometry::obb::{OrientedBox, overlaps};
@@ -54,7 +54,7 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
         CellKind::Lane if !is_on_the_road(placed, cells.graph) => false,
         CellKind::Lane => {
             match placed.lane.map(|lane| cells.lights.ahead(cells.graph, lane, placed.pose.s_m)) {
-                Some(Ahead::StopLine(StopControl::Red, m)) => m >= outline.half_length_m() + STOP_LINE_M,
+                Some(LineAhead::StopLine(StopControl::Red, m)) => m >= outline.half_length_m() + STOP_LINE_M,
                 _ => true,
             }
         }

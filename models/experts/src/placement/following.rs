@@ -4,7 +4,7 @@
 //! The Intelligent Driver Model (Treiber, Hennecke and Helbing 2000, "Congested traffic states in empirical
 //! observations and microscopic simulations", Physical Review E 62), with red lights as standing leaders.
 
-use super::arms::Way;
+use super::arms::ArmPath;
 use super::driving::allowed_mps;
 use super::request::SpeedRange;
 use crate::tuning::placing::following::{
@@ -34,7 +34,7 @@ impl Course {
     pub(super) fn of(
         scene: &Scene,
         graph: &LaneGraph,
-        way: &Way,
+        way: &ArmPath,
         reach_m: f64,
         speeds: Option<SpeedRange>,
         stream: &mut Stream,
@@ -112,7 +112,7 @@ impl Course {
 }
 
 /// One vehicle of an arm's lane.
-pub(super) struct Driver {
+pub(super) struct FollowingDriver {
     pub(super) course: Course,
     pub(super) length_m: f64,
     /// Share of what is allowed that it drives when it is alone.
@@ -123,7 +123,7 @@ pub(super) struct Driver {
     pub(super) steps: Vec<(f64, f64)>,
 }
 
-impl Driver {
+impl FollowingDriver {
     /// Place and speed at a step.
     pub(super) fn at(&self, step: usize) -> Option<(f64, f64)> {
         self.steps.get(step.checked_sub(self.first_step)?).copied()
@@ -132,7 +132,13 @@ impl Driver {
 
 /// Drives one vehicle from its first place to the last step, or to the end of its course. `before` are those of the
 /// same lane that came in earlier, `kept` those of the scene who stay.
-pub(super) fn drive(scene: &Scene, kept: &[&Agent], own: &mut Driver, before: &[Driver], last_step: usize) {
+pub(super) fn drive(
+    scene: &Scene,
+    kept: &[&Agent],
+    own: &mut FollowingDriver,
+    before: &[FollowingDriver],
+    last_step: usize,
+) {
     let shared: Vec<f64> = before.iter().map(|other| own.course.shared_m(&other.course)).collect();
     while let Some((s_m, v_mps)) = own.steps.last().copied() {
         let step = own.first_step + own.steps.len() - 1;
@@ -169,7 +175,12 @@ pub(super) fn drive(scene: &Scene, kept: &[&Agent], own: &mut Driver, before: &[
 }
 
 /// Gap and speed of those of the scene who are on the course ahead, by what is known of them at a step.
-fn others_ahead(kept: &[&Agent], own: &Driver, step: usize, s_m: f64) -> impl Iterator<Item = (f64, f64)> {
+fn others_ahead(
+    kept: &[&Agent],
+    own: &FollowingDriver,
+    step: usize,
+    s_m: f64,
+) -> impl Iterator<Item = (f64, f64)> {
     let place = own.course.path.sample(s_m);
     kept.iter().filter_map(move |agent| {
         let state = agent.state_at(step)?;

@@ -5,7 +5,7 @@
 //! [`PlacementModel`](super::PlacementModel) in the classes given here.
 
 use super::assign::assign;
-use super::cells::{Cell, Cells, FEATURES, LEADER_GAP, leader_class};
+use super::cells::{Cells, FEATURES, LEADER_GAP, MapCell, leader_class};
 use super::driving::{allowed_mps, leader_ahead, usual_mps};
 use super::pose::{measure, pose_context};
 use super::region::Region;
@@ -48,7 +48,7 @@ pub struct Observation {
 }
 
 /// A road user at the step.
-struct Seen<'a> {
+struct SeenAgent<'a> {
     agent: &'a Agent,
     state: State,
     cell: Option<usize>,
@@ -68,12 +68,19 @@ pub fn observe(scene: &Scene, graph: &LaneGraph, step: usize) -> Observation {
     let square = |p: Vec2| (p - center).amax() < SEEN_M;
     let region = Region::Circle { center, radius_m: 1.5 * SEEN_M };
     let mut cells = Cells::new(scene, graph, step, &region);
-    let mut seen: Vec<Seen<'_>> = Vec::new();
+    let mut seen: Vec<SeenAgent<'_>> = Vec::new();
     for agent in &scene.agents {
         let Some(state) = agent.state_at(step) else { continue };
         let (cell, lane) = assign(&cells, agent, &state);
         let in_square = square(state.position());
-        seen.push(Seen { agent, state, cell, lane, in_square, ego: agent.role.as_deref() == Some("ego") });
+        seen.push(SeenAgent {
+            agent,
+            state,
+            cell,
+            lane,
+            in_square,
+            ego: agent.role.as_deref() == Some("ego"),
+        });
     }
     set_leader_gaps(&mut cells, &seen);
     let mut out = Observation::default();
@@ -96,7 +103,7 @@ pub fn observe(scene: &Scene, graph: &LaneGraph, step: usize) -> Observation {
 }
 
 /// Features about leaders: every lane cell's distance to the nearest road user ahead of it.
-fn set_leader_gaps(cells: &mut Cells<'_>, seen: &[Seen<'_>]) {
+fn set_leader_gaps(cells: &mut Cells<'_>, seen: &[SeenAgent<'_>]) {
     let mut gaps = vec![f64::INFINITY; cells.all.len()];
     for (lane, s_m) in seen.iter().filter_map(|s| s.lane) {
         cells.behind(lane, s_m, |at, gap_m| gaps[at] = gaps[at].min(gap_m));
@@ -106,7 +113,12 @@ fn set_leader_gaps(cells: &mut Cells<'_>, seen: &[Seen<'_>]) {
     }
 }
 
-fn count_cells(cells: &Cells<'_>, seen: &[Seen<'_>], square: impl Fn(Vec2) -> bool, out: &mut Observation) {
+fn count_cells(
+    cells: &Cells<'_>,
+    seen: &[SeenAgent<'_>],
+    square: impl Fn(Vec2) -> bool,
+    out: &mut Observation,
+) {
     let mut counts: BTreeMap<(AgentType, usize), f64> = BTreeMap::new();
     let own = seen.iter().find(|s| s.ego).and_then(|s| s.cell);
     for one in seen.iter().filter(|s| s.in_square && !s.ego) {
@@ -128,9 +140,9 @@ fn count_cells(cells: &Cells<'_>, seen: &[Seen<'_>], square: impl Fn(Vec2) -> bo
 
 fn learn_from(
     cells: &Cells<'_>,
-    one: &Seen<'_>,
+    one: &SeenAgent<'_>,
     own: usize,
-    cell: &Cell,
+    cell: &MapCell,
     obstacles: &[Obstacle],
     out: &mut Observation,
 ) {

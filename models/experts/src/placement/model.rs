@@ -3,7 +3,7 @@
 //! Rates are log-linear: per metre (per driveway) times one factor for each feature of the cell. The rest
 //! are histograms by context. All of it is one JSON file, small enough to read.
 
-use super::cells::{Cell, CellKind, FEATURES};
+use super::cells::{CellKind, FEATURES, MapCell};
 use super::context::{PoseContext, SpeedContext};
 use crate::weights::{PLACEMENT_FILE, WeightsError};
 use scene::{AgentType, ContentHash};
@@ -101,7 +101,7 @@ fn shares(values: &[f64]) -> bool {
 
 impl Rate {
     /// Expected road users in a cell.
-    pub(super) fn of(&self, cell: &Cell) -> f64 {
+    pub(super) fn of(&self, cell: &MapCell) -> f64 {
         cell.extent() * self.per_m * self.factor(&cell.features)
     }
 

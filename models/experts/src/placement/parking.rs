@@ -1,7 +1,7 @@
 //! Parked cars: along kerbs where there is room beside the lane, and in bays and parking lanes. A place is part of
 //! the street: clear of everything that is driven, walked or ridden on, of junctions, crosswalks and driveways.
 
-use super::cells::{Cell, CellKind};
+use super::cells::{CellKind, MapCell};
 use super::checks::on_lane;
 use super::place::Sampler;
 use super::placed::{PlacedAgent, rounded};
@@ -26,7 +26,7 @@ const TRIES: usize = 6;
 
 /// Where a car could park.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ParkingPlace {
     /// Middle of the place; at a kerb of its edge on the kerb's side.
     at: Vec2,
     heading_rad: f64,
@@ -88,7 +88,7 @@ impl Sampler<'_> {
     }
 
     /// A car that stands in a place, where it touches nobody.
-    fn car_in(&self, place: &Place, stream: &mut Stream) -> Option<PlacedAgent> {
+    fn car_in(&self, place: &ParkingPlace, stream: &mut Stream) -> Option<PlacedAgent> {
         for number in 0..TRIES {
             let (size, subtype) = match self.of_type(AgentType::Vehicle) {
                 Some(model) if number + 1 < TRIES => {
@@ -139,10 +139,10 @@ impl Sampler<'_> {
     }
 
     /// All places of the region, in an order that the seed does not change.
-    fn places(&self) -> Vec<Place> {
+    fn places(&self) -> Vec<ParkingPlace> {
         let mut places = self.bays();
-        let mut run: Vec<&Cell> = Vec::new();
-        let mut kerbs: Vec<&Cell> =
+        let mut run: Vec<&MapCell> = Vec::new();
+        let mut kerbs: Vec<&MapCell> =
             self.cells.all.iter().filter(|cell| cell.kind == CellKind::Kerb).collect();
         kerbs.sort_by(|a, b| {
             a.line.cmp(&b.line).then(a.side.total_cmp(&b.side)).then(a.from_m.total_cmp(&b.from_m))
@@ -168,7 +168,7 @@ impl Sampler<'_> {
     }
 
     /// Bays, and parking lanes in pieces.
-    fn bays(&self) -> Vec<Place> {
+    fn bays(&self) -> Vec<ParkingPlace> {
         let mut places = Vec::new();
         let lanes = self.cells.graph.lanes().iter();
         for lane in
@@ -179,7 +179,7 @@ impl Sampler<'_> {
             let each_m = length_m / count as f64;
             for i in 0..count.min(1_000) {
                 let middle = lane.path.sample((i as f64 + 0.5) * each_m);
-                let place = Place {
+                let place = ParkingPlace {
                     at: middle.position,
                     heading_rad: middle.heading_rad,
                     length_m: each_m,
@@ -195,14 +195,14 @@ impl Sampler<'_> {
     }
 
     /// Cars park along the kerb there.
-    fn has_room(&self, cell: &Cell) -> bool {
+    fn has_room(&self, cell: &MapCell) -> bool {
         let lane = &self.cells.graph.lanes()[cell.line];
         let room = (ROOM_M.0..=ROOM_M.1).contains(&cell.free_m);
         room && lane.carries(AgentType::Vehicle) && lane.speed_limit_mps <= FAST_MPS
     }
 
     /// Places along one kerb, by the cells that have room there one after the other.
-    fn along(&self, run: &[&Cell], places: &mut Vec<Place>) {
+    fn along(&self, run: &[&MapCell], places: &mut Vec<ParkingPlace>) {
         let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
         let lane = &self.cells.graph.lanes()[first.line];
         let beside = |list: &[usize]| list.iter().any(|l| self.cells.graph.lanes()[*l].interpolating);
@@ -222,7 +222,7 @@ impl Sampler<'_> {
             let middle = lane.path.sample(start_m + 0.5 * PLACE_M);
             let left = scene::geometry::direction(middle.heading_rad + FRAC_PI_2);
             let kerb = middle.position + left * (first.side * (0.5 * lane.width_m + free_m));
-            let place = Place {
+            let place = ParkingPlace {
                 at: kerb,
                 heading_rad: middle.heading_rad,
                 length_m: PLACE_M,
@@ -265,7 +265,7 @@ impl Sampler<'_> {
     }
 
     /// A driveway opens to a lane at the place that begins at `start_m`.
-    fn is_before_driveway(&self, lane: usize, place: &Place, start_m: f64) -> bool {
+    fn is_before_driveway(&self, lane: usize, place: &ParkingPlace, start_m: f64) -> bool {
         let path = &self.cells.graph.lanes()[lane].path;
         let side = place.kerb.unwrap_or(1.0);
         let is_near = |ring: &[Vec2]| ring.iter().any(|p| (p - place.at).norm() < NEAR_M);

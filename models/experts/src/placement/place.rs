@@ -1,7 +1,7 @@
 //! Places road users one at a time.
 
 use super::assign::driven_lane;
-use super::cells::{Cell, CellKind, Cells, LEADER_GAP, leader_class};
+use super::cells::{CellKind, Cells, LEADER_GAP, MapCell, leader_class};
 use super::checks::{Neighbours, is_sensible};
 use super::model::{PlacementModel, TypeModel};
 use super::placed::{PlacedAgent, rounded};
@@ -148,7 +148,7 @@ impl<'a> Sampler<'a> {
     }
 
     /// How likely a cell is drawn for a type.
-    fn rate(&self, agent_type: AgentType, cell: &Cell) -> f64 {
+    fn rate(&self, agent_type: AgentType, cell: &MapCell) -> f64 {
         let reach_m = 0.5 * cell.extent() + 20.0;
         let fits =
             self.cells.may_hold(cell, agent_type) && self.request.region.may_hold(cell.center, reach_m);
@@ -290,7 +290,7 @@ impl<'a> Sampler<'a> {
 }
 
 /// The middle of the line, along it; on pavements a little off the road.
-fn even_pose(cells: &Cells<'_>, cell: &Cell, agent_type: AgentType, stream: &mut Stream) -> Option<Pose> {
+fn even_pose(cells: &Cells<'_>, cell: &MapCell, agent_type: AgentType, stream: &mut Stream) -> Option<Pose> {
     let s_m = stream.between(cell.from_m, cell.to_m);
     let base = cells.path(cell)?.sample(s_m);
     let aside_m = if cell.kind == CellKind::Pavement && !cell.on_lane { 1.5 * cell.side } else { 0.0 };

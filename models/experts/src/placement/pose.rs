@@ -1,7 +1,7 @@
 //! How a road user stands in a cell: drawn from the learned distributions, or measured for learning.
 //! Both directions are here, so that they cannot drift apart.
 
-use super::cells::{Cell, CellKind, Cells};
+use super::cells::{CellKind, Cells, MapCell};
 use super::context::PoseContext;
 use super::model::{Histogram, TypeModel};
 use crate::tuning::placing::pose::{DRIVEWAY_END_M, NARROW_KERB_M};
@@ -12,7 +12,7 @@ use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Which offsets and headings hold in a cell.
-pub(super) fn pose_context(cells: &Cells<'_>, cell: &Cell) -> PoseContext {
+pub(super) fn pose_context(cells: &Cells<'_>, cell: &MapCell) -> PoseContext {
     match cell.kind {
         CellKind::Lane => {
             let lane = &cells.graph.lanes()[cell.line];
@@ -83,7 +83,7 @@ fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
 }
 
 /// Outward axis of a driveway: from the nearest lane to its middle.
-fn driveway_axis(cells: &Cells<'_>, cell: &Cell) -> Option<Vec2> {
+fn driveway_axis(cells: &Cells<'_>, cell: &MapCell) -> Option<Vec2> {
     let hit = cells.graph.nearest_for(cell.center, 40.0, AgentType::Vehicle).into_iter().next()?;
     let foot = cells.graph.lanes()[hit.lane].path.position_at(hit.s_m);
     (cell.center - foot).try_normalize(1e-3)
@@ -92,7 +92,7 @@ fn driveway_axis(cells: &Cells<'_>, cell: &Cell) -> Option<Vec2> {
 /// Draws how a road user of this size stands in a cell; `None` when the cell has no room for it.
 pub(super) fn draw_pose(
     cells: &Cells<'_>,
-    cell: &Cell,
+    cell: &MapCell,
     model: &TypeModel,
     agent_type: AgentType,
     size: Size,
@@ -144,7 +144,7 @@ pub(super) fn draw_pose(
 /// Anywhere along a driveway's axis.
 fn in_driveway(
     cells: &Cells<'_>,
-    cell: &Cell,
+    cell: &MapCell,
     size: Size,
     turn_rad: f64,
     stream: &mut Stream,
@@ -170,7 +170,7 @@ fn in_driveway(
 /// [`draw_pose`] draws.
 pub(super) fn measure(
     cells: &Cells<'_>,
-    cell: &Cell,
+    cell: &MapCell,
     agent_type: AgentType,
     size: Size,
     position: Vec2,

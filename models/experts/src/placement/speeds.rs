@@ -8,7 +8,7 @@ use super::model::{PlacementModel, SPEED_STEP, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
 use super::request::SpeedRange;
-use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 use crate::tuning::placing::speeds::{BRAKE_MPS2, FOLLOW_AFTER_S, FOLLOW_MPS2, UNKNOWN_LEADER_MPS};
 use scene::limits::Limits;
 use scene::random::Stream;
@@ -40,7 +40,7 @@ impl StartSpeeds<'_> {
         for (i, placed) in self.placed.iter().enumerate() {
             let ahead = placed.lane.map(|l| self.cells.lights.ahead(self.cells.graph, l, placed.pose.s_m));
             let distance_m = match ahead {
-                Some(Ahead::Inside(_)) => 0.0,
+                Some(LineAhead::Inside(_)) => 0.0,
                 Some(ahead) => ahead.stop_m(),
                 None => 0.0,
             };
@@ -112,7 +112,7 @@ impl StartSpeeds<'_> {
         if let Some((gap_m, leader_mps)) = leader {
             most = most.min(follows_at(gap_m - 1.0, leader_mps));
         }
-        if let Ahead::StopLine(StopControl::Red, m) = ahead {
+        if let LineAhead::StopLine(StopControl::Red, m) = ahead {
             most = most.min(brakes_from(m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
         }
         let drawn = match (placed.free_mps, model) {
@@ -120,7 +120,7 @@ impl StartSpeeds<'_> {
             (None, Some(model)) => {
                 let context = SpeedContext::driver(ahead.road_ahead(), leader);
                 // Nobody stands amid a junction for no reason that is in the scene.
-                let slowest = usize::from(matches!(ahead, Ahead::Inside(_)));
+                let slowest = usize::from(matches!(ahead, LineAhead::Inside(_)));
                 drawn_speed(model, context, slowest, unit_mps, f64::INFINITY, stream)
             }
             (None, None) => unit_mps,

@@ -25,7 +25,7 @@ pub(super) enum StopControl {
 
 /// A place on the road as drivers see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Ahead {
+pub(super) enum LineAhead {
     /// Nothing to stop for within [`LOOK_M`].
     Nothing,
     /// A stop line at this distance, metres.
@@ -34,7 +34,7 @@ pub(super) enum Ahead {
     Inside(Option<bool>),
 }
 
-impl Ahead {
+impl LineAhead {
     /// Class of the place for rates, below [`Self::CLASSES`].
     pub(super) fn class(self) -> usize {
         match self {
@@ -84,9 +84,9 @@ impl Ahead {
 }
 
 /// Lit signals by lane: state and arc length of the stop line, metres.
-pub(super) struct Lights(HashMap<usize, (SignalState, f64)>);
+pub(super) struct ShownLights(HashMap<usize, (SignalState, f64)>);
 
-impl Lights {
+impl ShownLights {
     /// Signals of a scene at a step. Those that show nothing known are left out.
     pub(super) fn new(scene: &Scene, graph: &LaneGraph, step: usize) -> Self {
         let lit = scene.signals.iter().filter_map(|signal| {
@@ -104,11 +104,11 @@ impl Lights {
     }
 
     /// What is ahead of the place at `s_m` of a lane.
-    pub(super) fn ahead(&self, graph: &LaneGraph, lane: usize, s_m: f64) -> Ahead {
+    pub(super) fn ahead(&self, graph: &LaneGraph, lane: usize, s_m: f64) -> LineAhead {
         let lanes = graph.lanes();
         let kind = |red: bool| if red { StopControl::Red } else { StopControl::NotRed };
         if lanes[lane].interpolating {
-            return Ahead::Inside(self.0.get(&lane).map(|(state, _)| state.is_stop()));
+            return LineAhead::Inside(self.0.get(&lane).map(|(state, _)| state.is_stop()));
         }
         let (mut at, mut s, mut travelled_m) = (lane, s_m, 0.0);
         for _ in 0..MAX_HOPS {
@@ -121,7 +121,7 @@ impl Lights {
             }
             travelled_m += here.path.length_m() - s;
             if travelled_m > LOOK_M {
-                return Ahead::Nothing;
+                return LineAhead::Nothing;
             }
             let lit = || here.successors.iter().filter_map(|next| self.0.get(next));
             if let Some(line_m) = lit().map(|(_, m)| *m).reduce(f64::min) {
@@ -130,15 +130,15 @@ impl Lights {
             if here.successors.iter().any(|next| lanes[*next].interpolating) {
                 return stop(StopControl::Unsignalled, travelled_m);
             }
-            let Some(next) = straightest(graph, at) else { return Ahead::Nothing };
+            let Some(next) = straightest(graph, at) else { return LineAhead::Nothing };
             (at, s) = (next, 0.0);
         }
-        Ahead::Nothing
+        LineAhead::Nothing
     }
 }
 
-fn stop(kind: StopControl, distance_m: f64) -> Ahead {
-    if distance_m < LOOK_M { Ahead::StopLine(kind, distance_m.max(0.0)) } else { Ahead::Nothing }
+fn stop(kind: StopControl, distance_m: f64) -> LineAhead {
+    if distance_m < LOOK_M { LineAhead::StopLine(kind, distance_m.max(0.0)) } else { LineAhead::Nothing }
 }
 
 /// The successor that turns least by its end.

@@ -26,7 +26,7 @@ pub type Residual = [f32; RESIDUAL];
 /// The futures of all modes of a road user, each relative to its own anchor.
 pub type Modes = [Residual; MODES];
 
-/// Who keeps within this of its place for a whole window stays there, metres.
+/// An agent that keeps within this of its place for a whole window stays there, metres.
 pub const STAYS_WITHIN_M: f64 = 0.5;
 
 /// Scale of the along knots, m/s2: residuals are divided by it before they enter a network.

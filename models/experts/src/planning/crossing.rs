@@ -3,7 +3,7 @@
 
 use super::profile::{Caps, Progress, approaching, arriving, speed_at};
 use super::stop_line::{Steps, StopLine};
-use super::way::{PathKind, Way};
+use super::way::{PathKind, UntimedPath};
 use super::world::{AgentAtStart, World};
 use crate::tuning::fixed::crossing::{
     AHEAD_M, BEHIND_LINE_M, BESIDE_M, DETOUR, DETOUR_M, DRAWN_SHORT_M, INSIDE_M, KERB_M, PACE_MPS, ROUNDED_M,
@@ -22,7 +22,7 @@ const LOOK_M: f64 = 0.5;
 const SPACING_M: f64 = 0.5;
 /// Ways by crosswalks are named from here on.
 const IDENTITY: u64 = 1_000;
-/// Nobody sets off at the very moment the lanes are stopped, steps.
+/// A walker sets off so long after the lanes are stopped, steps.
 const NOTICING_STEPS: usize = 5;
 
 /// Where a walker's path steps onto the lanes.
@@ -116,13 +116,13 @@ fn is_near(area: &Area, place: Vec2) -> bool {
 }
 
 /// The middle line of a crosswalk from kerb to kerb.
-struct Strip {
+struct CrosswalkStrip {
     ends: [Vec2; 2],
     /// Room to each side of it, metres.
     half_m: f64,
 }
 
-impl Strip {
+impl CrosswalkStrip {
     fn of(world: &World<'_>, area: &Area) -> Option<Self> {
         let ring = &area.polygon.xy;
         if ring.len() < 3 {
@@ -172,7 +172,7 @@ pub(super) fn by_crosswalk(
     target: &Target,
     goal: Vec2,
     straight: &Polyline,
-) -> Option<Way> {
+) -> Option<UntimedPath> {
     if who.agent_type != AgentType::Pedestrian || world.scene.map.crosswalks.is_empty() {
         return None;
     }
@@ -189,7 +189,7 @@ pub(super) fn by_crosswalk(
         area.polygon.xy.iter().any(|p| detour_m(p) <= longest_m)
     });
     let ways = near.filter_map(|(i, area)| {
-        let corners = Strip::of(world, area)?.way(start, goal);
+        let corners = CrosswalkStrip::of(world, area)?.way(start, goal);
         let leg = |a: usize| Polyline::new([corners[a], corners[a + 1]]);
         let length_m: f64 = corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
         let off_lanes = |leg: &Polyline| carriageway(world, leg, leg.length_m()).is_none();
@@ -200,7 +200,7 @@ pub(super) fn by_crosswalk(
     let path = Polyline::new(corners).resample(SPACING_M).smoothed(ROUNDED_M);
     let pace = walking(model.start_speed_mps(), path.length_m(), target)?;
     let identity = IDENTITY + i as u64;
-    let way = Way::new(
+    let way = UntimedPath::new(
         path,
         2.0,
         model.limits.speed_mps,
@@ -209,7 +209,7 @@ pub(super) fn by_crosswalk(
         identity,
         &world.tuning.anchors,
     );
-    Some(Way { pace: Some(pace), ..way })
+    Some(UntimedPath { pace: Some(pace), ..way })
 }
 
 /// The fastest that somebody walks without being asked to run, m/s.
@@ -221,7 +221,7 @@ pub fn brisk_mps(v0: f64) -> f64 {
 fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
     let even = even_pace(v0, length_m, target.step)?;
     let seconds = target.step as f64 * STEP_S;
-    // Who is to arrive at a speed changes to it over all of the way.
+    // An agent that is to arrive at a speed changes to it over all of the way.
     Some(match target.speed_mps {
         Some(_) => arriving(v0, length_m, seconds, target.speed_mps, SETTING_OFF_MPS2),
         None => even,

@@ -29,7 +29,7 @@ fn street() -> LaneMap {
     }
 }
 
-/// Somebody on the southern pavement at x, walking north, with a goal over the street.
+/// A walker on the southern pavement at x, walking north, with a goal over the street.
 fn walker(x: f64, speed_mps: f64, goal: (f64, f64), time_s: f64) -> Agent {
     let state = State { x_m: x, y_m: -2.0, heading_rad: FRAC_PI_2, vy_mps: speed_mps, ..State::default() };
     let mut walker = Agent::bare("1", AgentType::Pedestrian, Subtype::Adult, vec![Some(state)]);

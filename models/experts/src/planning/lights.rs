@@ -19,7 +19,7 @@ const TURN_STEPS: usize = 45;
 /// Steps after green at which the first in a queue leaves, and each further one after the one before it.
 const FIRST_LEAVES_STEPS: usize = 10;
 const NEXT_LEAVES_STEPS: usize = 12;
-/// Who would leave later than this step stays in the window.
+/// An agent that would leave later than this step stays in the window.
 const LATEST_LEAVING: usize = 75;
 
 /// A stop line that a path crosses.
@@ -43,7 +43,7 @@ impl Gate {
         self.line_m
     }
 
-    /// Nobody may pass at this step of the window.
+    /// The line is closed at this step of the window.
     pub fn is_red(&self, step: usize) -> bool {
         self.red >> step & 1 == 1
     }
@@ -52,7 +52,7 @@ impl Gate {
     /// stays red for too long.
     fn leaves(&self) -> Option<usize> {
         let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
-        // What a light does after it was last seen is no sign to leave.
+        // A signal state after the last recorded one is no sign to leave.
         if self.open >> green & 1 == 0 {
             return None;
         }
@@ -61,7 +61,7 @@ impl Gate {
     }
 }
 
-/// Somebody who stands before these lights sets off in the window.
+/// An agent that stands before these lights sets off in the window.
 pub fn sets_off(gates: &[Gate]) -> bool {
     gates.first().is_some_and(|gate| gate.leaves().is_some())
 }
@@ -110,7 +110,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()
 }
 
-/// What is known of who waits.
+/// An agent that waits, and the lights on its path.
 pub struct Waiting<'a> {
     /// Stop lines on the path, nearest first.
     pub gates: &'a [Gate],
@@ -118,7 +118,7 @@ pub struct Waiting<'a> {
     pub v0: f64,
     /// Of its kind.
     pub limits: &'a Limits,
-    /// What it must meet.
+    /// The target that it must meet.
     pub target: &'a Target,
     /// How fast the path can be driven.
     pub caps: Caps<'a>,
@@ -263,7 +263,7 @@ impl Waiting<'_> {
         let mut speed = self.v0;
         for i in 0..HORIZON_STEPS {
             let left = (stop_m - out[i]).max(0.0);
-            // Who has to stand in time does not dawdle.
+            // An agent that must stand in time does not dawdle.
             let open = speed_at(wanted, i + 1).max(self.v0).min((2.0 * brake * left).sqrt());
             let next = open.min(left / STEP_S).min(speed + SET_OFF_MPS2 * STEP_S);
             out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
@@ -282,7 +282,7 @@ impl Waiting<'_> {
         (2..=until).all(|i| {
             let (before, after) = (speed_at(progress, i - 1), speed_at(progress, i));
             let change = (after - before) / STEP_S;
-            // What one step jumps is smoothed away later.
+            // A jump of one step is smoothed away later.
             let smooth = i < 4 || (speed_at(progress, i) - speed_at(progress, i - 3)) / (3.0 * STEP_S) <= up;
             smooth && change > -down - 4.0 && after <= limits.speed_mps
         })

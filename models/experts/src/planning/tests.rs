@@ -33,7 +33,7 @@ fn fork() -> LaneMap {
     LaneMap { lanes, ..LaneMap::default() }
 }
 
-/// Somebody at a place on the fork's first road, going east at this speed.
+/// An agent at a place on the fork's first road, going east at this speed.
 fn east(id: &str, agent_type: AgentType, at: (f64, f64), speed_mps: f64) -> Agent {
     let state = State { x_m: at.0, y_m: at.1, vx_mps: speed_mps, ..State::default() };
     Agent::bare(id, agent_type, Subtype::Unknown, vec![Some(state)])

@@ -4,7 +4,7 @@
 use super::coordinates::MODES;
 use super::profile::{Caps, Progress, arriving, cruising_from, going_on, speed_at};
 use super::to_goal::{GOAL_SLOTS, MOST_WAYS, goal_progress, paths_to_goal};
-use super::way::{Anchor, SLOTS, Way, assumed_speed, paths_ahead};
+use super::way::{Anchor, SLOTS, UntimedPath, assumed_speed, paths_ahead};
 use super::world::{AgentAtStart, Waypoint, World};
 use crate::tuning::fixed::through::PRESSED;
 use scene::motion::{MotionModel, Target};
@@ -12,12 +12,12 @@ use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
 /// Ways to a via point from which the next leg begins; the last leg has as many as there are slots for.
 const WAYS_ON: usize = 2;
-/// Who has no goal passes its last via point at least so long before the window ends.
+/// An agent without a goal passes its last via point at least so many steps before the window ends.
 const LEFT_STEPS: usize = 10;
 
 /// A way through the via points so far, with how far along it each lies.
 struct Through {
-    way: Way,
+    way: UntimedPath,
     /// Metres along the way, one each via point.
     at_m: Vec<f64>,
     /// Sum of the ranks of its legs: what comes first is taken first.
@@ -95,12 +95,16 @@ fn lead_on(
     model: &MotionModel,
     through: Vec<Through>,
     steps: usize,
-    find: impl Fn(&AgentAtStart, &MotionModel) -> Vec<Way>,
+    find: impl Fn(&AgentAtStart, &MotionModel) -> Vec<UntimedPath>,
 ) -> Vec<Through> {
-    let mean_mps = |leg: &Way| leg.path.length_m() / (steps as f64 * STEP_S);
+    let mean_mps = |leg: &UntimedPath| leg.path.length_m() / (steps as f64 * STEP_S);
     if through.is_empty() {
-        let first =
-            |(rank, way): (usize, Way)| Through { at_m: Vec::new(), rank, mean_mps: mean_mps(&way), way };
+        let first = |(rank, way): (usize, UntimedPath)| Through {
+            at_m: Vec::new(),
+            rank,
+            mean_mps: mean_mps(&way),
+            way,
+        };
         return find(who, model).into_iter().enumerate().map(first).collect();
     }
     let mut out = Vec::new();

@@ -4,7 +4,7 @@ use super::coordinates::MODES;
 use super::crossing::by_crosswalk;
 use super::legal::broken_m;
 use super::profile::{Caps, arriving, fastest, going_on, slowest};
-use super::way::{Anchor, PathKind, Way, identity_of};
+use super::way::{Anchor, PathKind, UntimedPath, identity_of};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use crate::tuning::fixed::to_goal::{AFTER_GOAL_M, ARRIVING_M, PRESSED, PRESSED_SHARE};
@@ -37,7 +37,7 @@ pub(super) fn anchors_to_goal(
     let mut out = Vec::with_capacity(MODES);
     let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
     for (candidate, count) in candidates.into_iter().zip(slots) {
-        // Whoever must be there in time takes bends as fast as that asks.
+        // An agent that must arrive in time takes bends as fast as that needs.
         let base = candidate.pace.unwrap_or_else(|| {
             arriving(
                 v0,
@@ -64,7 +64,7 @@ pub(super) fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
 }
 
 /// A vehicle or rider on its way to a goal position.
-struct Trip<'a, 'w> {
+struct GoalTrip<'a, 'w> {
     world: &'a World<'w>,
     who: &'a AgentAtStart,
     model: &'a MotionModel,
@@ -86,7 +86,7 @@ pub(super) fn paths_to_goal(
     target: &Target,
     goal: Vec2,
     goes_on: bool,
-) -> Vec<Way> {
+) -> Vec<UntimedPath> {
     if model.kind == Kind::Walk {
         let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
         let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
@@ -98,14 +98,15 @@ pub(super) fn paths_to_goal(
     let pace_mps = (goal - who.start.position()).norm() / (target.step as f64 * STEP_S);
     let query = GoalQuery {
         pose: who.pose(),
-        // Who has time changes lanes over a shorter way than who goes on as fast.
+        // An agent with time to spare changes lanes over a shorter way than one that keeps its speed.
         speed_mps: v0.min(0.5 * (v0 + pace_mps)),
         agent_type: who.agent_type,
         goal,
         goal_heading_rad: target.heading_rad,
         least_effort_m: Some(least_path.length_m()),
     };
-    let trip = Trip { world, who, model, target, goal, query, least, least_path, ground: world.ground(who) };
+    let trip =
+        GoalTrip { world, who, model, target, goal, query, least, least_path, ground: world.ground(who) };
     let mut ways = trip.by_the_road(trip.usual());
     ways.truncate(MOST_WAYS);
     if goes_on {
@@ -114,14 +115,14 @@ pub(super) fn paths_to_goal(
     ways
 }
 
-impl Trip<'_, '_> {
+impl GoalTrip<'_, '_> {
     /// Ways as drivers and riders mostly go, whatever the rules say: lane routes, and the smooth way where it is
     /// as good.
-    fn usual(&self) -> Vec<Way> {
+    fn usual(&self) -> Vec<UntimedPath> {
         let Self { world, who, target, .. } = self;
         let routes =
             if world.planning.routes { routes_to_goal(&world.graph, &self.query) } else { Vec::new() };
-        let mut out: Vec<Way> = routes.into_iter().map(|found| self.along(found)).collect();
+        let mut out: Vec<UntimedPath> = routes.into_iter().map(|found| self.along(found)).collect();
         // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the
         // traffic goes elsewhere.
         let tuning = &world.tuning.anchors;
@@ -138,7 +139,7 @@ impl Trip<'_, '_> {
         let near = out.first().is_some_and(|c| greatest_distance(&self.least_path, &c.path) < 1.0);
         let joined = out.first().is_some_and(|c| c.kind == PathKind::Joined);
         let direct = self.least.reach.is_reached() && is_direct(self.least_path.length_m(), who, self.goal);
-        let shorter = |way: &Way| self.least_path.length_m() < way.path.length_m();
+        let shorter = |way: &UntimedPath| self.least_path.length_m() < way.path.length_m();
         let direct_there = self.least.reach.is_reached() && out.first().is_none_or(shorter);
         if !near && direct_there && self.takes_what_is_allowed() {
             out.insert(0, self.least_effort());
@@ -148,7 +149,7 @@ impl Trip<'_, '_> {
             let route = if near { out.remove(0).route } else { None };
             // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
             let place = usize::from(joined && !near && target.heading_rad.is_none());
-            out.insert(place, Way { route, ..self.least_effort() });
+            out.insert(place, UntimedPath { route, ..self.least_effort() });
         }
         out
     }
@@ -164,7 +165,7 @@ impl Trip<'_, '_> {
         allowed && crosses(self.world.graph.ground()) && !crosses(&self.ground)
     }
 
-    fn along(&self, found: GoalRoute) -> Way {
+    fn along(&self, found: GoalRoute) -> UntimedPath {
         let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad };
         let GoalQuery { pose, agent_type, .. } = self.query;
         let v0 = self.model.start_speed_mps();
@@ -172,21 +173,22 @@ impl Trip<'_, '_> {
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
         let tuning = &self.world.tuning.anchors;
-        Way::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity, tuning)
+        UntimedPath::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity, tuning)
     }
 
-    fn least_effort(&self) -> Way {
+    fn least_effort(&self) -> UntimedPath {
         let path = with_tail(self.least_path.clone(), self.who);
         let tuning = &self.world.tuning.anchors;
-        Way::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
+        UntimedPath::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
     }
 
     /// The ways that keep to the rules and arrive in time, in their order. Where there are none, further ones are
     /// looked for, and those that break the rules least serve; a long way round must be worth it.
-    fn by_the_road(&self, ways: Vec<Way>) -> Vec<Way> {
+    fn by_the_road(&self, ways: Vec<UntimedPath>) -> Vec<UntimedPath> {
         let tuning = &self.world.tuning.anchors;
         let fine = |cost: f64| cost <= tuning.broken_m;
-        let mut judged: Vec<(f64, Way)> = ways.into_iter().map(|way| (self.cost(&way), way)).collect();
+        let mut judged: Vec<(f64, UntimedPath)> =
+            ways.into_iter().map(|way| (self.cost(&way), way)).collect();
         if !judged.iter().any(|(cost, _)| fine(*cost)) {
             if judged.iter().all(|(_, way)| way.kind != PathKind::LeastEffort) {
                 let way = self.least_effort();
@@ -212,14 +214,14 @@ impl Trip<'_, '_> {
     }
 
     /// Metres on which a way breaks the rules, and much more where it does not arrive in time.
-    fn cost(&self, way: &Way) -> f64 {
+    fn cost(&self, way: &UntimedPath) -> f64 {
         let length_m = goal_progress(&way.path, self.goal);
         let late = if self.arrives(way, length_m) { 0.0 } else { 1e3 };
         late + broken_m(&self.ground, self.who, &way.path, length_m)
     }
 
     /// The goal can be reached in time along a way, within the limits.
-    fn arrives(&self, way: &Way, length_m: f64) -> bool {
+    fn arrives(&self, way: &UntimedPath, length_m: f64) -> bool {
         if way.kind == PathKind::LeastEffort {
             return self.least.reach.is_reached();
         }
@@ -232,7 +234,7 @@ impl Trip<'_, '_> {
     }
 
     /// A way to a goal that is due before the window ends goes on along the lanes from there, where it is on one.
-    fn go_on(&self, way: &mut Way) {
+    fn go_on(&self, way: &mut UntimedPath) {
         let Self { world, who, target, model, .. } = self;
         if !world.planning.routes || way.path.length_m() < 1.0 {
             return;
@@ -266,7 +268,7 @@ fn walk_to(
     target: &Target,
     goal: Vec2,
     tuning: &AnchorTuning,
-) -> Way {
+) -> UntimedPath {
     if let Some(smooth) = smooth_to(who, model, target, goal, tuning) {
         return smooth;
     }
@@ -278,7 +280,7 @@ fn walk_to(
     } else {
         Polyline::new([start, start + direction(who.start.heading_rad)])
     };
-    Way::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
+    UntimedPath::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
 }
 
 /// The spline under tension to the goal, as a path with its pace; `None` where it would wind or hardly move.
@@ -288,7 +290,7 @@ fn smooth_to(
     target: &Target,
     goal: Vec2,
     tuning: &AnchorTuning,
-) -> Option<Way> {
+) -> Option<UntimedPath> {
     let from = (who.start.position(), who.start.velocity());
     let relax_s = if model.kind == Kind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
     let curve = Tension::to_target(from, target, relax_s)?;
@@ -304,8 +306,9 @@ fn smooth_to(
     }
     points.truncate(target.step + 1);
     let path = Polyline::new(points);
-    let candidate = Way::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2, tuning);
-    Some(Way { pace: Some(pace), ..candidate })
+    let candidate =
+        UntimedPath::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2, tuning);
+    Some(UntimedPath { pace: Some(pace), ..candidate })
 }
 
 /// Whether a way of this length to the goal does not wind.

@@ -9,7 +9,7 @@ use scene::motion::{Kind, MotionModel};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{AgentType, HORIZON_STEPS, Vec2};
 
-/// What kind of path an anchor follows.
+/// The kind of path that an anchor follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathKind {
     /// Lanes all the way.
@@ -57,7 +57,7 @@ pub(super) const SLOTS: [[usize; MODES]; MODES] = [
 ];
 
 /// A path before it has timings.
-pub(super) struct Way {
+pub(super) struct UntimedPath {
     pub(super) path: Polyline,
     pub(super) caps_mps: Vec<f64>,
     pub(super) limit_mps: f64,
@@ -68,7 +68,7 @@ pub(super) struct Way {
     pub(super) pace: Option<Progress>,
 }
 
-pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<Way> {
+pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<UntimedPath> {
     let v0 = model.start_speed_mps();
     let graph = &world.graph;
     let walking = model.kind == Kind::Walk;
@@ -78,7 +78,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
     } else {
         Vec::new()
     };
-    let mut out: Vec<Way> = Vec::with_capacity(MODES);
+    let mut out: Vec<UntimedPath> = Vec::with_capacity(MODES);
     if walking || routes.is_empty() {
         out.push(straight_on(who, model, length, &world.tuning.anchors));
     }
@@ -91,7 +91,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
         let limit = route.limits_mps.first().copied().unwrap_or(model.limits.speed_mps);
         let identity = identity_of(&route);
         let comfort = model.limits.comfort_lateral_mps2;
-        out.push(Way::new(
+        out.push(UntimedPath::new(
             path,
             comfort,
             limit.min(model.limits.speed_mps),
@@ -107,7 +107,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
     out
 }
 
-fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &AnchorTuning) -> Way {
+fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &AnchorTuning) -> UntimedPath {
     let start = who.start.position();
     let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
     // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
@@ -116,11 +116,17 @@ fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &An
     let ahead = if aside { velocity.normalize() } else { faces };
     let n = length.ceil().max(2.0) as usize;
     let path = Polyline::new((0..=n).map(|i| start + ahead * i as f64));
-    Way::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3, tuning)
+    UntimedPath::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3, tuning)
 }
 
 /// An arc that turns by `bend` radians over the length.
-fn bent(who: &AgentAtStart, model: &MotionModel, length: f64, bend: f64, tuning: &AnchorTuning) -> Way {
+fn bent(
+    who: &AgentAtStart,
+    model: &MotionModel,
+    length: f64,
+    bend: f64,
+    tuning: &AnchorTuning,
+) -> UntimedPath {
     let n = length.ceil().max(2.0) as usize;
     let mut at = who.start.position();
     let points: Vec<Vec2> = (0..=n)
@@ -132,7 +138,7 @@ fn bent(who: &AgentAtStart, model: &MotionModel, length: f64, bend: f64, tuning:
         .collect();
     let comfort = model.limits.comfort_lateral_mps2;
     let identity = if bend > 0.0 { 4 } else { 5 };
-    Way::new(
+    UntimedPath::new(
         Polyline::new(points),
         comfort,
         assumed_speed(who.agent_type),
@@ -152,7 +158,7 @@ pub(super) fn assumed_speed(agent_type: AgentType) -> f64 {
     }
 }
 
-impl Way {
+impl UntimedPath {
     pub(super) fn new(
         path: Polyline,
         lateral_mps2: f64,

@@ -99,7 +99,7 @@ pub struct World<'a> {
     pub step: usize,
     /// Road users present at the start, by id.
     pub present: Vec<AgentAtStart>,
-    /// What is fixed in this window, one entry an agent of the scene. It stands here and not in the scene: a
+    /// The conditions in this window, one entry an agent of the scene. They stand here and not in the scene: a
     /// window may be asked something else than the user fixed.
     pub conditions: Vec<Conditions>,
     /// Signals of lanes in the graph.
@@ -184,7 +184,7 @@ impl<'a> World<'a> {
         asked.via.iter().map(waypoint).collect()
     }
 
-    /// What is fixed about a road user's goal, as a target of the window.
+    /// The fixed fields of an agent's goal, as a target of the window.
     pub fn target(&self, present: &AgentAtStart) -> Target {
         let goal = &self.conditions[present.index].goal;
         let step = goal.step_in_window(self.step as f64 * scene::STEP_S);

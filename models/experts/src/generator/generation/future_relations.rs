@@ -10,7 +10,7 @@ use scene::{AgentType, Future, Sample};
 /// In larger answers only the shown futures of those that were not asked for get relations.
 const FEW: usize = 60;
 
-/// Everybody as they are shown, to hold futures against.
+/// All agents as they are shown, to compare futures with.
 pub(super) struct ShownAgents<'a> {
     request: &'a Request,
     map: &'a KnownMap,
@@ -34,14 +34,14 @@ impl<'a> ShownAgents<'a> {
         Self { request, map, sample, traces, few: futures <= FEW }
     }
 
-    /// What a future of a road user does.
+    /// The manoeuvre of an agent's future.
     pub(super) fn manoeuvre(&self, agent: usize, future: &Future) -> Option<Manoeuvre> {
         let kind = self.request.scene.agents[agent].kind();
         let lanes = (kind != AgentType::Pedestrian).then_some(&*self.map.graph);
         manoeuvre(&future.states, kind, lanes)
     }
 
-    /// What somebody does, to hold futures against.
+    /// The motion of an agent, to compare futures with.
     fn trace(request: &Request, agent: &scene::Agent, actor: &Actor<'_>) -> Trace {
         let at = |step: usize| actor.state(request.start_step + 1 + step).copied();
         Trace::new(&agent.id, agent.kind(), &actor.size, request.horizon_steps, at)

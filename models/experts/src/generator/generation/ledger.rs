@@ -1,13 +1,13 @@
-//! The ledger of a call: what everybody has done so far in the present sample, and what the answer will say.
+//! The ledger of a call: the motion of every agent so far in the present sample, and the parts of the answer.
 
 use super::targets::due;
 use super::window::PlanningWindow;
-use crate::generator::actor::Actor;
-use crate::generator::candidates::Candidate;
+use crate::generator::actor::PlannedActor;
+use crate::generator::candidates::MotionCandidate;
 use crate::generator::decide::{Decided, Decisions};
 use crate::generator::extrapolation::Guessed;
 use crate::generator::others::Reacted;
-use crate::generator::report::{self, Outcome};
+use crate::generator::report::{self, AgentOutcome};
 use crate::planning::world::World;
 use crate::request::{
     Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
@@ -16,7 +16,7 @@ use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// What a road user has done so far in the present sample.
+/// The motion of an agent so far in the present sample.
 pub(super) struct AgentProgress {
     /// Of the window in which it first got any.
     futures: AgentFutures,
@@ -31,7 +31,7 @@ pub(super) struct AgentProgress {
     intermediate: Vec<Intermediate>,
     /// It drives its own way at another pace, for somebody else.
     reacts: bool,
-    /// What the last window planned for it after what was executed.
+    /// Its plan of the last window after the executed steps.
     ahead: Vec<State>,
 }
 
@@ -43,7 +43,7 @@ impl AgentProgress {
         Self { futures, executed, absent, parked, reach, intermediate, reacts, ahead }
     }
 
-    /// What it did up to `steps` after the call's start while it followed a motion that was known.
+    /// Adds the states of a known motion that it followed up to `steps` after the call's start.
     fn catch_up(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
         let track = &base.agents[agent].track;
         let from = self.absent + self.executed.len() + 1;
@@ -63,30 +63,29 @@ pub(super) struct Ledger {
     pub(super) timings: Timings,
 }
 
-/// What others would do if a future of a road user were taken that is not shown: by road user and future, who would
-/// do something else and what; `None` is what it does when nobody is in its way.
+/// The motions of others if a future of an agent were taken that is not shown, by agent and future; `None` is the motion of
+/// an agent that has no other in its way.
 pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<Future>)>>;
 
 impl Ledger {
-    /// What a road user has done in the present sample, if it got futures.
+    /// The progress of an agent in the present sample, if it got futures.
     pub(super) fn progress(&self, agent: usize) -> Option<&AgentProgress> {
         self.progress.get(&agent)
     }
 
-    /// Those that got futures in the present sample.
+    /// The agents that got futures in the present sample.
     pub(super) fn acted(&self) -> BTreeSet<usize> {
         self.progress.keys().copied().collect()
     }
 
-    /// Those that drive their own way at another pace for somebody: where they are, and what they had planned from
-    /// there.
+    /// The agents that react on their own path: their reached states, and their plans from there.
     pub(super) fn reacting(&self) -> BTreeMap<usize, Vec<State>> {
         let reacting = self.progress.iter().filter(|(_, p)| p.reacts);
         let ahead = |p: &AgentProgress| p.executed.last().into_iter().chain(&p.ahead).copied().collect();
         reacting.map(|(i, p)| (*i, ahead(p))).collect()
     }
 
-    /// Those among them that were parked at the start and have not moved.
+    /// The agents among them that were parked at the start and have not moved.
     pub(super) fn parked(&self) -> BTreeSet<usize> {
         self.progress.iter().filter(|(_, p)| p.parked).map(|(i, _)| *i).collect()
     }
@@ -117,7 +116,7 @@ impl Ledger {
         };
         progress.catch_up(request, base, agent, span.start);
         progress.executed.extend(decided.motion().states.iter().skip(1).take(span.len()).map(State::from));
-        // What was asked lies behind after the goal: the verdict stands.
+        // After the goal its verdict stays.
         if due(request, agent) > span.start as isize {
             if let Some(sent) = window.subgoals.get(&agent) {
                 let reached = decided.motion().reach.is_reached();
@@ -128,7 +127,7 @@ impl Ledger {
         self.progress.insert(agent, progress);
     }
 
-    /// Writes down where somebody goes in these steps who gave up what it did for others.
+    /// Writes down where a reacting agent goes in these steps.
     pub(super) fn react(
         &mut self,
         request: &Request,
@@ -154,7 +153,7 @@ impl Ledger {
         self.progress.insert(agent, progress);
     }
 
-    /// Writes down what the others would answer to futures that are not shown.
+    /// Writes down the reactions of the others to futures that are not shown.
     pub(super) fn would_react(&mut self, window: &PlanningWindow<'_>, decisions: &Decisions) {
         let shown = || decisions.reacted.iter().map(|a| a.index);
         for decided in &decisions.actors {
@@ -171,12 +170,12 @@ impl Ledger {
         }
     }
 
-    /// What was written down of that.
+    /// The motions that were written down by [`Ledger::would_react`].
     pub(super) fn take_instead(&mut self) -> Instead {
         std::mem::take(&mut self.instead)
     }
 
-    /// Writes down that somebody followed a picked future up to `steps` after the call's start.
+    /// Writes down that an agent followed a picked future up to `steps` after the call's start.
     pub(super) fn followed(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
         if let Some(progress) = self.progress.get_mut(&agent) {
             progress.catch_up(request, base, agent, steps);
@@ -207,14 +206,14 @@ impl Ledger {
         sample
     }
 
-    /// What became of everybody's conditions.
+    /// The outcome of every agent's conditions.
     fn resolve(&mut self, request: &Request, world: &World<'_>, progress: &BTreeMap<usize, AgentProgress>) {
         let agents = &request.scene.agents;
         for (i, progress) in progress {
             let Some(present) = world.present.iter().find(|p| p.index == *i) else { continue };
             let due = due(request, *i).max(1) as usize;
             let end = progress.executed.get(due - 1).or(progress.executed.last());
-            let outcome = Outcome {
+            let outcome = AgentOutcome {
                 present,
                 conditions: &agents[*i].conditions,
                 due_step: request.start_step + due,
@@ -286,14 +285,14 @@ impl Ledger {
 /// is shown alone.
 fn first_of(
     window: &PlanningWindow<'_>,
-    actor: &Actor,
+    actor: &PlannedActor,
     decided: &Decided,
     later: bool,
     executed: Vec<State>,
     reach: &ReachReport,
 ) -> AgentProgress {
     let mut futures = if later {
-        window.futures(0, &[Candidate { probability: 1.0, ..decided.shown().clone() }])
+        window.futures(0, &[MotionCandidate { probability: 1.0, ..decided.shown().clone() }])
     } else {
         window.futures(decided.chosen, &decided.alternatives)
     };
@@ -303,7 +302,7 @@ fn first_of(
     AgentProgress { parked, reach: reach.clone(), ..AgentProgress::new(futures, executed, absent) }
 }
 
-/// What a road user that keeps its motion did before a window in which it first gives it up. The first
+/// The states of an agent that keeps its motion before the window in which it first changes it. The first
 /// state of one that came in later is its start and left out like any other's.
 fn before(base: &Scene, request: &Request, agent: usize, steps: usize) -> Vec<State> {
     let track = &base.agents[agent].track;

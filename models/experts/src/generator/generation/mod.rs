@@ -26,7 +26,7 @@ use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::request::{Accepted, Answer, Cancel, Event, GenerateError, Request, Warning};
 use ledger::Ledger;
-use roster::{Part, Roster};
+use roster::{CallPart, Roster};
 use scene::{MAX_HORIZON_STEPS, Sample, Scene};
 use spans::Spans;
 use std::sync::Arc;
@@ -34,9 +34,9 @@ use std::time::Duration;
 use targets::{Targets, due};
 use window::PlanningWindow;
 
-/// What comes next of a call.
+/// The next part of a call.
 #[derive(Clone, Copy)]
-enum Stage {
+enum CallStage {
     Accept,
     /// First drafts of a window.
     Initial(usize),
@@ -47,9 +47,9 @@ enum Stage {
 }
 
 /// The windows of a call that are planned at present.
-struct Windows<'g> {
+struct CallWindows<'g> {
     spans: Spans,
-    /// What they are cut from: the call's scene, with what is kept known to the last window's end.
+    /// The scene that they are cut from: the call's, with kept motions known to the last window's end.
     base: Arc<Scene>,
     /// The moment at which the first begins, until it is planned.
     start: Option<World<'g>>,
@@ -58,7 +58,7 @@ struct Windows<'g> {
     later: Option<PlanningWindow<'g>>,
 }
 
-impl<'g> Windows<'g> {
+impl<'g> CallWindows<'g> {
     fn present(&self) -> Result<&PlanningWindow<'g>, GenerateError> {
         self.later.as_ref().or(self.first.as_ref()).ok_or(GenerateError::NoWindow)
     }
@@ -74,9 +74,9 @@ pub struct Generation<'g> {
     request: Arc<Request>,
     cancel: Cancel,
     map: Arc<KnownMap>,
-    stage: Stage,
+    stage: CallStage,
     roster: Roster,
-    windows: Windows<'g>,
+    windows: CallWindows<'g>,
     ledger: Ledger,
 }
 
@@ -96,19 +96,19 @@ impl<'g> Generation<'g> {
         let (roster, base) = Roster::of(&request, &start, &spans)?;
         // All who are there at the start are there in both scenes alike.
         let start = World { scene: base.clone().into(), ..start };
-        let windows = Windows { spans, base, start: Some(start), first: None, later: None };
+        let windows = CallWindows { spans, base, start: Some(start), first: None, later: None };
         let mut ledger = Ledger::default();
         ledger.timings.encode_ms = milliseconds(resources.clock, started);
-        Ok(Self { resources, request, cancel, map, stage: Stage::Accept, roster, windows, ledger })
+        Ok(Self { resources, request, cancel, map, stage: CallStage::Accept, roster, windows, ledger })
     }
 
     fn accept(&self) -> Accepted {
         let agents = &self.request.scene.agents;
-        let ids = |is: fn(Part) -> bool| self.roster.with(is).map(|i| agents[i].id.clone()).collect();
+        let ids = |is: fn(CallPart) -> bool| self.roster.with(is).map(|i| agents[i].id.clone()).collect();
         Accepted {
             seed: self.request.seed,
-            regenerated: ids(Part::is_asked),
-            reacting: ids(Part::answers),
+            regenerated: ids(CallPart::is_asked),
+            reacting: ids(CallPart::answers),
             fixed: ids(|part| !part.is_asked() && !part.answers()),
             steps: self.request.steps,
             windows: self.windows.spans.count(),
@@ -206,7 +206,7 @@ impl<'g> Generation<'g> {
     }
 
     fn finish_sample(&mut self) -> Result<(), GenerateError> {
-        for agent in self.roster.with(|part| part == Part::Picked) {
+        for agent in self.roster.with(|part| part == CallPart::Picked) {
             let last = self.request.horizon_steps;
             let ends = self.roster.pick_ends(agent).map_or(last, |step| step - 1 - self.request.start_step);
             self.ledger.followed(&self.request, &self.windows.base, agent, last.min(ends));
@@ -261,35 +261,39 @@ impl<'g> Generation<'g> {
         if self.cancel.is_cancelled() { Err(GenerateError::Cancelled) } else { Ok(()) }
     }
 
-    /// What comes after the last draft of a window.
-    fn after(&self, number: usize) -> Stage {
-        if number + 1 < self.windows.spans.count() { Stage::Initial(number + 1) } else { Stage::Finish }
+    /// The part after the last draft of a window.
+    fn after(&self, number: usize) -> CallStage {
+        if number + 1 < self.windows.spans.count() {
+            CallStage::Initial(number + 1)
+        } else {
+            CallStage::Finish
+        }
     }
 
     fn advance(&mut self) -> Result<Event, GenerateError> {
         self.stop_if_cancelled()?;
         match self.stage {
-            Stage::Accept => {
-                self.stage = Stage::Initial(0);
+            CallStage::Accept => {
+                self.stage = CallStage::Initial(0);
                 Ok(Event::Accepted(self.accept()))
             }
-            Stage::Initial(number) => {
+            CallStage::Initial(number) => {
                 if let Some(last) = number.checked_sub(1) {
                     self.execute(last)?;
                 }
                 self.begin(number)?;
                 let refines = steps(&self.request) > 0;
-                self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
+                self.stage = if refines { CallStage::Step(number, 1) } else { self.after(number) };
                 Ok(Event::Draft(self.windows.present()?.draft(0)))
             }
-            Stage::Step(number, step) => {
+            CallStage::Step(number, step) => {
                 self.refine(step)?;
                 let more = step < steps(&self.request);
-                self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
+                self.stage = if more { CallStage::Step(number, step + 1) } else { self.after(number) };
                 Ok(Event::Draft(self.windows.present()?.draft(step)))
             }
-            Stage::Finish | Stage::Done => {
-                self.stage = Stage::Done;
+            CallStage::Finish | CallStage::Done => {
+                self.stage = CallStage::Done;
                 Ok(Event::Final(self.answer()?))
             }
         }
@@ -300,12 +304,12 @@ impl Iterator for Generation<'_> {
     type Item = Result<Event, GenerateError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if matches!(self.stage, Stage::Done) {
+        if matches!(self.stage, CallStage::Done) {
             return None;
         }
         let event = self.advance();
         if event.is_err() {
-            self.stage = Stage::Done;
+            self.stage = CallStage::Done;
         }
         Some(event)
     }

@@ -3,7 +3,7 @@
 use super::base_scene::known_to_the_end;
 use super::ledger::Ledger;
 use super::spans::Spans;
-use crate::generator::cast::{Cast, MOST_ACTORS};
+use crate::generator::cast::{MOST_ACTORS, WindowCast};
 use crate::generator::extrapolation::Guessed;
 use crate::generator::others::extend_along_road;
 use crate::planning::world::World;
@@ -12,9 +12,9 @@ use scene::{AgentId, AgentType, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What a road user does in a call.
+/// The part of an agent in a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum CallPart {
     /// It was asked for.
     Asked,
     /// It was asked for, and a person picked its future: it is planned around in the first window, is background
@@ -32,7 +32,7 @@ pub(super) enum Part {
     Absent,
 }
 
-impl Part {
+impl CallPart {
     /// It may get new futures without having been asked for.
     pub(super) fn answers(self) -> bool {
         matches!(self, Self::MayReact | Self::Continues | Self::Arrives)
@@ -44,17 +44,17 @@ impl Part {
     }
 }
 
-/// Everybody's part, one entry an agent of the scene.
+/// The parts in a call, one entry an agent of the scene.
 pub(super) struct Roster {
     /// The scene that windows are cut from.
     base: Arc<Scene>,
-    parts: Vec<Part>,
+    parts: Vec<CallPart>,
     /// From where on nothing is known of those that keep their motion, in calls of several windows.
     guessed: Vec<Option<Guessed>>,
 }
 
 impl Roster {
-    /// Everybody's part in a call, and the scene that its windows are cut from: the call's own, with what is
+    /// The parts in a call, and the scene that its windows are cut from: the call's own, with what is
     /// kept known to the last window's end.
     ///
     /// # Errors
@@ -105,16 +105,16 @@ impl Roster {
             match () {
                 () if asked.contains(&i) => {
                     if picked(i) {
-                        Part::Picked
+                        CallPart::Picked
                     } else {
-                        Part::Asked
+                        CallPart::Asked
                     }
                 }
-                () if may_react.contains(&i) => Part::MayReact,
-                () if movable.contains(&i) && ends && keeps_a_future(i) => Part::Continues,
-                () if !here.contains(&i) && ends && everybody && moves => Part::Arrives,
-                () if here.contains(&i) => Part::Kept,
-                () => Part::Absent,
+                () if may_react.contains(&i) => CallPart::MayReact,
+                () if movable.contains(&i) && ends && keeps_a_future(i) => CallPart::Continues,
+                () if !here.contains(&i) && ends && everybody && moves => CallPart::Arrives,
+                () if here.contains(&i) => CallPart::Kept,
+                () => CallPart::Absent,
             }
         };
         let parts = (0..scene.agents.len()).map(part).collect();
@@ -122,12 +122,12 @@ impl Roster {
     }
 
     /// A road user's part.
-    pub(super) fn part(&self, agent: usize) -> Part {
+    pub(super) fn part(&self, agent: usize) -> CallPart {
         self.parts[agent]
     }
 
     /// Road users with a part like this.
-    pub(super) fn with(&self, is: impl Fn(Part) -> bool) -> impl Iterator<Item = usize> {
+    pub(super) fn with(&self, is: impl Fn(CallPart) -> bool) -> impl Iterator<Item = usize> {
         self.parts.iter().enumerate().filter(move |(_, part)| is(**part)).map(|(i, _)| i)
     }
 
@@ -143,50 +143,56 @@ impl Roster {
 
     /// A road user still follows the future that was picked for it when a window begins at scene step `step`.
     pub(super) fn follows_its_pick(&self, agent: usize, step: usize) -> bool {
-        self.part(agent) == Part::Picked && !self.known_until(agent, step + 1)
+        self.part(agent) == CallPart::Picked && !self.known_until(agent, step + 1)
     }
 
     /// Scene steps of which a picked future speaks; `None` of anybody else, and where nothing comes after it.
     pub(super) fn pick_ends(&self, agent: usize) -> Option<usize> {
-        self.guessed[agent].filter(|_| self.part(agent) == Part::Picked).map(|g| g.step)
+        self.guessed[agent].filter(|_| self.part(agent) == CallPart::Picked).map(|g| g.step)
     }
 
-    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
+    /// The cast of window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
     /// knows who got futures in earlier windows of the sample; `parked` is left to the caller.
-    pub(super) fn in_window(&self, number: usize, world: &World<'_>, end: usize, ledger: &Ledger) -> Cast {
+    pub(super) fn in_window(
+        &self,
+        number: usize,
+        world: &World<'_>,
+        end: usize,
+        ledger: &Ledger,
+    ) -> WindowCast {
         let first = number == 0;
         let acted = &ledger.acted();
         // A picked future is background after the first window, like any other motion that is kept, up to its end.
-        let asked = self.with(Part::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
+        let asked = self.with(CallPart::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
         let mut acting: BTreeSet<usize> = asked.collect();
-        // Who drives its own way at another pace does so as long as there is one.
+        // An agent that drives its own path at another pace does so as long as the path is known.
         let mut resumed = ledger.reacting();
         resumed.retain(|i, _| !self.known_until(*i, end));
         for (i, ahead) in &mut resumed {
             let agent = &self.base.agents[*i];
             let agent_type = world.conditions[*i].kind_of(agent);
-            // What is guessed of it goes straight on, whatever the road does.
+            // A guessed motion goes straight on, whatever the road does.
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];
             extend_along_road(ahead, way, &world.graph, agent_type);
         }
         acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
-        let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
-        let mut may_react: BTreeSet<usize> = new(Part::MayReact).collect();
+        let new = |part: CallPart| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
+        let mut may_react: BTreeSet<usize> = new(CallPart::MayReact).collect();
         if !first {
             // Nothing is left to keep for those whose log ends in what this window executes.
             let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
-            let ended = new(Part::MayReact).chain(new(Part::Arrives)).filter(seen);
+            let ended = new(CallPart::MayReact).chain(new(CallPart::Arrives)).filter(seen);
             let ended = ended.filter(|i| self.known_until(*i, end));
             let ended: Vec<usize> = ended.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             may_react.retain(|i| !ended.contains(i));
             acting.extend(ended);
-            let over = new(Part::Continues).filter(|i| self.known_until(*i, world.step + 1));
+            let over = new(CallPart::Continues).filter(|i| self.known_until(*i, world.step + 1));
             let over: Vec<usize> = over.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             acting.extend(over);
         }
-        Cast { acting, may_react, parked: BTreeSet::new(), resumed }
+        WindowCast { acting, may_react, parked: BTreeSet::new(), resumed }
     }
 }
 
@@ -221,7 +227,7 @@ mod tests {
         agent
     }
 
-    fn parts(react: React, agents: Option<&[&str]>, horizon_steps: usize) -> Vec<Part> {
+    fn parts(react: React, agents: Option<&[&str]>, horizon_steps: usize) -> Vec<CallPart> {
         let all = vec![
             agent("a", AgentType::Vehicle, 0, 91),
             agent("aa", AgentType::Vehicle, 0, 91),
@@ -239,7 +245,7 @@ mod tests {
 
     #[test]
     fn everybody_has_one_part() {
-        use Part::*;
+        use CallPart::*;
         assert_eq!(parts(React::Nobody, Some(&["a"]), 90), [Asked, Kept, Kept, Absent]);
         assert_eq!(parts(React::Everyone, Some(&["a"]), 90), [Asked, MayReact, Kept, MayReact]);
         // Only in a call of several windows somebody may come in.

@@ -2,7 +2,7 @@
 
 use super::base_scene::bare;
 use super::ledger::Ledger;
-use super::roster::{Part, Roster};
+use super::roster::{CallPart, Roster};
 use scene::geometry::direction;
 use scene::{AgentType, HORIZON_STEPS, Scene, Start, State, Track};
 
@@ -16,7 +16,7 @@ pub(super) fn reached(base: &Scene, roster: &Roster, ledger: &Ledger, step: usiz
             None => (step..=step + HORIZON_STEPS).map(|at| agent.track.at(at).copied()).collect(),
         };
         // A recorded velocity is left as it is: its sideways part is noise.
-        let made = progress.is_some() || roster.part(i) == Part::Continues;
+        let made = progress.is_some() || roster.part(i) == CallPart::Continues;
         let on_foot = agent.kind() == AgentType::Pedestrian;
         if let Some(Some(first)) = states.first_mut()
             && made

@@ -1,4 +1,4 @@
-//! What each window asks of the road users with a goal.
+//! The goals and via points of each window.
 
 use crate::generator::subgoal::{as_goal, subgoal};
 use crate::planning::world::World;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// Goals of one window.
 #[derive(Default)]
 pub(super) struct Targets {
-    /// What is asked in place of the fixed goal, by agent of the scene.
+    /// The goals in place of the fixed ones, by agent of the scene.
     pub(super) goals: Vec<(usize, Goal)>,
     /// The via points that are left, or that lie on the way to a state on the way, by agent of the scene.
     pub(super) vias: Vec<(usize, Vec<Via>)>,
@@ -53,7 +53,7 @@ fn aim(request: &Request, agent: usize, vias: &[Via], step: usize) -> (Goal, isi
 }
 
 impl Targets {
-    /// What window `number` is asked: goals that are past are dropped, those due after its end become the state on
+    /// The targets of window `number`: goals that are past are dropped, those due after its end become the state on
     /// the way. `executed` has what a road user did since the call's start.
     pub(super) fn of<'e>(
         request: &Request,

@@ -1,10 +1,10 @@
-//! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
-//! what the others are shown to do, or would do if it were taken.
+//! The faults, relations and manoeuvres of the futures of a finished sample. Each future is judged by the rules of a
+//! scene's score, against the shown motions of the others, or their reactions if it were taken.
 
 use super::future_relations::ShownAgents;
 use super::ledger::Instead;
 use super::targets::due;
-use crate::generator::workers::Workers;
+use crate::generator::workers::WorkerPool;
 use crate::maps::KnownMap;
 use crate::planning::MODES;
 use crate::request::Request;
@@ -12,19 +12,19 @@ use scene::judge::{About, Judge, Other, by_weight};
 use scene::score::Actor;
 use scene::{Agent, Future, STEP_S, Sample, Vec2};
 
-/// Whoever stays farther than this from all futures can meet none of them, metres: a long vehicle's half and as
-/// much for the near miss.
+/// An agent farther than this from all futures can meet none of them, metres: half a long vehicle, and as much for the near
+/// miss.
 const AWAY_M: f64 = 25.0;
 
 /// So many futures are judged by several threads: more than one road user has.
 const MANY: usize = MODES + 1;
 
-/// Writes down what is said about each future of a sample: what is wrong with it, how it stands to the others, and
-/// what it does. A future that is not shown is judged by what the others would do if it were taken.
+/// Sets the faults, the relations and the manoeuvre of each future of a sample. A future that is not shown is judged
+/// against the reactions of the others if it were taken.
 pub(super) fn judge(
     request: &Request,
     map: &KnownMap,
-    workers: &Workers,
+    workers: &WorkerPool,
     sample: &mut Sample,
     instead: &Instead,
 ) {
@@ -41,7 +41,7 @@ pub(super) fn judge(
         .flat_map(|(i, futures)| futures.modes.iter().enumerate().map(move |(k, future)| (i, k, future)))
         .collect();
     let standing = ShownAgents::new(request, map, sample, &shown, futures.len());
-    let ground = Ground::of(sample);
+    let ground = FutureExtent::of(sample);
     let others: Vec<Other<'_>> = shown
         .into_iter()
         .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
@@ -90,12 +90,12 @@ fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&'a Future>)
 }
 
 /// Upright rectangle about all futures of a sample.
-struct Ground {
+struct FutureExtent {
     low: Vec2,
     high: Vec2,
 }
 
-impl Ground {
+impl FutureExtent {
     fn of(sample: &Sample) -> Self {
         let mut ground = Self { low: Vec2::repeat(f64::INFINITY), high: Vec2::repeat(f64::NEG_INFINITY) };
         for future in sample.agents.values().flat_map(|f| &f.modes) {

@@ -1,8 +1,8 @@
 //! One planning window: the stages from its cast to its decisions, each a function of what the stage before made.
 
-use crate::generator::actor::Actor;
-use crate::generator::candidates::{Candidate, learned_share, middle};
-use crate::generator::cast::{Cast, MOST_ACTORS};
+use crate::generator::actor::PlannedActor;
+use crate::generator::candidates::{MotionCandidate, learned_share, middle};
+use crate::generator::cast::{MOST_ACTORS, WindowCast};
 use crate::generator::costs::starts_on_the_road;
 use crate::generator::decide::{Decisions, decide};
 use crate::generator::diversity::DiverseModes;
@@ -27,18 +27,18 @@ pub(super) struct PlanningWindow<'g> {
     pub(super) setting: WindowSetting<'g>,
     /// The states on the way to goals that are due after the window's end, by agent of the scene.
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
-    plan: Plan,
+    plan: WindowActors,
     /// The agents that do not act; none where they do not count.
     others: Others<'g>,
     drafted: SampleDrafts,
 }
 
 /// The actors of a window.
-struct Plan {
-    actors: Vec<Actor>,
+struct WindowActors {
+    actors: Vec<PlannedActor>,
     /// The actors of one network call each.
     batches: Vec<Batch>,
-    /// What makes the modes of an actor six different futures, one entry an actor.
+    /// The changes that make the modes of an actor six different futures, one entry an actor.
     diverse: Vec<Option<DiverseModes>>,
 }
 
@@ -55,9 +55,9 @@ struct SampleDrafts {
 
 impl<'g> PlanningWindow<'g> {
     /// First drafts of every actor; [`PlanningWindow::begin_sample`] comes next.
-    pub(super) fn plan(setting: WindowSetting<'g>, cast: &Cast) -> Result<Self, GenerateError> {
+    pub(super) fn plan(setting: WindowSetting<'g>, cast: &WindowCast) -> Result<Self, GenerateError> {
         let tuning = setting.tuning();
-        let mut plan = Plan::of(&setting, cast)?;
+        let mut plan = WindowActors::of(&setting, cast)?;
         let mut others = Others::none(tuning);
         if setting.request.stages.background_in_the_way {
             let acting: BTreeSet<usize> = plan.actors.iter().map(|a| a.plan.present.index).collect();
@@ -70,13 +70,13 @@ impl<'g> PlanningWindow<'g> {
     }
 
     /// The actors.
-    pub(super) fn actors(&self) -> &[Actor] {
+    pub(super) fn actors(&self) -> &[PlannedActor] {
         &self.plan.actors
     }
 
     /// Fresh drafts for a sample.
     pub(super) fn begin_sample(&mut self, sample: usize) -> Result<(), GenerateError> {
-        let Plan { actors, batches, diverse } = &self.plan;
+        let WindowActors { actors, batches, diverse } = &self.plan;
         self.drafted.drafts = first_drafts(&self.setting, actors, batches, diverse, sample)?;
         self.drafted.sample = sample;
         Ok(())
@@ -116,7 +116,7 @@ impl<'g> PlanningWindow<'g> {
         let (request, joint) = (&self.setting.request, self.joint());
         let all = request.stream_all || joint.actors.len() < SHOW_ALL_BELOW;
         let count = if all { request.modes } else { 1 };
-        let shown: Vec<Vec<Candidate>> =
+        let shown: Vec<Vec<MotionCandidate>> =
             self.setting.workers().map(&joint.indices(), |&i| joint.material(i).alternatives(count));
         let known = self.drafted.relations.as_ref();
         let new = known.is_none().then(|| DraftRelations::of(&joint, &shown));
@@ -124,7 +124,7 @@ impl<'g> PlanningWindow<'g> {
         let futures = shown.iter().enumerate().map(|(i, alternatives)| {
             let actor = &joint.actors[i];
             let middle = middle(actor);
-            let is_middle = |c: &Candidate| middle.is_some() && c.origin.slot() == middle;
+            let is_middle = |c: &MotionCandidate| middle.is_some() && c.origin.slot() == middle;
             let chosen = alternatives.iter().position(is_middle).unwrap_or(0);
             let mut futures = self.futures(chosen, alternatives);
             for (future, draft) in futures.modes.iter_mut().zip(alternatives) {
@@ -140,7 +140,7 @@ impl<'g> PlanningWindow<'g> {
     }
 
     /// Alternatives as futures, cut to the requested steps.
-    pub(super) fn futures(&self, chosen: usize, alternatives: &[Candidate]) -> AgentFutures {
+    pub(super) fn futures(&self, chosen: usize, alternatives: &[MotionCandidate]) -> AgentFutures {
         let total: f64 = alternatives.iter().map(|c| c.probability).sum();
         let modes = alternatives.iter().map(|c| Future {
             anchor: c.origin.slot().map(Slot::number),
@@ -161,13 +161,13 @@ impl<'g> PlanningWindow<'g> {
     }
 }
 
-impl Plan {
+impl WindowActors {
     /// Plans the actors of a window: those that act in any case, then those that react by planning again.
-    fn of(setting: &WindowSetting<'_>, cast: &Cast) -> Result<Self, GenerateError> {
+    fn of(setting: &WindowSetting<'_>, cast: &WindowCast) -> Result<Self, GenerateError> {
         let (world, workers, later) = (&setting.world, setting.workers(), setting.number > 0);
         let acting: Vec<_> = world.present.iter().filter(|p| cast.acting.contains(&p.index)).collect();
         let mut actors = workers.map(&acting, |who| {
-            let mut actor = Actor::asked(world, who);
+            let mut actor = PlannedActor::asked(world, who);
             if later {
                 actor.goes_on(cast.parked.contains(&who.index));
             }
@@ -182,7 +182,7 @@ impl Plan {
         let react = &setting.request.react;
         let found = replanned(world, workers, &actors, &cast.may_react, react, tuning.reacting.near_m);
         let room = MOST_ACTORS.saturating_sub(actors.len());
-        let mut found: Vec<Actor> = found.into_iter().take(room).collect();
+        let mut found: Vec<PlannedActor> = found.into_iter().take(room).collect();
         batches.extend(encode(setting, &mut found, actors.len())?);
         actors.extend(found);
         for actor in &mut actors {

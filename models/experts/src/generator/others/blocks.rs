@@ -1,4 +1,4 @@
-//! What is in the way along a path, and when.
+//! The boxes in the way along a path, and when they are there.
 
 use super::path_progress::{BEYOND_M, PathProgress};
 use crate::generator::motion::Sweep;
@@ -12,10 +12,10 @@ use scene::{HORIZON_STEPS, Size, Vec2};
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
-/// Somebody who is out of the way for less than this, steps, has not left.
+/// An agent that is out of the way for fewer steps has not left.
 const FLICKER: usize = 3;
 
-/// Somebody or something in the way for a while. Progress is that of the path's box centre.
+/// An agent or a closed line in the way for a while. Progress is that of the path's box centre.
 #[derive(Clone, Debug)]
 pub(super) struct PathBlock {
     /// Step of the window at which it begins.
@@ -25,7 +25,7 @@ pub(super) struct PathBlock {
 }
 
 impl PathBlock {
-    /// Who follows the path is past it when it begins.
+    /// An agent at this progress is past it when it begins.
     pub(super) fn comes_behind(&self, along_m: f64) -> bool {
         self.taken.first().is_some_and(|(_, last)| along_m > *last)
     }
@@ -84,7 +84,7 @@ impl Corridor {
         (first as f64 * SPACING_M, last as f64 * SPACING_M)
     }
 
-    /// When and where somebody is in the way.
+    /// When and where another agent is in the way.
     pub(super) fn blocks(&self, other: &Sweep) -> Vec<PathBlock> {
         let mut out: Vec<PathBlock> = Vec::new();
         let mut away = FLICKER;

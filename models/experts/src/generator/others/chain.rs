@@ -1,6 +1,6 @@
 //! The chain of reactions: from the agents that a call regenerates to those in whose way they are, and on from there.
 
-use super::giving_way::{Seen, Way};
+use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
 use super::reaction::reaction;
 use crate::generator::motion::Sweep;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 const MOST_DECISIONS: usize = 4;
 
 /// A motion of this answer that other agents may have to yield to.
-pub(in crate::generator) struct Changed {
+pub(in crate::generator) struct ChangedMotion {
     pub(in crate::generator) id: AgentId,
     pub(in crate::generator) sweep: Arc<Sweep>,
     /// The agent had it before: agents that keep an earlier answer too do not yield to it.
@@ -41,7 +41,7 @@ impl Others<'_> {
         let cost = |who: ReactingAgent<'_>| {
             let price = self.price(&who.other.sweep, sweep);
             (price > 0.0).then(|| {
-                let way = self.way(who, &[Seen { reactor: None, kept: false, sweep }]);
+                let way = self.way(who, &[SeenMotion { reactor: None, kept: false, sweep }]);
                 way.map_or(price, |way| way.cost.min(price))
             })
         };
@@ -50,7 +50,7 @@ impl Others<'_> {
 
     /// The agents that change their motion because of these changed ones. An agent that is left out keeps its motion to
     /// the last byte.
-    pub(in crate::generator) fn reactions(&self, changed: &[&Changed]) -> Vec<Reacted> {
+    pub(in crate::generator) fn reactions(&self, changed: &[&ChangedMotion]) -> Vec<Reacted> {
         let reactors = self.reactors();
         let ways = self.ways(&reactors, changed);
         let causes = self.causes(&reactors, changed, &ways);
@@ -89,8 +89,8 @@ impl Others<'_> {
     }
 
     /// Resolves the earliest conflict until no agent can improve on one.
-    fn ways(&self, reactors: &[ReactingAgent<'_>], changed: &[&Changed]) -> Vec<Option<Way>> {
-        let mut ways: Vec<Option<Way>> = vec![None; reactors.len()];
+    fn ways(&self, reactors: &[ReactingAgent<'_>], changed: &[&ChangedMotion]) -> Vec<Option<YieldOption>> {
+        let mut ways: Vec<Option<YieldOption>> = vec![None; reactors.len()];
         let mut decisions = vec![0; reactors.len()];
         loop {
             let seen = self.seen(reactors, changed, &ways);
@@ -101,7 +101,7 @@ impl Others<'_> {
                 .min();
             let Some((_, at)) = first else { return ways };
             decisions[at] += 1;
-            let others: Vec<Seen<'_>> = seen.into_iter().filter(|s| s.reactor != Some(at)).collect();
+            let others: Vec<SeenMotion<'_>> = seen.into_iter().filter(|s| s.reactor != Some(at)).collect();
             let now = ways[at].as_ref().map_or(&reactors[at].other.sweep, |w| &w.sweep);
             let stays: f64 = others.iter().map(|s| self.price(now, s.sweep)).sum();
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
@@ -117,17 +117,17 @@ impl Others<'_> {
     fn seen<'a>(
         &'a self,
         reactors: &[ReactingAgent<'a>],
-        changed: &[&'a Changed],
-        ways: &'a [Option<Way>],
-    ) -> Vec<Seen<'a>> {
-        let asked = changed.iter().map(|c| Seen { reactor: None, kept: c.kept, sweep: &c.sweep });
+        changed: &[&'a ChangedMotion],
+        ways: &'a [Option<YieldOption>],
+    ) -> Vec<SeenMotion<'a>> {
+        let asked = changed.iter().map(|c| SeenMotion { reactor: None, kept: c.kept, sweep: &c.sweep });
         let reacting = reactors.iter().zip(ways).filter_map(|(who, way)| {
             let earlier = (who.other.kept_from == KeptFrom::Future).then_some(&who.other.sweep);
             let sweep = way.as_ref().map(|w| &w.sweep).or(earlier)?;
-            Some(Seen { reactor: Some(who.at), kept: way.is_none(), sweep })
+            Some(SeenMotion { reactor: Some(who.at), kept: way.is_none(), sweep })
         });
         let keeping = self.each[self.reacting..].iter().filter(|o| o.kept_from == KeptFrom::Future);
-        let keeping = keeping.map(|o| Seen { reactor: None, kept: true, sweep: &o.sweep });
+        let keeping = keeping.map(|o| SeenMotion { reactor: None, kept: true, sweep: &o.sweep });
         asked.chain(reacting).chain(keeping).collect()
     }
 
@@ -135,8 +135,8 @@ impl Others<'_> {
     fn causes(
         &self,
         reactors: &[ReactingAgent<'_>],
-        changed: &[&Changed],
-        ways: &[Option<Way>],
+        changed: &[&ChangedMotion],
+        ways: &[Option<YieldOption>],
     ) -> Vec<Option<AgentId>> {
         let mut sources: Vec<(&AgentId, &Sweep)> = changed.iter().map(|c| (&c.id, &*c.sweep)).collect();
         // The agents that keep an earlier answer are sources too.
@@ -152,10 +152,14 @@ impl Others<'_> {
 }
 
 /// The first step at which an agent meets a changed motion.
-fn first_conflict(who: ReactingAgent<'_>, way: Option<&Way>, seen: &[Seen<'_>]) -> Option<usize> {
+fn first_conflict(
+    who: ReactingAgent<'_>,
+    way: Option<&YieldOption>,
+    seen: &[SeenMotion<'_>],
+) -> Option<usize> {
     let own = way.map_or(&who.other.sweep, |w| &w.sweep);
     // Two earlier answers do not avoid each other as long as both are kept.
-    let avoids = |s: &Seen<'_>| way.is_some() || !s.kept || who.other.kept_from == KeptFrom::Log;
+    let avoids = |s: &SeenMotion<'_>| way.is_some() || !s.kept || who.other.kept_from == KeptFrom::Log;
     let others = seen.iter().filter(|s| s.reactor != Some(who.at) && avoids(s));
     others.filter_map(|s| own.first_meeting(s.sweep)).min()
 }

@@ -1,4 +1,4 @@
-//! What somebody could do instead of the motion that it keeps, and what that costs.
+//! The motions with which an agent could give way, and their costs.
 
 use super::blocks::PathBlock;
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Reactor};
@@ -17,16 +17,16 @@ const MOST_TURNS: usize = 3;
 
 /// A motion with what it costs.
 #[derive(Clone, Debug)]
-pub(super) struct Way {
+pub(super) struct YieldOption {
     pub(super) paced: Paced,
     pub(super) states: Vec<State>,
     pub(super) sweep: Sweep,
     pub(super) cost: f64,
 }
 
-/// Somebody with a changed motion, as others see it.
+/// A changed motion, as other agents see it.
 #[derive(Clone, Copy)]
-pub(super) struct Seen<'a> {
+pub(super) struct SeenMotion<'a> {
     /// Place among those who may answer, for one of them.
     pub(super) reactor: Option<usize>,
     /// It is an earlier answer that is kept.
@@ -35,7 +35,7 @@ pub(super) struct Seen<'a> {
 }
 
 impl Others<'_> {
-    /// What it costs that two motions meet.
+    /// Cost of a meeting of two motions.
     pub(super) fn price(&self, a: &Sweep, b: &Sweep) -> f64 {
         let tuning = &self.tuning.choice;
         match overlap(a.swept(), b.swept()) {
@@ -47,7 +47,7 @@ impl Others<'_> {
 
     /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
     /// are.
-    pub(super) fn way(&self, who: ReactingAgent<'_>, changed: &[Seen<'_>]) -> Option<Way> {
+    pub(super) fn way(&self, who: ReactingAgent<'_>, changed: &[SeenMotion<'_>]) -> Option<YieldOption> {
         let (own, road) = (who.own, self.road(who.own));
         let ahead: Vec<Vec<PathBlock>> = changed.iter().map(|c| road.corridor.blocks(c.sweep)).collect();
         let around = own.around.get_or_init(|| self.around(who));
@@ -56,7 +56,7 @@ impl Others<'_> {
         let kept: Vec<&PathBlock> = kept.chain(&road.lights).collect();
         let mut all = kept.clone();
         all.extend(ahead.iter().flatten());
-        let mut best: Option<Way> = None;
+        let mut best: Option<YieldOption> = None;
         for manner in manners(own) {
             let way = self.weighed(who, own.behind(&road.path, &all, manner), manner, changed);
             let Some(way) = way else { continue };
@@ -89,8 +89,8 @@ impl Others<'_> {
         who: ReactingAgent<'_>,
         paced: Paced,
         manner: YieldManner,
-        changed: &[Seen<'_>],
-    ) -> Option<(Way, f64)> {
+        changed: &[SeenMotion<'_>],
+    ) -> Option<(YieldOption, f64)> {
         let (own, path) = (who.own, &self.road(who.own).path);
         if paced.is_own(path) {
             return None;
@@ -109,7 +109,7 @@ impl Others<'_> {
         let hard = (manner.brake_mps2 - tuning.easily_mps2).max(0.0);
         let late_s = own.late_s(&paced).abs();
         let cost = self.tuning.choice.deviating + tuning.late * late_s + tuning.hard * hard + meets;
-        Some((Way { paced, states, sweep, cost }, meets))
+        Some((YieldOption { paced, states, sweep, cost }, meets))
     }
 
     /// The price of a meeting, less for an agent that is slower than it would be without giving way.
@@ -149,7 +149,7 @@ impl Others<'_> {
 impl Reactor {
     /// A path of its behind those of these blocks that it is behind by now, or comes to be by waiting.
     fn behind(&self, path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
-        // Who comes up from behind does not count.
+        // An agent that comes up from behind does not count.
         let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
         let mut yields: Vec<bool> =
             blocks.iter().map(|b| counts(b) && !b.comes_behind(path.along_at(b.from))).collect();
@@ -197,7 +197,7 @@ impl Reactor {
     }
 }
 
-/// How somebody may brake, from easily to hard.
+/// The manners of giving way, from easy to hard braking.
 fn manners(own: &Reactor) -> Vec<YieldManner> {
     let manner = |share: &f64, gap_m: &f64, accelerate_mps2: f64| YieldManner {
         brake_mps2: share * own.limits.brake_mps2,

@@ -14,7 +14,7 @@ mod reaction;
 mod replanned;
 mod yielding;
 
-pub(super) use chain::{Changed, Reacted, caused};
+pub(super) use chain::{ChangedMotion, Reacted, caused};
 pub(super) use other::Others;
 pub(super) use path_progress::extend_along_road;
 pub(super) use reaction::reaction_of;

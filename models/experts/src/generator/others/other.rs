@@ -2,9 +2,9 @@
 
 use super::blocks::{Corridor, PathBlock, closed};
 use super::path_progress::PathProgress;
-use crate::generator::cast::Cast;
+use crate::generator::cast::WindowCast;
 use crate::generator::motion::{KeptMotion, Sweep};
-use crate::generator::workers::Workers;
+use crate::generator::workers::WorkerPool;
 use crate::planning::STAYS_WITHIN_M;
 use crate::planning::stop_line::StopLine;
 use crate::planning::world::World;
@@ -21,7 +21,7 @@ use std::sync::{Arc, OnceLock};
 /// From so many agents on several threads work them out.
 const MANY: usize = 96;
 
-/// What a kept motion was taken from. Two motions of one source do not avoid each other: their distance is as it was.
+/// The source of a kept motion. Two motions of one source do not avoid each other: their distance is as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KeptFrom {
     /// The recording.
@@ -52,7 +52,7 @@ pub(super) enum Response {
     Reacts(Box<Reactor>),
 }
 
-/// What it takes an agent to yield on its own path.
+/// The means of an agent to yield on its own path.
 pub(super) struct Reactor {
     /// Index into the scene's agents.
     pub(super) index: usize,
@@ -63,13 +63,13 @@ pub(super) struct Reactor {
     /// It changed its motion in an earlier window and goes on with that.
     pub(super) resumed: bool,
     /// Worked out when an agent is in its way: few are met.
-    road: OnceLock<Road>,
+    road: OnceLock<ReactorRoad>,
     /// Where and when each other agent is in its way by the motion that it keeps.
     pub(super) around: OnceLock<Vec<Vec<PathBlock>>>,
 }
 
-/// What an agent follows its path through.
-pub(super) struct Road {
+/// The road along an agent's path.
+pub(super) struct ReactorRoad {
     /// Its path, and how the road goes on from there.
     pub(super) path: PathProgress,
     pub(super) corridor: Corridor,
@@ -108,10 +108,10 @@ impl<'g> Others<'g> {
     /// All agents but those in `acting`, by index into the scene's agents.
     pub(in crate::generator) fn of(
         world: &World<'_>,
-        workers: &Workers,
+        workers: &WorkerPool,
         request: &Request,
         acting: &BTreeSet<usize>,
-        cast: &Cast,
+        cast: &WindowCast,
         tuning: &'g Tuning,
     ) -> Self {
         let mut order: Vec<usize> = (0..world.scene.agents.len()).filter(|i| !acting.contains(i)).collect();
@@ -157,8 +157,8 @@ impl<'g> Others<'g> {
         found.collect()
     }
 
-    /// What an agent that may react follows its path through.
-    pub(super) fn road<'a>(&self, own: &'a Reactor) -> &'a Road {
+    /// The road along the path of an agent that may react.
+    pub(super) fn road<'a>(&self, own: &'a Reactor) -> &'a ReactorRoad {
         own.road.get_or_init(|| {
             let path = match &self.graph {
                 Some(graph) if !own.path.leaves() => own.path.clone().extended(graph, own.agent_type),
@@ -172,14 +172,14 @@ impl<'g> Others<'g> {
                 Some(closed(at_m, |step| line.red() >> step & 1 == 1))
             });
             let lights = red.flatten().collect();
-            Road { path, corridor, lights }
+            ReactorRoad { path, corridor, lights }
         })
     }
 }
 
 impl OtherAgent {
     /// An agent of the scene; `None` where it is absent in the whole window.
-    fn of(world: &World<'_>, request: &Request, cast: &Cast, index: usize) -> Option<Self> {
+    fn of(world: &World<'_>, request: &Request, cast: &WindowCast, index: usize) -> Option<Self> {
         let agent = &world.scene.agents[index];
         let conditions = &world.conditions[index];
         let size = conditions.size_of(agent.size);

@@ -30,7 +30,7 @@ pub(super) struct PathProgress {
     pub(super) states: Vec<State>,
     /// Metres along the path, one a state.
     pub(super) along_m: Vec<f64>,
-    /// Those of the motion, and how the road goes on from them where that is known.
+    /// The places of the motion, and how the road goes on from them where that is known.
     places: Vec<PathPlace>,
     /// How many of them are the motion's own.
     own: usize,

@@ -1,6 +1,6 @@
-//! How somebody answers another, in the figures that words are made of.
+//! The reaction of one agent to another, in the figures that words are made of.
 
-use super::giving_way::Way;
+use super::giving_way::YieldOption;
 use super::other::Reactor;
 use crate::tuning::fixed::reaction::{ASIDE_M, SAME_PLACE_M};
 use scene::judge::{Reaction, ReactionKind};
@@ -10,8 +10,8 @@ use scene::{AgentId, STANDING_MPS, STEP_S, State};
 /// Standing so many steps longer than it does anyway is waiting.
 const WAITS_STEPS: usize = 5;
 
-/// What somebody does for `cause`; the window begins at `start_step`.
-pub(super) fn reaction(own: &Reactor, way: &Way, cause: AgentId, start_step: usize) -> Reaction {
+/// The reaction of an agent to `cause`; the window begins at `start_step`.
+pub(super) fn reaction(own: &Reactor, way: &YieldOption, cause: AgentId, start_step: usize) -> Reaction {
     let paced = &way.paced;
     let (along, speed) = (&paced.along_m, &paced.speed_mps);
     let from = paced.own.min(along.len() - 1);
@@ -54,7 +54,7 @@ pub(super) fn reaction(own: &Reactor, way: &Way, cause: AgentId, start_step: usi
     .rounded()
 }
 
-/// What somebody does for `cause` who was planned anew: `kept` is what it did, from the first step after
+/// The reaction to `cause` of an agent that planned again: `kept` is its motion from the first step after
 /// `start_s` on.
 pub(in crate::generator) fn reaction_of(
     kept: &[State],
@@ -73,7 +73,7 @@ pub(in crate::generator) fn reaction_of(
     let delay_s = (last as f64 - nearest(&end).0 as f64) * STEP_S;
     let beside: Vec<(usize, f64)> = states.iter().map(nearest).collect();
     let aside = beside.iter().map(|(_, apart)| *apart).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    // Who is to be somewhere at a time is late or early on the way alone.
+    // An agent that is due at a time is late or early on the way alone.
     let late = beside.iter().enumerate().map(|(i, (place, _))| i as f64 - *place as f64);
     let (earliest, lead) = late
         .clone()

@@ -1,9 +1,9 @@
 //! The agents that react by planning again, as the regenerated agents do.
 
-use crate::generator::actor::Actor;
+use crate::generator::actor::PlannedActor;
 use crate::generator::motion::KeptMotion;
 use crate::generator::trajectory::{rest, to_trajectory};
-use crate::generator::workers::Workers;
+use crate::generator::workers::WorkerPool;
 use crate::planning::STAYS_WITHIN_M;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::React;
@@ -14,12 +14,12 @@ use std::collections::BTreeSet;
 /// motion unless a changed one is in the way.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
-    workers: &Workers,
-    actors: &[Actor],
+    workers: &WorkerPool,
+    actors: &[PlannedActor],
     may_react: &BTreeSet<usize>,
     react: &React,
     near_m: f64,
-) -> Vec<Actor> {
+) -> Vec<PlannedActor> {
     let asked = |who: &AgentAtStart| {
         let conditions = &world.conditions[who.index];
         !conditions.goal.is_free() || !conditions.via.is_empty() || conditions.start != Start::default()
@@ -39,13 +39,13 @@ pub(in crate::generator) fn replanned(
         let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
         let unmoved = world.conditions[who.index].start == Start::default();
         let leaves_it = !named && unmoved && (parked || !near);
-        (!leaves_it).then(|| Actor::reacting(world, who, kept))
+        (!leaves_it).then(|| PlannedActor::reacting(world, who, kept))
     });
     found.into_iter().flatten().collect()
 }
 
 /// Places of an actor's likeliest draft, one a step.
-fn path(actor: &Actor) -> Vec<Vec2> {
+fn path(actor: &PlannedActor) -> Vec<Vec2> {
     let slot = actor.likeliest();
     let motion =
         if actor.rests { rest(&actor.plan) } else { to_trajectory(&actor.plan, slot, slot.of(&actor.modes)) };

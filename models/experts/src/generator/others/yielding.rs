@@ -17,7 +17,7 @@ const HAIR_M: f64 = 0.02;
 /// Halvings of the span of accelerations.
 const HALVINGS: usize = 7;
 
-/// How somebody gives way.
+/// The manner in which an agent gives way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct YieldManner {
     /// Braking, m/s2.
@@ -111,7 +111,7 @@ impl Paced {
     pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Self {
         let mut after_end = after(blocks, manner.gap_m);
         let bounds = ProgressBounds::new(behind(blocks, manner.gap_m), after_end.clone());
-        // Who has left its own timing does not pass where it stood while it stood: there was a reason.
+        // An agent that has left its own timing does not pass where it stood while it stood: there was a reason.
         let mut waiting = bounds.at_m.clone();
         for (i, state) in path.states.iter().enumerate() {
             if state.speed_mps() < STANDING_MPS {

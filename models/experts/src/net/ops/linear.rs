@@ -15,7 +15,7 @@ pub fn linear(x: &Tensor, weight: &Tensor, bias: &Tensor, relu: bool) -> Result<
     let rows = x.elem_count() / inputs.max(1);
     let flat = x.reshape((rows, inputs))?.contiguous()?;
     let y = if own_loops(x) {
-        flat.apply_op3(weight, bias, Linear { relu })?
+        flat.apply_op3(weight, bias, LinearOp { relu })?
     } else {
         let y = flat.matmul(weight)?.broadcast_add(bias)?;
         if relu { rectified(&y)? } else { y }
@@ -32,11 +32,11 @@ fn rectified(x: &Tensor) -> Result<Tensor> {
     x * x.gt(0.0)?.to_dtype(x.dtype())?
 }
 
-struct Linear {
+struct LinearOp {
     relu: bool,
 }
 
-impl CustomOp3 for Linear {
+impl CustomOp3 for LinearOp {
     fn name(&self) -> &'static str {
         "linear"
     }

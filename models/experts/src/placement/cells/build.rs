@@ -1,8 +1,8 @@
 //! Cuts a map into cells and reads off their features.
 
-use super::{Cell, CellKind, Cells, FEATURES, LaneCells, class};
+use super::{CellKind, Cells, FEATURES, LaneCells, MapCell, class};
 use crate::placement::region::Region;
-use crate::placement::stop_lines::Ahead;
+use crate::placement::stop_lines::LineAhead;
 use crate::tuning::placing::cells::{EDGE_REACH_M, KERB_LOOK_M, NEXT_LANE_M};
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::geometry::{cross, direction};
@@ -75,7 +75,7 @@ impl Cells<'_> {
                     3 * sides[0] + sides[1],
                     0,
                 ];
-                self.all.push(Cell {
+                self.all.push(MapCell {
                     kind: CellKind::Lane,
                     line: index,
                     on_lane: true,
@@ -126,7 +126,7 @@ impl Cells<'_> {
                     lane_class(lane),
                     0,
                 ];
-                found.push(Cell {
+                found.push(MapCell {
                     kind: CellKind::Kerb,
                     side,
                     free_m,
@@ -227,8 +227,8 @@ impl Cells<'_> {
             return;
         }
         if let Some((side, features)) = features(self.graph, center) {
-            let ahead = Ahead::Nothing;
-            self.all.push(Cell {
+            let ahead = LineAhead::Nothing;
+            self.all.push(MapCell {
                 kind,
                 line,
                 on_lane,
@@ -251,8 +251,8 @@ impl Cells<'_> {
             }
             let center = ring.iter().sum::<Vec2>() / ring.len() as f64;
             if region.may_hold(center, 20.0) {
-                let ahead = Ahead::Nothing;
-                self.all.push(Cell {
+                let ahead = LineAhead::Nothing;
+                self.all.push(MapCell {
                     kind: CellKind::Driveway,
                     line,
                     on_lane: false,
