@@ -157,8 +157,17 @@ const HOUSES: &[House] = &[
             &["subgoal", "resources", "samples"],
             &["actor", "choice", "via_steering"],
             &["trajectory", "drafts", "window_setting"],
-            &["others", "repulsion", "replan", "candidates", "draft_traces", "duplicate_modes", "report"],
-            &["joint_drafts", "costs", "guidance", "overlaps", "variations"],
+            &[
+                "others",
+                "repulsion",
+                "replan",
+                "candidates",
+                "road_rules",
+                "draft_traces",
+                "duplicate_modes",
+                "report",
+            ],
+            &["joint_drafts", "costs", "decisions", "guidance", "overlaps", "variations"],
             &["decide", "diversity", "draft_relations"],
             &["sampling"],
             &["drafting"],
@@ -306,9 +315,12 @@ fn type_names_of_the_engine_are_unique() {
             let mut words =
                 line.split_whitespace().skip_while(|word| word.starts_with("pub") || word.ends_with(')'));
             if matches!(words.next(), Some("struct" | "enum" | "trait")) {
-                let name = words.next().unwrap_or_default();
-                let end = name.find(|c: char| !c.is_alphanumeric()).unwrap_or(name.len());
-                homes.entry(name[..end].to_owned()).or_default().insert(path.clone());
+                let word = words.next().unwrap_or_default();
+                // What a macro names begins with a `$`.
+                let name: String = word.chars().take_while(|c| c.is_alphanumeric()).collect();
+                if !name.is_empty() {
+                    homes.entry(name).or_default().insert(path.clone());
+                }
             }
         }
     }

@@ -5,6 +5,7 @@ use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::choice::{JointOption, medoid_costs};
 use super::motion::Sweep;
 use super::others::Others;
+use super::road_rules::drives_against;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
 use super::via_steering::vias_missed;
@@ -17,8 +18,8 @@ use scene::geometry::obb::OrientedBox;
 use scene::geometry::{cross, direction};
 use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
-use scene::score::{Actor as ScoreActor, Drivable};
-use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
+use scene::score::Actor as ScoreActor;
+use scene::{Agent, AgentType, Future, HORIZON_STEPS, STEP_S, State};
 use std::sync::Arc;
 
 /// The standards that an actor's candidates are compared with.
@@ -97,14 +98,6 @@ fn central(
         goal + tuning.goal_missed * vias_missed(plan, &c.motion.states) as f64
     };
     medoid_costs(&all, &weighted).into_iter().zip(candidates).map(|(cost, c)| cost + missed(c)).collect()
-}
-
-/// A vehicle whose box lies within the road's edges at the start.
-pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) -> bool {
-    let present = &actor.plan.present;
-    let outline = OrientedBox::of_state(&present.start, &present.size);
-    present.agent_type == AgentType::Vehicle
-        && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
 /// Cost of harsh braking or steering, by its seconds.
@@ -193,12 +186,6 @@ fn off_road(actor: &PlannedActor, states: &Trajectory, map: &KnownMap, tuning: &
     let (past_edges, wrong_way) = (share(&beyond), share(&|s| drives_against(&map.drivable, s)));
     let at_all = if past_edges + wrong_way > 0.0 { tuning.leaving_the_road } else { 0.0 };
     tuning.off_lanes * share(&away) + tuning.past_edges * past_edges + tuning.wrong_way * wrong_way + at_all
-}
-
-/// A vehicle moves against the traffic of the lane that it is in.
-pub(super) fn drives_against(ground: &Drivable, state: &MotionState) -> bool {
-    let moves = state.speed_mps() > STANDING_MPS;
-    moves && ground.is_wrong_way(state.position, direction(state.heading_rad)) == Some(true)
 }
 
 /// Mean distance of a motion from the one that the actor keeps, metres.

@@ -3,20 +3,19 @@
 use super::actor::PlannedActor;
 use super::candidates::{CandidateOrigin, MotionCandidate, own, shown};
 use super::choice::{Choice, JointOption};
-use super::costs::{Yardstick, drives_against, options};
+use super::costs::{Yardstick, options};
+use super::decisions::{Decided, Decisions};
 use super::guidance::guided;
 use super::joint_drafts::JointDrafts;
 use super::motion::Sweep;
 use super::others::{ChangedMotion, Reacted, caused, reaction_of};
 use super::replan::{ReplanField, stop_before, swerve};
 use super::repulsion::{Outline, outlines};
+use super::road_rules::{is_against_traffic, leaves_the_road};
 use super::trajectory::Rollout;
-use crate::features::agent::BEYOND_M;
-use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use scene::geometry::obb::{OrientedBox, overlaps};
-use scene::judge::{Judge, Reaction};
-use scene::motion::MotionState;
+use scene::judge::Judge;
 use scene::score::{SweptBoxes, overlap};
 use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
 use std::borrow::Cow;
@@ -26,50 +25,6 @@ use std::sync::Arc;
 const MOST_TRIED: usize = 2;
 /// Rounds of replanning: an agent that swerves for one may meet another.
 const MOST_ROUNDS: usize = 2;
-
-/// The decision of a window for one actor.
-pub(super) struct Decided {
-    /// Index into the scene's agents.
-    pub(super) agent: usize,
-    /// Index into the window's actors.
-    pub(super) actor: usize,
-    /// Index into `alternatives`.
-    pub(super) chosen: usize,
-    /// At most as many as the request asks for; never empty.
-    pub(super) alternatives: Vec<MotionCandidate>,
-    /// The cause of its change, where it had a motion before.
-    pub(super) reaction: Option<Reaction>,
-    /// The agent before which it stops and misses its goal.
-    pub(super) blocked_by: Option<AgentId>,
-    /// The reactions of the others if one of `alternatives` is taken in place of the shown one, one entry each: `None`
-    /// where they stay the same. Empty where the window does not look.
-    pub(super) reactions: Vec<Option<Vec<Reacted>>>,
-}
-
-impl Decided {
-    /// The candidate that is shown.
-    pub(super) fn shown(&self) -> &MotionCandidate {
-        &self.alternatives[self.chosen]
-    }
-
-    /// The motion that is shown.
-    pub(super) fn motion(&self) -> &Rollout {
-        &self.shown().motion
-    }
-
-    /// The actor stays where it is.
-    pub(super) fn rests(&self) -> bool {
-        self.shown().origin == CandidateOrigin::Rest
-    }
-}
-
-/// The decisions of a window.
-pub(super) struct Decisions {
-    /// Of the actors. An actor that goes on with a given motion is left out.
-    pub(super) actors: Vec<Decided>,
-    /// Of the agents that change their motion because of the actors. An agent that keeps it is left out.
-    pub(super) reacted: Vec<Reacted>,
-}
 
 /// Chooses one candidate for each actor, and the reactions of the others.
 pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
@@ -391,25 +346,6 @@ impl OptionTable<'_> {
         let option = &self.choice.agents[i][option];
         if option.kept { 0.0 } else { self.of.others.burden(&option.sweep) }
     }
-}
-
-/// A vehicle on the road leaves it although its goal, if it has one, lies on it.
-fn leaves_the_road(actor: &PlannedActor, motion: &Rollout) -> bool {
-    let Some(ground) = &actor.plan.ground else { return false };
-    let is_off = |state: &MotionState| {
-        let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
-        ground.box_outside_m(&outline).is_some_and(|m| m > BEYOND_M)
-    };
-    let goal = actor.plan.target.position.and_then(|_| motion.states.get(actor.plan.target.step));
-    !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
-}
-
-/// A vehicle on the road drives against the traffic.
-fn is_against_traffic(actor: &PlannedActor, motion: &Rollout) -> bool {
-    let ground = actor.plan.ground.as_deref();
-    ground.is_some_and(|ground| {
-        motion.states.iter().step_by(PER_INSTANT).any(|state| drives_against(ground, state))
-    })
 }
 
 /// Another agent is at the goal when it is due: the request asks to meet it there.

@@ -6,6 +6,7 @@ mod cast;
 mod choice;
 mod costs;
 mod decide;
+mod decisions;
 mod diversity;
 mod draft_relations;
 mod draft_traces;
@@ -25,6 +26,7 @@ mod replan;
 mod report;
 mod repulsion;
 mod resources;
+mod road_rules;
 mod rounds;
 #[cfg(test)]
 mod samples;

@@ -4,7 +4,7 @@ use super::targets::due;
 use super::window::PlanningWindow;
 use crate::generator::actor::PlannedActor;
 use crate::generator::candidates::MotionCandidate;
-use crate::generator::decide::{Decided, Decisions};
+use crate::generator::decisions::{Decided, Decisions};
 use crate::generator::extrapolation::Guessed;
 use crate::generator::others::Reacted;
 use crate::generator::report::{self, AgentOutcome};

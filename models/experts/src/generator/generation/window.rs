@@ -3,8 +3,8 @@
 use crate::generator::actor::PlannedActor;
 use crate::generator::candidates::{MotionCandidate, learned_share, middle};
 use crate::generator::cast::{MOST_ACTORS, WindowCast};
-use crate::generator::costs::starts_on_the_road;
-use crate::generator::decide::{Decisions, decide};
+use crate::generator::decide::decide;
+use crate::generator::decisions::Decisions;
 use crate::generator::diversity::DiverseModes;
 use crate::generator::draft_relations::DraftRelations;
 use crate::generator::draft_traces::trace_of_mode;
@@ -12,6 +12,7 @@ use crate::generator::drafting::{Batch, encode, first_drafts, refine};
 use crate::generator::drafts::Drafts;
 use crate::generator::joint_drafts::JointDrafts;
 use crate::generator::others::{Others, Reacted, replanned};
+use crate::generator::road_rules::starts_on_the_road;
 use crate::generator::slot::Slot;
 use crate::generator::window_setting::WindowSetting;
 use crate::request::{Draft, GenerateError, Intermediate};

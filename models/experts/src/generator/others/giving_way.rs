@@ -12,10 +12,10 @@ use crate::tuning::fixed::giving_way::{
 use scene::score::overlap;
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// How often it is looked again who is in front of whom.
+/// Rounds in which the order of the agents is worked out again.
 const MOST_TURNS: usize = 3;
 
-/// A motion with what it costs.
+/// A motion that gives way, with its cost.
 #[derive(Clone, Debug)]
 pub(super) struct YieldOption {
     pub(super) paced: Paced,
@@ -27,7 +27,7 @@ pub(super) struct YieldOption {
 /// A changed motion, as other agents see it.
 #[derive(Clone, Copy)]
 pub(super) struct SeenMotion<'a> {
-    /// Place among those who may answer, for one of them.
+    /// Its place among the agents that may react, for one of them.
     pub(super) reactor: Option<usize>,
     /// It is an earlier answer that is kept.
     pub(super) kept: bool,
@@ -147,7 +147,7 @@ impl Others<'_> {
 }
 
 impl Reactor {
-    /// A path of its behind those of these blocks that it is behind by now, or comes to be by waiting.
+    /// The path driven behind those of these blocks that the agent is behind by now, or comes to be by waiting.
     fn behind(&self, path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
         // An agent that comes up from behind does not count.
         let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
@@ -173,7 +173,7 @@ impl Reactor {
         Paced::behind(path, &waited.collect::<Vec<_>>(), manner)
     }
 
-    /// How much later it is where it has come to; negative for earlier.
+    /// How much later the agent is at its last place than on its own timing, seconds; negative for earlier.
     pub(super) fn late_s(&self, paced: &Paced) -> f64 {
         let last = paced.along_m.len() - 1;
         let (end, own_end) = (paced.along_m[last], self.path.length_m());

@@ -37,8 +37,8 @@ pub(super) struct PathProgress {
 }
 
 impl PathProgress {
-    /// Of what is known of a road user at each step of a window, its start included; `None` for one that
-    /// never comes or hardly moves.
+    /// From the known states of an agent at each step of a window, its start included; `None` for an agent that never
+    /// enters or hardly moves.
     pub(super) fn of(known: &[Option<State>], shortest_m: f64) -> Option<Self> {
         let enters = known.iter().position(Option::is_some)?;
         let states = bridged(&known[enters..]);
@@ -71,7 +71,7 @@ impl PathProgress {
         (last.along_m >= shortest_m).then_some(Self { enters, states, along_m, places, own })
     }
 
-    /// The same, with the likeliest way that the road goes on beyond it: whoever hurries gets there.
+    /// The same, with the likeliest way that the road goes on beyond it: an agent that hurries gets there.
     pub(super) fn extended(mut self, graph: &LaneGraph, agent_type: AgentType) -> Self {
         let (Some(end), Some(last)) = (self.states.last().copied(), self.places.last().copied()) else {
             return self;

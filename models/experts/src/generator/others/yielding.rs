@@ -173,7 +173,7 @@ impl Paced {
         self.speed_mps.push(speed_mps);
     }
 
-    /// It is the path itself.
+    /// The agent keeps its own timing to the end.
     pub(super) fn is_own(&self, path: &PathProgress) -> bool {
         self.own == path.states.len()
     }
