@@ -78,8 +78,8 @@ class Scene:
     ) -> Scene:
         """Futures for road users.
 
-        ``agents``: who is asked for; without it those with a goal or condition, and without any of these
-        everybody. ``react``: the rest answers, all of it or the ids named. ``forget``: futures of earlier
+        ``agents``: road users to regenerate; without it those with a goal or via points, and without any of
+        these all. ``react``: the rest answers, all of it or the ids named. ``forget``: futures of earlier
         calls are dropped; else whoever is not asked for keeps its own. ``horizon_s`` up to 20; above 9, and
         with ``replan_s`` (3, 6 or 9), everybody plans anew from where they are by then.
 
@@ -91,9 +91,11 @@ class Scene:
         if both:
             raise ValueError(f"goals and conditions both speak of {', '.join(both)}")
         fixed.update(conditions or {})
-        asked = list(agents) if agents is not None else list(fixed)
         arguments = ["generate", "-"]
-        if asked:
+        if agents is not None:
+            asked = list(agents)
+            if not asked:
+                raise ValueError("agents is empty: name road users, or leave it out")
             arguments.append(f"--agents={','.join(asked)}")
         options = {
             "seed": seed,
@@ -101,7 +103,7 @@ class Scene:
             "modes": modes,
             "horizon": horizon_s,
             "at": start_s,
-            "replan": replan_s,
+            "replan-interval": replan_s,
             "diversity": diversity,
             "steps": steps,
         }

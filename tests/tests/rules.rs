@@ -252,6 +252,14 @@ fn the_operations_use_no_file_thread_clock_or_socket() {
 }
 
 #[test]
+fn a_handler_has_a_file_that_is_read_at_a_glance() {
+    for path in files(&root().join("server/src/routes")).unwrap() {
+        let lines = std::fs::read_to_string(&path).unwrap().lines().count();
+        assert!(lines <= 250, "{} has {lines} lines", path.display());
+    }
+}
+
+#[test]
 fn the_formats_of_the_readme_are_those_of_the_registry() {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
     let (_, rest) = readme.split_once("<!-- formats:").unwrap();
