@@ -87,7 +87,7 @@ class Scene:
     ) -> Scene:
         """Futures for road users.
 
-        ``agents``: the road users to generate. Without it: those with a goal or condition, and without any of
+        ``agents``: the road users to generate. Without it: those with a goal or via points, and without any of
         these all. ``react``: the others react to them, all or the ids named. ``forget``: futures of earlier calls
         are dropped; else a road user that is not generated keeps its own. ``horizon_s`` up to 20; above 9, and
         with ``replan_s`` (3, 6 or 9), every road user plans again from the state it has reached. Ids are text or
@@ -103,11 +103,11 @@ class Scene:
         if both:
             raise ValueError(f"goals and conditions both name {', '.join(both)}")
         fixed.update(whole)
-        asked = _ids(agents) if agents is not None else list(fixed)
-        if agents is not None and not asked:
-            raise ValueError("agents is empty: name a road user, or leave it out to generate all")
         arguments = ["generate", "-"]
-        if asked:
+        if agents is not None:
+            asked = _ids(agents)
+            if not asked:
+                raise ValueError("agents is empty: name a road user, or leave it out to generate all")
             arguments.append(f"--agents={','.join(asked)}")
         options = {
             "seed": seed,
@@ -115,7 +115,7 @@ class Scene:
             "modes": modes,
             "horizon": horizon_s,
             "at": start_s,
-            "replan": replan_s,
+            "replan-interval": replan_s,
             "diversity": diversity,
             "steps": steps,
         }

@@ -90,6 +90,8 @@ def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
         scene.generate(goals={"6": goal}, conditions={"6": condition})
     with pytest.raises(dragtraffic.DragTrafficError):
         scene.generate(["nobody"])
+    with pytest.raises(ValueError, match="empty"):
+        scene.generate([])
 
 
 def test_numbers_of_numpy_and_ids_that_are_numbers(scene: Scene, turned: Scene) -> None:

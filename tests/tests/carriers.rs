@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
-use api::generate::Generation;
-use api::{AboutScene, GenerateRequest, Operations, SceneRef, Subject};
+use api::feedback::FeedbackDoc;
+use api::generate::GenerationRun;
+use api::generate::request::AgentChoice;
+use api::{AboutScene, GenerateRequest, Operations, Problem, SceneRef, Subject};
 use dragtraffic_tests::Server;
 use dragtraffic_tests::program::{program, root};
 use experts::{Cancel, Engine};
@@ -61,7 +63,7 @@ fn a_generation() {
         "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}, "frame": "scene"}}});
     let (request, subject) = opened::<GenerateRequest>(&body);
     let call = OPERATIONS.generate(&request, &subject, Cancel::default());
-    let answered = call.and_then(Generation::answer).map_err(|problem| problem.detail).unwrap();
+    let answered = call.and_then(GenerationRun::answer).map_err(|problem| problem.detail).unwrap();
     let direct = serde_json::to_value(answered.body()).unwrap();
     let sent: Value = serde_json::from_str(&posted(&server, "/v1/generate", &body)).unwrap();
     assert_eq!(timeless(sent), timeless(direct.clone()));
@@ -116,4 +118,46 @@ fn a_map_and_its_score() {
         line.as_object_mut().unwrap().remove(own);
     }
     assert_eq!(line.to_string(), serde_json::from_str::<Value>(&direct).unwrap().to_string());
+}
+
+#[test]
+fn a_goal_says_who_is_regenerated() {
+    let server = Server::start(&[]).unwrap();
+    let body = json!({"scene": demo(), "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}}}});
+    let sent: Value = serde_json::from_str(&posted(&server, "/v1/generate", &body)).unwrap();
+    assert_eq!(sent["generated"]["request"]["agents"], json!(["6"]));
+    let flags = ["generate", &path(), "--goal", "6=-40,8", "--quiet"];
+    let file: Value = serde_json::from_slice(&printed(&flags)).unwrap();
+    assert_eq!(file["generated"]["samples"][0]["agents"], sent["samples"][0]["agents"]);
+    assert_eq!(file["generated"]["request"], sent["generated"]["request"]);
+    // A start alone sends nobody anywhere: all are regenerated, as without conditions.
+    let body = json!({"scene": demo(), "conditions": {"6": {"start": {"speed_mps": 3.0}}}, "steps": 0});
+    let (request, _) = opened::<GenerateRequest>(&body);
+    assert!(matches!(request.chosen_agents(), AgentChoice::All(_)));
+}
+
+#[test]
+fn an_angle_of_more_than_a_turn_is_refused_with_a_hint() {
+    let body = json!({"scene": demo(), "conditions": {"6": {"goal": {"heading_rad": 90.0}}}});
+    let (request, subject) = opened::<GenerateRequest>(&body);
+    let refused = OPERATIONS.generate(&request, &subject, Cancel::default()).err().unwrap();
+    let fault = &refused.members.errors.unwrap()[0];
+    assert_eq!(fault.pointer, "/conditions/6/goal/heading_rad");
+    assert_eq!(fault.code, "out-of-range");
+    assert_eq!(fault.detail, "90 rad is more than a turn; 90 degrees are 1.5708 rad");
+}
+
+#[test]
+fn a_round_of_cards_is_a_generation_with_feedback() {
+    let body = json!({"scene": demo(), "agents": ["6"], "modes": 3, "seed": 5, "score": false});
+    let (request, subject) = opened::<GenerateRequest>(&body);
+    let answer = |call: Result<GenerationRun<'_>, Problem>| {
+        let answered = call.and_then(GenerationRun::answer).map_err(|problem| problem.detail).unwrap();
+        timeless(serde_json::to_value(answered.body()).unwrap())
+    };
+    let round = OPERATIONS.feedback(&request, FeedbackDoc::default(), &subject, Cancel::default());
+    let asked = GenerateRequest { feedback: Some(FeedbackDoc::default()), ..request.clone() };
+    let direct = answer(OPERATIONS.generate(&asked, &subject, Cancel::default()));
+    assert!(direct.contains("\"cards\""));
+    assert_eq!(answer(round), direct);
 }

@@ -125,7 +125,15 @@ fn values_are_told_in_words_of_the_command_line() {
     let wrong = |flags: &[&str]| ends(folder.path(), &[&["generate", &scene], flags].concat(), 2).1;
     for (flags, expected) in [
         (&["--horizon", "30"][..], "'--horizon <SECONDS>': 0.5 to 20 seconds expected"),
+        (&["--replan-interval", "4"], "3, 6, 9 expected"),
         (&["--replan", "4"], "3, 6, 9 expected"),
+        (&["--goal", "6=2,27,5,90"], "heading: 90 rad is more than a turn; 90 degrees are 1.5708 rad"),
+        (
+            &["--agents", "7", "--goal", "6=2,27"],
+            "--goal 6: this road user is not regenerated; add it to --agents",
+        ),
+        (&["--agents", "7", "--start", "6=2,27"], "--start 6: this road user is not regenerated"),
+        (&["--seed", "-1"], "a whole number from 0 to 9007199254740991 expected"),
         (&["--samples", "33"], "'--samples <N>': 33 is not in 1..=32"),
         (&["--goal", "6=-40"], "x needs y beside it"),
         (&["--goal", "6=ahead:4,speed:80"], "speed: 0 to 60 m/s expected"),
@@ -148,6 +156,14 @@ fn values_are_told_in_words_of_the_command_line() {
     ] {
         let told = wrong(flags);
         assert!(told.contains(expected) && !told.contains("/horizon_s"), "{flags:?}: {told}");
+    }
+    for (flags, expected) in [
+        (&["--types", "car=1"][..], "--types car: vehicle, pedestrian and cyclist can be placed"),
+        (&["--keep=99"], "--keep: the scene has no road user \"99\""),
+        (&["--arrivals", "nowhere=10"], "--arrivals: "),
+    ] {
+        let told = ends(folder.path(), &[&["place", &scene], flags].concat(), 2).1;
+        assert!(told.contains(expected), "{flags:?}: {told}");
     }
     let told = ends(folder.path(), &["convert", &scene, "--to", "netcdf"], 2).1;
     assert!(
@@ -298,6 +314,22 @@ fn many_files_have_one_verdict_each() {
 }
 
 #[test]
+fn a_goal_says_who_is_regenerated_and_ranges_have_both_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = demo("demo-crossing");
+    let asked = |path: &str| json_of(&folder.path().join(path))["generated"]["request"]["agents"].clone();
+    ends(folder.path(), &["generate", &scene, "--goal", "6=-40,8", "-o", "goal.json"], 0);
+    assert_eq!(asked("goal.json"), json!(["6"]));
+    let all = ["generate", &scene, "--agents", "@all", "--goal", "6=-40,8", "-o", "all.json"];
+    ends(folder.path(), &all, 0);
+    assert_eq!(asked("all.json"), json!("all"));
+    let seeds = ["generate", &scene, "--goal", "6=-40,8", "--seeds", "4..5", "-o", "seeds/"];
+    ends(folder.path(), &seeds, 0);
+    let made = names(&folder.path().join("seeds"));
+    assert_eq!(made, ["demo-crossing-seed004.json", "demo-crossing-seed005.json", "manifest.csv"]);
+}
+
+#[test]
 fn samples_are_scored_picked_and_copied() {
     let folder = tempfile::tempdir().unwrap();
     let scene = demo("demo-crossing");
@@ -325,8 +357,8 @@ fn samples_are_scored_picked_and_copied() {
         "{told}"
     );
     let strict = ["generate", &scene, "--where", "road_users < 0", "--seeds", "2", "-o", "many/"];
-    let told = ends(folder.path(), &strict, 0).1;
-    assert!(told.contains("0 of 2 hold road_users < 0"), "{told}");
+    let told = ends(folder.path(), &strict, 4).1;
+    assert!(told.contains("0 of 2 hold road_users < 0") && told.contains("no result was kept"), "{told}");
     ends(folder.path(), &[&strict[..], &["--strict", "--force"]].concat(), 4);
 }
 

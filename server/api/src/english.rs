@@ -37,6 +37,7 @@ sentences! {
     ReplanInterval "replan-interval" "{got} s; null, 3, 6 or 9 expected";
     UnknownEdge "unknown-edge" "the id of a road edge of the map expected";
     UnequalColumns "unequal-columns" "{count} values, as many as x_m ({expected}) expected";
+    MoreThanATurn "more-than-a-turn" "{got} rad is more than a turn; {got} degrees are {radians} rad";
     OneScene "one-scene" "exactly one of scene and scene_id is needed";
     ChangedScene "changed-scene" "The stored scene is another than the one you read.";
     NoNetwork "no-network" "a file of format {format} comes without a network";
@@ -49,7 +50,7 @@ impl Sentence {
     /// The sentence with its values. A text stands as it is, a number in its shortest form.
     pub fn english(self, values: &Values) -> String {
         let (mut out, mut rest) = (String::new(), self.text());
-        while let Some((before, name, after)) = place(rest) {
+        while let Some((before, name, after)) = placeholder(rest) {
             out.push_str(before);
             match values.get(name) {
                 Some(Value::String(text)) => out.push_str(text),
@@ -63,7 +64,7 @@ impl Sentence {
 }
 
 /// What stands before the first place of a text, the place's name, and what stands behind it.
-fn place(text: &str) -> Option<(&str, &str, &str)> {
+fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
     let (before, rest) = text.split_once('{')?;
     let (name, after) = rest.split_once('}')?;
     Some((before, name, after))
@@ -71,7 +72,7 @@ fn place(text: &str) -> Option<(&str, &str, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Sentence, Values, place};
+    use super::{Sentence, Values, placeholder};
     use std::collections::BTreeSet;
 
     #[test]
@@ -80,7 +81,7 @@ mod tests {
         assert_eq!(codes.len(), Sentence::ALL.len());
         for sentence in Sentence::ALL {
             let mut rest = sentence.text();
-            while let Some((_, name, after)) = place(rest) {
+            while let Some((_, name, after)) = placeholder(rest) {
                 assert!(name.chars().all(|c| c.is_ascii_lowercase() || c == '_'), "{}", sentence.code());
                 rest = after;
             }

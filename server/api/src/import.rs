@@ -44,6 +44,8 @@ pub fn known(name: &str) -> &str {
         "fcd" => "sumo-fcd",
         "net" => "sumo-net",
         "table" => "csv",
+        "xosc" => "openscenario",
+        "xodr" => "opendrive",
         name => name,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::export::{self, MotionChoice, WrittenFile};
 use crate::feedback::FeedbackDoc;
-use crate::generate::{GenerateRequest, Generation};
+use crate::generate::{GenerateRequest, GenerationRun};
 use crate::home::{Home, SceneRef, Subject};
 use crate::import::{Companions, ReadFile, SceneFile};
 use crate::info::{BuildInfo, ProgramInfo};
@@ -96,7 +96,7 @@ impl Operations {
         request: &GenerateRequest,
         about: &Subject,
         cancel: Cancel,
-    ) -> Result<Generation<'_>, Problem> {
+    ) -> Result<GenerationRun<'_>, Problem> {
         let mut plan = request.plan(&about.scene, &self.limits, &self.generator)?;
         plan.standings = about.standings.clone();
         plan.start(&self.generator, cancel, self.clock)
@@ -112,7 +112,7 @@ impl Operations {
         feedback: FeedbackDoc,
         about: &Subject,
         cancel: Cancel,
-    ) -> Result<Generation<'_>, Problem> {
+    ) -> Result<GenerationRun<'_>, Problem> {
         let request = GenerateRequest { feedback: Some(feedback), ..request.clone() };
         self.generate(&request, about, cancel)
     }

@@ -27,6 +27,7 @@ mod map;
 mod output;
 mod parallel;
 mod place;
+mod pointers;
 mod progress;
 mod score;
 mod serve;

@@ -1,11 +1,11 @@
 //! `dragtraffic place`: the same work as `POST /v1/place`, from file to file.
 
-use super::inputs::{Inputs, Item, Reading, Source, no_ids, refused};
+use super::inputs::{Inputs, Item, Reading, Source, no_ids};
 use super::output::{self, Folder};
 use super::progress::Progress;
 use super::tally::Tally;
-use super::values::{For, for_one, index, share, within};
-use super::{Common, Failure, parallel};
+use super::values::{For, for_one, index, share, whole, within};
+use super::{Common, Failure, parallel, pointers};
 use api::place::PlaceBody;
 use api::place::request::{ArrivalsDoc, DensityDoc, ParkedDoc, RegionDoc, SpeedsDoc};
 use clap::Args;
@@ -42,7 +42,7 @@ pub struct PlaceArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = PlaceBody::default().at_s, value_parser = within(0.0, 59.9, "seconds"))]
     at: f64,
     /// The same seed gives the same answer.
-    #[arg(long, default_value_t = PlaceBody::default().seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER))]
+    #[arg(long, allow_negative_numbers = true, default_value_t = PlaceBody::default().seed, value_parser = whole(0, MAX_SAFE_INTEGER))]
     seed: u64,
     /// Road users of the scene that stay (--keep=6,7); nobody for --keep alone, all without the flag.
     #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "", value_name = "ID")]
@@ -147,7 +147,7 @@ impl Work<'_> {
         let placement = self
             .body
             .run(&shared, self.placer, &Cancel::default())
-            .map_err(|problem| refused(&source.path, &problem))?;
+            .map_err(|problem| pointers::refused(source, &problem))?;
         let mut told = vec![format!("{} placed", placement.agents.len())];
         for ArmTraffic { arm, placed, later, .. } in placement.arms.iter().filter(|a| a.placed + a.later > 0)
         {
@@ -173,7 +173,7 @@ fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(
     let [source] = sources else { return Err(Failure::usage("--arms tells those of one scene")) };
     let scene = Arc::new(source.first(reading)?.scene);
     let placement = work.body.run(&scene, work.placer, &Cancel::default());
-    let placement = placement.map_err(|problem| refused(&source.path, &problem))?;
+    let placement = placement.map_err(|problem| pointers::refused(source, &problem))?;
     let mut text = String::from("arm,x_m,y_m,lanes,length_m,most_per_hour\n");
     for ArmTraffic { arm, length_m, most_per_hour, .. } in &placement.arms {
         let (x, y) = (arm.position.x, arm.position.y);

@@ -29,6 +29,14 @@ pub fn number(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("\"{text}\" is no number"))
 }
 
+/// A whole number from `min` to `max`, both allowed.
+pub fn whole(min: u64, max: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let number = text.trim().parse().ok().filter(|n| (min..=max).contains(n));
+        number.ok_or_else(|| format!("a whole number from {min} to {max} expected"))
+    }
+}
+
 /// One of a few numbers.
 pub fn one_of(
     allowed: &'static [f64],
@@ -42,23 +50,22 @@ pub fn one_of(
     }
 }
 
-/// Seeds: a count from 0 on, or `FIRST..END`, the end left out.
+/// Seeds: a count from 0 on, or `FIRST..LAST`.
 ///
 /// # Errors
 /// One sentence.
 pub fn seeds(text: &str) -> Result<Range<u64>, String> {
-    let expected =
-        || "a count such as 20, or FIRST..END such as 0..20 (the end left out) expected".to_owned();
-    let whole = |text: &str| text.trim().parse::<u64>().map_err(|_| expected());
+    let expected = || "a count such as 20, or FIRST..LAST such as 0..19 expected".to_owned();
+    let most = formats::native::MAX_SAFE_INTEGER;
+    let whole = |text: &str| text.trim().parse::<u64>().ok().filter(|n| *n <= most).ok_or_else(expected);
     let range = match text.split_once("..") {
-        Some((first, end)) => whole(first)?..whole(end)?,
+        Some((first, last)) => whole(first)?..whole(last)? + 1,
         None => 0..whole(text)?,
     };
-    let most = formats::native::MAX_SAFE_INTEGER;
     match range.end.checked_sub(range.start) {
-        Some(1..=MOST_SEEDS) if range.end <= most => Ok(range),
+        Some(1..=MOST_SEEDS) => Ok(range),
         Some(0) | None => Err("at least one seed expected".into()),
-        Some(_) => Err(format!("at most {MOST_SEEDS} seeds up to {most} expected")),
+        Some(_) => Err(format!("at most {MOST_SEEDS} seeds expected")),
     }
 }
 
@@ -117,8 +124,9 @@ mod tests {
     #[test]
     fn seeds_are_a_count_or_a_range() {
         assert_eq!(seeds("20"), Ok(0..20));
-        assert_eq!(seeds("5..8"), Ok(5..8));
-        for bad in ["0", "8..5", "5..5", "-1", "a", "1..2..3", "200000"] {
+        assert_eq!(seeds("5..8"), Ok(5..9));
+        assert_eq!(seeds("5..5"), Ok(5..6));
+        for bad in ["0", "8..5", "-1", "a", "1..2..3", "200000"] {
             assert!(seeds(bad).is_err(), "{bad}");
         }
     }

@@ -1,7 +1,7 @@
 //! The events of one job: made by its worker or by who stops it, taken by its reader.
 
 use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
-use super::outbox::{End, Message, Outbox};
+use super::outbox::{JobEnd, Message, Outbox};
 use crate::base::problem::logged;
 use crate::work::{Ending, Handle, Stop, Ticket};
 use api::Problem;
@@ -26,7 +26,7 @@ impl Feed {
     }
 
     /// Sends one event; with `end`, the last one. False when the job has ended already.
-    pub fn send<T: EventBody + Serialize>(&self, body: T, end: Option<End>) -> bool {
+    pub fn send<T: EventBody + Serialize>(&self, body: T, end: Option<JobEnd>) -> bool {
         if self.outbox.is_closed() {
             return false;
         }
@@ -44,7 +44,7 @@ impl Feed {
     /// Ends the job with a problem. False when it has ended already.
     pub fn fail(&self, problem: Problem) -> bool {
         let problem = logged(problem);
-        self.send(ErrorBody::new(&problem), Some(End::Stopped(Stop::Problem(problem))))
+        self.send(ErrorBody::new(&problem), Some(JobEnd::Stopped(Stop::Problem(problem))))
     }
 }
 
@@ -52,7 +52,7 @@ impl Ending for Feed {
     fn stop(&self, stop: Stop) -> bool {
         match stop {
             Stop::Superseded(by_revision) => {
-                self.send(SupersededBody { by_revision }, Some(End::Stopped(stop)))
+                self.send(SupersededBody { by_revision }, Some(JobEnd::Stopped(stop)))
             }
             Stop::Problem(problem) => self.fail(problem),
         }
@@ -68,12 +68,12 @@ impl Ending for Feed {
 }
 
 /// The one reader of a job: dropping it before the end stops the work.
-pub struct Reader {
+pub struct EventReader {
     feed: Arc<Feed>,
     _hold: Handle,
 }
 
-impl Reader {
+impl EventReader {
     /// Of a job in the pool.
     pub fn new(feed: Arc<Feed>, handle: Handle) -> Self {
         Self { feed, _hold: handle }

@@ -6,12 +6,12 @@ mod outbox;
 pub mod run;
 pub mod stream;
 
-pub use feed::Reader;
+pub use feed::EventReader;
 
 use crate::base::limits::Limits;
 use crate::work::{Asked, Caller, Kind, Lane, Pool, Work};
 use api::Problem;
-use api::generate::Plan;
+use api::generate::GenerationPlan;
 use experts::Generator;
 use feed::Feed;
 use std::sync::Arc;
@@ -34,8 +34,8 @@ pub fn submit(
     experts: Experts<'_>,
     limits: &Limits,
     caller: Caller,
-    plan: Plan,
-) -> Result<Reader, Problem> {
+    plan: GenerationPlan,
+) -> Result<EventReader, Problem> {
     let asked = Asked { kind: Kind::Generate, cost: plan.cost(), caller };
     let generator = Arc::clone(if asked.lane() == Lane::Quick { experts.quick } else { experts.patient });
     let most = limits.buffered_events as usize;
@@ -47,5 +47,5 @@ pub fn submit(
         });
         (feed, work)
     })?;
-    Ok(Reader::new(feed, handle))
+    Ok(EventReader::new(feed, handle))
 }

@@ -11,7 +11,7 @@ use tokio::sync::Notify;
 
 /// How a job ended.
 #[derive(Clone, Debug)]
-pub enum End {
+pub enum JobEnd {
     /// With an answer.
     Final,
     /// Without one.
@@ -28,7 +28,7 @@ pub struct Message {
     /// The whole object.
     pub json: Bytes,
     /// Set on the last one.
-    pub end: Option<End>,
+    pub end: Option<JobEnd>,
 }
 
 #[derive(Debug)]
@@ -110,10 +110,10 @@ impl Outbox {
 
 #[cfg(test)]
 mod tests {
-    use super::{End, Message, Outbox};
+    use super::{JobEnd, Message, Outbox};
 
     fn message(event: &'static str, seq: u64) -> Message {
-        let end = (event == "final").then_some(End::Final);
+        let end = (event == "final").then_some(JobEnd::Final);
         Message { event, seq, json: bytes::Bytes::new(), end }
     }
 

@@ -2,12 +2,12 @@
 
 use super::events::AcceptedBody;
 use super::feed::Feed;
-use super::outbox::End;
+use super::outbox::JobEnd;
 use crate::base::{clock, metrics};
 use crate::work::Kind;
 use api::Problem;
 use api::events::FinalBody;
-use api::generate::{Answered, GenerationEvent, Plan, round_ms};
+use api::generate::{GenerationAnswer, GenerationEvent, GenerationPlan, round_ms};
 use experts::weights::EXPERTS;
 use experts::{Draft, Event, Generator};
 use scene::Scene;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
-pub fn generate(feed: &Feed, generator: &Generator, plan: Plan, others: impl Fn()) {
+pub fn generate(feed: &Feed, generator: &Generator, plan: GenerationPlan, others: impl Fn()) {
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
     if let Err(problem) = events(feed, generator, plan, queued, &others)
@@ -29,7 +29,7 @@ pub fn generate(feed: &Feed, generator: &Generator, plan: Plan, others: impl Fn(
 fn events(
     feed: &Feed,
     generator: &Generator,
-    plan: Plan,
+    plan: GenerationPlan,
     queued: Duration,
     others: &dyn Fn(),
 ) -> Result<(), Problem> {
@@ -55,7 +55,7 @@ fn events(
                 std::thread::yield_now();
             }
             GenerationEvent::Final(answered) => {
-                if feed.send(final_body(&answered, queued), Some(End::Final)) {
+                if feed.send(final_body(&answered, queued), Some(JobEnd::Final)) {
                     metrics::ended(Kind::Generate.name(), "final");
                 }
             }
@@ -79,7 +79,7 @@ fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
 }
 
 /// The answer with what the server knows of it: the time in the queue, and the date.
-fn final_body(answered: &Answered, queued: Duration) -> FinalBody {
+fn final_body(answered: &GenerationAnswer, queued: Duration) -> FinalBody {
     let t = &answered.answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);
     metrics::phase("initial", t.initial_ms / 1e3);

@@ -1,7 +1,7 @@
 //! One sequence of events in three representations: SSE, NDJSON, or the last event alone as JSON.
 
-use super::feed::Reader;
-use super::outbox::{End, Message};
+use super::feed::EventReader;
+use super::outbox::{JobEnd, Message};
 use crate::base::problem::Refusal;
 use crate::http::accept::Form;
 use crate::work::{Stop, superseded};
@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// When a stream says something.
 #[derive(Clone, Copy)]
-pub struct Pace {
+pub struct StreamPace {
     /// A sign of life after so long a silence.
     pub heartbeat: Duration,
     /// So long the first event waits for the second: what comes together is sent, heard of and read in one.
@@ -23,7 +23,7 @@ pub struct Pace {
 }
 
 /// Answers with the events of a job.
-pub async fn reply(reader: Reader, form: Form, pace: Pace) -> Response {
+pub async fn reply(reader: EventReader, form: Form, pace: StreamPace) -> Response {
     match form {
         Form::Json => last(reader).await,
         Form::Ndjson | Form::Sse => stream(reader, form, pace).await,
@@ -31,15 +31,17 @@ pub async fn reply(reader: Reader, form: Form, pace: Pace) -> Response {
 }
 
 /// JSON: the last event, or a problem in its place.
-async fn last(reader: Reader) -> Response {
+async fn last(reader: EventReader) -> Response {
     while let Some(message) = reader.next().await {
         match message.end {
-            Some(End::Final) => {
+            Some(JobEnd::Final) => {
                 let head = [(header::CONTENT_TYPE, Form::Json.media_type())];
                 return (head, Body::from(message.json)).into_response();
             }
-            Some(End::Stopped(Stop::Superseded(by))) => return Refusal::from(superseded(by)).into_response(),
-            Some(End::Stopped(Stop::Problem(problem))) => return Refusal::from(problem).into_response(),
+            Some(JobEnd::Stopped(Stop::Superseded(by))) => {
+                return Refusal::from(superseded(by)).into_response();
+            }
+            Some(JobEnd::Stopped(Stop::Problem(problem))) => return Refusal::from(problem).into_response(),
             None => {}
         }
     }
@@ -48,16 +50,16 @@ async fn last(reader: Reader) -> Response {
 
 /// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
 /// longer than the heartbeat begins the stream in any case.
-async fn stream(reader: Reader, form: Form, pace: Pace) -> Response {
+async fn stream(reader: EventReader, form: Form, pace: StreamPace) -> Response {
     let within = async |time| tokio::time::timeout(time, reader.next()).await.ok().flatten();
     let first = within(pace.heartbeat).await;
-    if let Some(Message { end: Some(End::Stopped(Stop::Problem(problem))), .. }) = first {
+    if let Some(Message { end: Some(JobEnd::Stopped(Stop::Problem(problem))), .. }) = first {
         return Refusal::from(problem).into_response();
     }
     let waits = first.is_some() && !pace.together.is_zero();
     let second = if waits { within(pace.together).await } else { None };
     let begun = first.into_iter().chain(second).collect();
-    let source = Source { reader, form, heartbeat: pace.heartbeat, begun, done: false };
+    let source = EventSource { reader, form, heartbeat: pace.heartbeat, begun, done: false };
     let events = unfold(source, |mut source| async move {
         source.next().await.map(|bytes| (Ok::<_, Infallible>(bytes), source))
     });
@@ -68,8 +70,8 @@ async fn stream(reader: Reader, form: Form, pace: Pace) -> Response {
     response
 }
 
-struct Source {
-    reader: Reader,
+struct EventSource {
+    reader: EventReader,
     form: Form,
     heartbeat: Duration,
     /// What came before the head of the reply was sent.
@@ -77,7 +79,7 @@ struct Source {
     done: bool,
 }
 
-impl Source {
+impl EventSource {
     async fn next(&mut self) -> Option<Bytes> {
         if self.done {
             return None;

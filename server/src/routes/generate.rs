@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::base::id::is_id;
 use crate::base::problem::Refusal;
 use crate::generation;
-use crate::generation::stream::{self, Pace};
+use crate::generation::stream::{self, StreamPace};
 use crate::http::accept::Form;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
@@ -56,8 +56,10 @@ pub async fn generate(
         Ok(plan)
     };
     let plan = app.pool.document(bytes, prepare).await?;
-    let pace =
-        Pace { heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)), together: plan.draft_delay() };
+    let pace = StreamPace {
+        heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
+        together: plan.draft_delay(),
+    };
     let reader = generation::submit(&app.pool, app.experts(), &app.limits, caller, plan)?;
     let mut reply = stream::reply(reader, form, pace).await;
     if let Some(name) = held.and_then(|name| HeaderValue::from_str(&name).ok()) {

@@ -87,9 +87,7 @@ fn exported() -> Map<String, Value> {
 
 /// Pretty text with a last newline, as it is committed.
 pub fn text() -> String {
-    let mut text = serde_json::to_string_pretty(&document()).unwrap_or_default();
-    text.push('\n');
-    text
+    serde_json::to_string_pretty(&document()).unwrap_or_default() + "\n"
 }
 
 /// What replies are made of: members that are always there are required.

@@ -1,9 +1,9 @@
 //! The scene that a request is about, with its road users and conditions of this call.
 
-use super::request::{GenerateRequest, KeptFutures};
+use super::request::{GenerateRequest, KeptFutures, MOST_ANGLE_RAD, more_than_a_turn};
 use crate::english::Sentence;
 use crate::problem::{Problem, refuse, unknown_agent};
-use formats::native::{Context, Window};
+use formats::native::{ConditionsDoc, Context, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
 use scene::{STEP_S, Scene};
 
@@ -39,6 +39,7 @@ impl GenerateRequest {
                 faults.push(unknown_agent(pointer, id));
                 continue;
             };
+            faults.extend(angles(&pointer, doc));
             let context = Context { agent_type: agent.agent_type, start: agent.state_at(start_step), window };
             match doc.resolve(&pointer, &context) {
                 Ok(conditions) => {
@@ -59,4 +60,19 @@ impl GenerateRequest {
         check
             .map_err(|faults| ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect()).into())
     }
+}
+
+/// Angles of more than a turn. A scene's own conditions may have them, for those of earlier versions.
+fn angles(pointer: &str, doc: &ConditionsDoc) -> Vec<FieldProblem> {
+    let start = doc.start.as_ref().map(|start| ("start/heading_rad", start.heading_rad));
+    let goal = doc.goal.iter();
+    let goal =
+        goal.flat_map(|goal| [("goal/heading_rad", goal.heading_rad), ("goal/turn_rad", goal.turn_rad)]);
+    let given = start.into_iter().chain(goal).filter_map(|(name, angle)| Some((name, angle?)));
+    let beyond = given.filter(|(_, angle)| angle.is_finite() && angle.abs() > MOST_ANGLE_RAD);
+    let fault = |(name, angle)| FieldProblem {
+        detail: more_than_a_turn(angle),
+        ..FieldProblem::range(format!("{pointer}/{name}"), -MOST_ANGLE_RAD, MOST_ANGLE_RAD, angle)
+    };
+    beyond.map(fault).collect()
 }

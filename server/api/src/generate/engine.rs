@@ -22,10 +22,10 @@ impl GenerateRequest {
         limits: &CallLimits,
     ) -> Result<experts::Request, Problem> {
         let pinned = self.pinned(scene)?;
-        let agents = match &self.agents {
+        let agents = match self.chosen_agents() {
             AgentChoice::All(_) => None,
             AgentChoice::Ids(ids) => {
-                let mut ids = self.known(scene, "/agents", ids)?;
+                let mut ids = self.known(scene, "/agents", &ids)?;
                 ids.extend(pinned.keys().cloned());
                 Some(ids)
             }

@@ -7,9 +7,9 @@ mod ranges;
 pub mod request;
 mod run;
 
-pub use plan::Plan;
+pub use plan::GenerationPlan;
 pub use request::GenerateRequest;
-pub use run::{Answered, Generation, GenerationEvent, round_ms};
+pub use run::{GenerationAnswer, GenerationEvent, GenerationRun, round_ms};
 
 use experts::{React, Request};
 use scene::{Sample, Scene};

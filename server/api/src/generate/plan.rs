@@ -17,7 +17,7 @@ use std::time::Duration;
 
 /// A generation that can be started.
 #[derive(Clone)]
-pub struct Plan {
+pub struct GenerationPlan {
     /// For the generator. Its scene has this call's road users and conditions.
     pub request: Request,
     /// The caller reads drafts, not the answer alone.
@@ -45,7 +45,12 @@ impl GenerateRequest {
     ///
     /// # Errors
     /// Every fault of the options, conditions and ids.
-    pub fn plan(&self, scene: &Scene, limits: &CallLimits, generator: &Generator) -> Result<Plan, Problem> {
+    pub fn plan(
+        &self,
+        scene: &Scene,
+        limits: &CallLimits,
+        generator: &Generator,
+    ) -> Result<GenerationPlan, Problem> {
         self.check_ranges()?;
         let applied = Arc::new(self.apply(scene.clone())?);
         let request = self.engine_request(&applied, limits)?;
@@ -54,7 +59,7 @@ impl GenerateRequest {
         head.stale = self.keeps_stale(scene, &applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
-        Ok(Plan {
+        Ok(GenerationPlan {
             request,
             drafts: true,
             standings: None,
@@ -81,7 +86,7 @@ impl GenerateRequest {
     /// The options as sent, for `generated.request`.
     fn options(&self) -> serde_json::Value {
         let mut options = json!({
-            "agents": self.agents, "react": self.react, "start_s": self.start_s, "horizon_s": self.horizon_s,
+            "agents": self.chosen_agents(), "react": self.react, "start_s": self.start_s, "horizon_s": self.horizon_s,
             "replan_interval_s": self.replan_interval_s, "samples": self.samples, "modes": self.modes,
             "diversity": self.diversity, "steps": self.steps,
         });
@@ -101,7 +106,7 @@ impl GenerateRequest {
     }
 }
 
-impl Plan {
+impl GenerationPlan {
     /// Names what the answer follows from, in six characters: the scene with its conditions, what is kept of its
     /// futures, the options, the seed, and the engine.
     pub fn code(&self) -> String {

@@ -1,14 +1,19 @@
 //! What a generation is asked for: the request with its defaults.
 
 use crate::compact::FuturesForm;
+use crate::english::{Sentence, Values};
 use crate::feedback::FeedbackDoc;
 use crate::home::{AboutScene, SceneRef, one_scene};
 use experts::request::DEFAULTS;
-use formats::native::{AgentDoc, ConditionsDoc, Members, SceneDoc};
+use formats::native::{AgentDoc, ConditionsDoc, GoalDoc, Members, SceneDoc};
 use scene::STEP_S;
 use scene::score::Thresholds;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// Greatest angle of a condition, either way: a turn, radians.
+pub const MOST_ANGLE_RAD: f64 = std::f64::consts::TAU;
 
 /// `"all"` or a list of ids.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -68,7 +73,7 @@ pub enum KeptFutures {
 /// Body of a generation. Exactly one of `scene` and `scene_id` is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-#[schemars(transform = one_scene)]
+#[schemars(transform = one_scene, transform = absent_agents)]
 pub struct GenerateRequest {
     /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
     pub scene: Option<SceneDoc>,
@@ -94,9 +99,11 @@ pub struct GenerateRequest {
     pub revision: Option<u64>,
     /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
     pub background: bool,
-    /// Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
-    /// and give way to each other there.
-    pub agents: AgentChoice,
+    /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
+    /// has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
+    /// give way to each other there.
+    #[schemars(with = "AgentChoice")]
+    pub agents: Option<AgentChoice>,
     /// Who else answers to them.
     pub react: ReactChoice,
     /// Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
@@ -154,6 +161,13 @@ pub struct GenerateRequest {
     pub thresholds: Thresholds,
 }
 
+/// What `agents` is when absent depends on the conditions: it has no value by default.
+fn absent_agents(schema: &mut Schema) {
+    if let Some(agents) = schema.pointer_mut("/properties/agents").and_then(Value::as_object_mut) {
+        agents.remove("default");
+    }
+}
+
 impl Default for GenerateRequest {
     /// What a request has when it does not say.
     fn default() -> Self {
@@ -169,7 +183,7 @@ impl Default for GenerateRequest {
             client: None,
             revision: None,
             background: false,
-            agents: AgentChoice::All(AllWord::All),
+            agents: None,
             react: ReactChoice::Whether(false),
             pinned: Vec::new(),
             start_s: 0.0,
@@ -218,6 +232,19 @@ impl AboutScene for GenerateRequest {
 }
 
 impl GenerateRequest {
+    /// The road users to regenerate: those that are named, else those with a goal, else all.
+    pub fn chosen_agents(&self) -> AgentChoice {
+        let going = |doc: &ConditionsDoc| {
+            !doc.via.is_empty() || doc.goal.as_ref().is_some_and(|goal| *goal != GoalDoc::default())
+        };
+        let named = || {
+            let ids = self.conditions.0.iter().filter(|(_, doc)| going(doc)).map(|(id, _)| id.clone());
+            let ids: Vec<String> = ids.collect();
+            if ids.is_empty() { AgentChoice::All(AllWord::All) } else { AgentChoice::Ids(ids) }
+        };
+        self.agents.clone().unwrap_or_else(named)
+    }
+
     /// Scene step of the start.
     pub fn start_step(&self) -> usize {
         (self.start_s / STEP_S).round() as usize
@@ -227,4 +254,11 @@ impl GenerateRequest {
     pub(super) fn horizon_steps(&self) -> usize {
         (self.horizon_s / STEP_S).round().max(1.0) as usize
     }
+}
+
+/// What is said of an angle beyond [`MOST_ANGLE_RAD`]: mostly it was meant in degrees.
+pub fn more_than_a_turn(got: f64) -> String {
+    let radians = format!("{:.4}", got.to_radians());
+    let got = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
+    Sentence::MoreThanATurn.english(&Values::from([("got", got.into()), ("radians", radians.into())]))
 }

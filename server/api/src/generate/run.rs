@@ -1,6 +1,6 @@
 //! A generation under way: drives the generator, turns its events into those of the API.
 
-use super::{Plan, fill};
+use super::{GenerationPlan, fill};
 use crate::compact::FuturesForm;
 use crate::events::{DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
 use crate::problem::Problem;
@@ -19,12 +19,12 @@ pub enum GenerationEvent {
     /// The first guess, or the state after a refinement step.
     Draft(DraftBody),
     /// The answer; nothing follows it.
-    Final(Box<Answered>),
+    Final(Box<GenerationAnswer>),
 }
 
 /// A generation under way. Dropping it ends the work; so does its [`Cancel`], between two steps.
-pub struct Generation<'g> {
-    plan: Plan,
+pub struct GenerationRun<'g> {
+    plan: GenerationPlan,
     generator: &'g Generator,
     inner: experts::Generation<'g>,
     clock: Clock,
@@ -34,7 +34,7 @@ pub struct Generation<'g> {
     over: bool,
 }
 
-impl Plan {
+impl GenerationPlan {
     /// Begins. `clock` decides which drafts come too soon and measures the score; one that stands leaves out the
     /// drafts of a call with a `draft_delay_ms`.
     ///
@@ -45,13 +45,13 @@ impl Plan {
         generator: &Generator,
         cancel: Cancel,
         clock: Clock,
-    ) -> Result<Generation<'_>, Problem> {
+    ) -> Result<GenerationRun<'_>, Problem> {
         let inner = generator.start(self.request.clone(), cancel)?;
-        Ok(Generation { plan: self, generator, inner, clock, began: clock(), drafted: None, over: false })
+        Ok(GenerationRun { plan: self, generator, inner, clock, began: clock(), drafted: None, over: false })
     }
 }
 
-impl Iterator for Generation<'_> {
+impl Iterator for GenerationRun<'_> {
     type Item = Result<GenerationEvent, Problem>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -59,7 +59,7 @@ impl Iterator for Generation<'_> {
     }
 }
 
-impl Generation<'_> {
+impl GenerationRun<'_> {
     /// The next event. `watch` sees each step of the generator, those too that give no event.
     pub fn next_watched(
         &mut self,
@@ -88,7 +88,7 @@ impl Generation<'_> {
         match event {
             Event::Accepted(accepted) => Ok(Some(GenerationEvent::Accepted(accepted))),
             Event::Draft(draft) => {
-                let Plan { drafts, all_modes, draft_delay, draft_interval, form, .. } = &self.plan;
+                let GenerationPlan { drafts, all_modes, draft_delay, draft_interval, form, .. } = &self.plan;
                 let now = (self.clock)();
                 let soon = match self.drafted {
                     Some(sent) => draft.step > 0 && now.saturating_sub(sent) < *draft_interval,
@@ -102,22 +102,17 @@ impl Generation<'_> {
                 Ok(Some(GenerationEvent::Draft(DraftBody::new(&draft, &futures, *all_modes, *form))))
             }
             Event::Final(answer) => {
-                let answered = Answered::new(&self.plan, answer, self.generator, self.clock);
+                let answered = GenerationAnswer::new(&self.plan, answer, self.generator, self.clock);
                 Ok(Some(GenerationEvent::Final(Box::new(answered))))
             }
         }
-    }
-
-    /// The scene with this call's road users and conditions.
-    pub fn scene(&self) -> &Arc<Scene> {
-        &self.plan.request.scene
     }
 
     /// The answer, without the events before it.
     ///
     /// # Errors
     /// What the generator cannot do, and a call that was cancelled.
-    pub fn answer(mut self) -> Result<Answered, Problem> {
+    pub fn answer(mut self) -> Result<GenerationAnswer, Problem> {
         self.plan.drafts = false;
         for event in self.by_ref() {
             if let GenerationEvent::Final(answered) = event? {
@@ -129,7 +124,7 @@ impl Generation<'_> {
 }
 
 /// The answer of a generation.
-pub struct Answered {
+pub struct GenerationAnswer {
     /// The scene with this call's road users and conditions.
     pub scene: Arc<Scene>,
     /// What the generator answered.
@@ -146,9 +141,9 @@ pub struct Answered {
     score_ms: f64,
 }
 
-impl Answered {
+impl GenerationAnswer {
     /// Of a plan.
-    pub fn new(plan: &Plan, answer: Answer, generator: &Generator, clock: Clock) -> Self {
+    pub fn new(plan: &GenerationPlan, answer: Answer, generator: &Generator, clock: Clock) -> Self {
         let scene = Arc::clone(&plan.request.scene);
         let (mut scores, mut score_ms) = (None, 0.0);
         let whole = (plan.with_kept || plan.score).then(|| whole(&scene, &answer.samples));
@@ -196,7 +191,7 @@ fn whole(scene: &Scene, samples: &[Sample]) -> Vec<Sample> {
 }
 
 fn scored(
-    plan: &Plan,
+    plan: &GenerationPlan,
     scene: &Scene,
     whole: &[Sample],
     answer: &Answer,

@@ -1,7 +1,7 @@
 //! From flags and a scene to the request that says the same.
 
 use super::GenerateArgs;
-use super::who::{self, Who};
+use super::who::{self, AgentSelector};
 use crate::cli::values::For;
 use crate::cli::{Failure, output};
 use api::GenerateRequest;
@@ -24,10 +24,17 @@ pub fn request(
 ) -> Result<GenerateRequest, Failure> {
     let step = args.start_step();
     let agents = match casting {
-        Some(casting) => Some(vec![casting.actor.clone()]),
+        Some(casting) => Some(AgentChoice::Ids(vec![casting.actor.clone()])),
+        // Whom the flags send somewhere, else all: the request's own rule.
         None if args.agents.is_empty() => None,
-        None => who::ids(&args.agents, scene, step, "--agents")?,
+        None => {
+            let ids = who::ids(&args.agents, scene, step, "--agents")?;
+            Some(ids.map_or(AgentChoice::All(AllWord::All), AgentChoice::Ids))
+        }
     };
+    if let (None, Some(AgentChoice::Ids(ids))) = (casting, &agents) {
+        left_out(args, ids)?;
+    }
     let react = match (args.react.as_slice(), casting) {
         ([], None) => ReactChoice::Whether(false),
         ([], Some(_)) => ReactChoice::Whether(true),
@@ -37,11 +44,11 @@ pub fn request(
     };
     Ok(GenerateRequest {
         conditions: Members(conditions(args, scene, casting)?),
-        agents: agents.map_or(AgentChoice::All(AllWord::All), AgentChoice::Ids),
+        agents,
         react,
         start_s: args.at,
         horizon_s: args.horizon,
-        replan_interval_s: args.replan,
+        replan_interval_s: args.replan_interval,
         seed,
         samples: args.samples,
         modes: args.modes,
@@ -82,7 +89,7 @@ fn conditions(
         let Some(agent) = scene.agent(&id) else { continue };
         let Some(goal) = goal_of_log(args, agent) else {
             // A word means all who fit; an id means this one.
-            if args.goal_from_log.contains(&Who::Id(id.clone())) {
+            if args.goal_from_log.contains(&AgentSelector::Id(id.clone())) {
                 let message =
                     format!("--goal-from-log {id}: no state is recorded 0.5 s or more after the start");
                 return Err(Failure::usage(message));
@@ -119,6 +126,33 @@ fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure>
     match values.iter().find(|given| scene.agent(&given.id).is_none()) {
         Some(given) => Err(Failure::usage(format!("{flag} {}: the scene has no such road user", given.id))),
         None => Ok(()),
+    }
+}
+
+/// Refuses conditions that would change nothing: those of a road user that is not regenerated.
+fn left_out(args: &GenerateArgs, agents: &[String]) -> Result<(), Failure> {
+    fn of<'a, T>(
+        flag: &'static str,
+        given: &'a [For<T>],
+    ) -> impl Iterator<Item = (&'static str, &'a String)> {
+        given.iter().map(move |one| (flag, &one.id))
+    }
+    let logged = args.goal_from_log.iter().filter_map(|who| match who {
+        AgentSelector::Id(id) => Some(("--goal-from-log", id)),
+        _ => None,
+    });
+    let all = of("--goal", &args.goal)
+        .chain(of("--via", &args.via))
+        .chain(of("--start", &args.start))
+        .chain(of("--size", &args.size))
+        .chain(of("--type", &args.agent_type))
+        .chain(of("--condition", &args.condition));
+    match all.chain(logged).find(|(_, id)| !agents.contains(*id)) {
+        None => Ok(()),
+        Some((flag, id)) => {
+            let hint = "add it to --agents, or leave --agents out";
+            Err(Failure::usage(format!("{flag} {id}: this road user is not regenerated; {hint}")))
+        }
     }
 }
 

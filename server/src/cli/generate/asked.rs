@@ -1,12 +1,13 @@
 //! What is asked of single road users, as values of flags: goals, starts, sizes.
 
 use crate::cli::values::{number, within};
+use api::generate::request::more_than_a_turn;
 use formats::native::{Frame, GoalDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc};
 
 /// Fastest that any road user may be asked to be, m/s.
 const FASTEST_MPS: f64 = 60.0;
-/// Largest angle that is read; then it is wrapped, radians.
-const ANGLE_RAD: f64 = 1_000.0;
+/// Largest angle: a turn, radians.
+const ANGLE_RAD: f64 = api::generate::request::MOST_ANGLE_RAD;
 /// Latest goal, seconds.
 const LATEST_S: f64 = 80.0;
 
@@ -27,6 +28,9 @@ struct Key {
     unit: &'static str,
 }
 
+/// Unit of angles.
+const RADIANS: &str = "radians";
+
 const fn key(name: &'static str, least: f64, most: f64, unit: &'static str) -> Key {
     Key { name, least, most, unit }
 }
@@ -34,18 +38,21 @@ const fn key(name: &'static str, least: f64, most: f64, unit: &'static str) -> K
 const PLACE: [Key; 2] =
     [key("x", -MAX_COORDINATE_M, MAX_COORDINATE_M, "m"), key("y", -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")];
 const SPEED: Key = key("speed", 0.0, FASTEST_MPS, "m/s");
-const HEADING: Key = key("heading", -ANGLE_RAD, ANGLE_RAD, "radians");
+const HEADING: Key = key("heading", -ANGLE_RAD, ANGLE_RAD, RADIANS);
 const TIME: Key = key("time", 0.5, LATEST_S, "s");
 const TOLERANCE: Key = key("tolerance", scene::VIA_TOLERANCE_M.0, scene::VIA_TOLERANCE_M.1, "m");
 const OFFSET: [Key; 2] = [
     key("ahead", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
     key("left", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
 ];
-const TURN: Key = key("turn", -ANGLE_RAD, ANGLE_RAD, "radians");
+const TURN: Key = key("turn", -ANGLE_RAD, ANGLE_RAD, RADIANS);
 
 impl Key {
     fn read(&self, text: &str) -> Result<f64, String> {
-        number(text).map_err(|wrong| format!("{}: {wrong}", self.name))?;
+        let value = number(text).map_err(|wrong| format!("{}: {wrong}", self.name))?;
+        if self.unit == RADIANS && value.abs() > self.most {
+            return Err(format!("{}: {}", self.name, more_than_a_turn(value)));
+        }
         within(self.least, self.most, self.unit)(text).map_err(|wrong| format!("{}: {wrong}", self.name))
     }
 }
@@ -203,6 +210,8 @@ mod tests {
         assert_eq!(wrong("1,2,3,4,5,6"), "6 numbers; at most X,Y,SPEED,HEADING,TIME expected");
         assert_eq!(wrong("1"), "x needs y beside it");
         assert_eq!(wrong("speed:80"), "speed: 0 to 60 m/s expected");
+        let turn = "heading: 90 rad is more than a turn; 90 degrees are 1.5708 rad";
+        assert_eq!(wrong("2,27,5,90"), turn);
         assert_eq!(wrong("left:3"), "left needs ahead beside it");
         assert_eq!(wrong("time:4"), "a place, a speed or a heading expected");
         assert_eq!(wrong("ahead:4,ahead:5"), "ahead is given twice");

@@ -1,11 +1,11 @@
 //! One answer: a scene and a seed to a scene with its futures.
 
-use super::{GenerateArgs, ask, pointers};
+use super::{GenerateArgs, ask};
 use crate::base::clock;
 use crate::cli::inputs::Source;
 use crate::cli::score::figures::Figures;
-use crate::cli::{Exit, Failure};
-use api::generate::{Answered, Generation};
+use crate::cli::{Exit, Failure, pointers};
+use api::generate::{GenerationAnswer, GenerationRun};
 use api::{Operations, Problem};
 use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
@@ -25,15 +25,15 @@ pub struct Maker<'a> {
 }
 
 /// What came of a scene and a seed.
-pub enum Outcome {
+pub enum MakeOutcome {
     /// An answer.
-    Made(Box<Made>),
+    Made(Box<MadeScene>),
     /// The template has no actor here.
     NobodyFits(Template),
 }
 
 /// An answer.
-pub struct Made {
+pub struct MadeScene {
     /// With the samples that are kept.
     pub scene: Scene,
     /// Who plays what, with a template.
@@ -65,14 +65,14 @@ impl Maker<'_> {
         scene: Scene,
         template: Option<Template>,
         seed: u64,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<MakeOutcome, Failure> {
         let args = self.args;
         let casting = match template {
             None => None,
             Some(template) => {
                 let graph = self.operations.generator.maps().graph(&scene.map);
                 let casting = template.cast(&scene, &graph, args.start_step(), args.horizon, seed);
-                let Some(casting) = casting else { return Ok(Outcome::NobodyFits(template)) };
+                let Some(casting) = casting else { return Ok(MakeOutcome::NobodyFits(template)) };
                 Some(casting)
             }
         };
@@ -85,8 +85,8 @@ impl Maker<'_> {
         let asked = plan.request.agents.as_ref();
         let actor = asked.filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
         let call = plan.start(&self.operations.generator, Cancel::default(), self.operations.clock);
-        let answered = call.and_then(Generation::answer).map_err(failed)?;
-        let Answered { answer, samples: all, scores, head, code, .. } = answered;
+        let answered = call.and_then(GenerationRun::answer).map_err(failed)?;
+        let GenerationAnswer { answer, samples: all, scores, head, code, .. } = answered;
         let mut scene = (*answered.scene).clone();
         let all_samples = all.len();
         let last = all.last().into_iter().zip(answer.samples.last());
@@ -115,7 +115,7 @@ impl Maker<'_> {
             chosen_sample: 0,
             samples,
         });
-        Ok(Outcome::Made(Box::new(Made {
+        Ok(MakeOutcome::Made(Box::new(MadeScene {
             scene,
             casting,
             actor,
@@ -129,7 +129,7 @@ impl Maker<'_> {
     }
 }
 
-impl Made {
+impl MadeScene {
     /// The file.
     pub fn bytes(&self) -> Vec<u8> {
         native::write_doc(&SceneDoc::from_scene(&self.scene, MapForm::Inline))

@@ -1,6 +1,6 @@
 //! What is in a folder of results: a line for each sample that was kept.
 
-use super::made::Made;
+use super::made::MadeScene;
 use super::tell;
 use crate::cli::Failure;
 use crate::cli::score::figures::Figures;
@@ -32,7 +32,7 @@ pub fn table() -> Table {
 
 /// The lines of one result. The place in the file is the sample's; among all that were made it may be another.
 pub fn rows(
-    made: &Made,
+    made: &MadeScene,
     file: &str,
     scene: &str,
     template: Option<Template>,

@@ -1,7 +1,7 @@
 //! Many scenes, templates and seeds in one call: side by side, a file each, what is kept in a table.
 
 use super::GenerateArgs;
-use super::made::{Made, Maker, Outcome};
+use super::made::{MadeScene, MakeOutcome, Maker};
 use super::{manifest, tell};
 use crate::cli::inputs::{Reading, Source};
 use crate::cli::output::{self, Folder};
@@ -21,19 +21,19 @@ const PARTS: usize = 4;
 type Wish = (Option<Template>, u64);
 
 /// Some of the wishes for one file.
-struct Part<'a> {
+struct WishBatch<'a> {
     source: &'a Source,
     wishes: &'a [Wish],
 }
 
 /// How one wish for one scene ended.
-struct End {
+struct WishEnd {
     scene: String,
     wish: Wish,
-    how: How,
+    how: WishOutcome,
 }
 
-enum How {
+enum WishOutcome {
     /// Written: one line for people, and those of the table.
     Kept(String, Vec<Vec<String>>),
     /// No sample holds the condition.
@@ -53,7 +53,7 @@ struct Sum {
 /// Generates everything.
 ///
 /// # Errors
-/// Exit 4 when some failed, or under `--strict` when somebody does not fit or nothing is kept; 8 when the folder has
+/// Exit 4 when some failed, when nothing is kept, or under `--strict` when somebody does not fit; 8 when the folder has
 /// results already.
 pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common) -> Result<(), Failure> {
     let folder = Folder::new(path, args.force)?;
@@ -63,18 +63,18 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
     // A call about one scene has its seeds side by side.
     let parts = (PARTS * workers).div_ceil(sources.len().max(1));
     let size = wishes.len().div_ceil(parts).max(1);
-    let parts: Vec<Part<'_>> = sources
+    let parts: Vec<WishBatch<'_>> = sources
         .iter()
-        .flat_map(|source| wishes.chunks(size).map(move |wishes| Part { source, wishes }))
+        .flat_map(|source| wishes.chunks(size).map(move |wishes| WishBatch { source, wishes }))
         .collect();
     let operations = common.operations_on(1)?;
     let maker = Maker { args, operations: &operations, scored: true };
     let total = (sources.len() * wishes.len()) as u64;
     let progress = Progress::new("generations", total, common.quiet);
-    let mut report = Report::new(&progress, total == 1);
-    let work = |part: &Part<'_>| part.run(&maker, &folder, &progress);
+    let mut report = BatchReport::new(&progress, total == 1);
+    let work = |part: &WishBatch<'_>| part.run(&maker, &folder, &progress);
     parallel::in_order(&parts, workers, work, |part, ends| report.add(part, ends));
-    let Report { table, sums, tally, .. } = report;
+    let BatchReport { table, sums, tally, .. } = report;
     drop(progress);
     let table = table.bytes()?;
     let written = folder.write(manifest::NAME, &table)?;
@@ -83,11 +83,14 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
         output::complain(&format!("the results are listed in {}", written.display()));
     }
     tally.end("generations")?;
-    let short = sums.values().any(|sum| sum.unfit > 0) || sums.values().all(|sum| sum.kept == 0);
-    if args.strict && short {
+    // As for one file: nothing to show for the call is no success.
+    if sums.values().all(|sum| sum.kept == 0) {
+        return Err(Failure::new(Exit::Partly, "no result was kept"));
+    }
+    if args.strict && sums.values().any(|sum| sum.unfit > 0 || sum.kept == 0) {
         return Err(Failure::new(
             Exit::Partly,
-            "--strict: nobody fits a template somewhere, or nothing was kept",
+            "--strict: nobody fits a template somewhere, or nothing of it was kept",
         ));
     }
     Ok(())
@@ -104,16 +107,16 @@ fn wishes(args: &GenerateArgs) -> Vec<Wish> {
     templates.into_iter().flat_map(|template| seeds.clone().map(move |seed| (template, seed))).collect()
 }
 
-impl Part<'_> {
-    fn run(&self, maker: &Maker<'_>, folder: &Folder, progress: &Progress) -> Result<Vec<End>, Failure> {
+impl WishBatch<'_> {
+    fn run(&self, maker: &Maker<'_>, folder: &Folder, progress: &Progress) -> Result<Vec<WishEnd>, Failure> {
         let reading = Reading { index: maker.args.index.clone(), ..Reading::default() };
         let mut ends = Vec::new();
         let mut first = true;
         self.source.each(&reading, &mut |item| {
             for wish in self.wishes {
                 let how = self.one(maker, folder, &item.scene, &item.name, *wish);
-                let how = how.unwrap_or_else(How::Failed);
-                ends.push(End { scene: item.name.clone(), wish: *wish, how });
+                let how = how.unwrap_or_else(WishOutcome::Failed);
+                ends.push(WishEnd { scene: item.name.clone(), wish: *wish, how });
                 // How many scenes the files have is not known: the first of each counts for all.
                 if first {
                     progress.step();
@@ -132,13 +135,13 @@ impl Part<'_> {
         scene: &Scene,
         name: &str,
         (template, seed): Wish,
-    ) -> Result<How, Failure> {
+    ) -> Result<WishOutcome, Failure> {
         let made = match maker.make(self.source, scene.clone(), template, seed)? {
-            Outcome::NobodyFits(_) => return Ok(How::NobodyFits),
-            Outcome::Made(made) => made,
+            MakeOutcome::NobodyFits(_) => return Ok(WishOutcome::NobodyFits),
+            MakeOutcome::Made(made) => made,
         };
         if made.samples.is_empty() {
-            return Ok(How::LeftOut);
+            return Ok(WishOutcome::LeftOut);
         }
         let file = match template {
             Some(template) => format!("{name}-{}-seed{seed:03}.json", template.name()),
@@ -146,12 +149,12 @@ impl Part<'_> {
         };
         folder.write(&file, &made.bytes())?;
         let rows = manifest::rows(&made, &file, name, template, seed)?;
-        Ok(How::Kept(format!("{file}: {}", words(&made)), rows))
+        Ok(WishOutcome::Kept(format!("{file}: {}", words(&made)), rows))
     }
 }
 
 /// A result in one line.
-fn words(made: &Made) -> String {
+fn words(made: &MadeScene) -> String {
     let mut parts = Vec::new();
     parts.extend(made.casting.as_ref().map(|casting| casting.words.clone()));
     let resolved = made.actor.as_ref().and_then(|id| made.resolved.get(id));
@@ -182,7 +185,7 @@ fn figures_words(figures: &Figures, actor: bool) -> String {
 }
 
 /// What is gathered while results come in.
-struct Report<'a> {
+struct BatchReport<'a> {
     progress: &'a Progress,
     only: bool,
     table: crate::cli::score::table::Table,
@@ -192,7 +195,7 @@ struct Report<'a> {
     told: BTreeSet<(String, Option<Template>)>,
 }
 
-impl<'a> Report<'a> {
+impl<'a> BatchReport<'a> {
     fn new(progress: &'a Progress, only: bool) -> Self {
         Self {
             progress,
@@ -204,7 +207,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn add(&mut self, part: &Part<'_>, ends: Result<Vec<End>, Failure>) {
+    fn add(&mut self, part: &WishBatch<'_>, ends: Result<Vec<WishEnd>, Failure>) {
         match ends {
             Ok(ends) => ends.into_iter().for_each(|end| self.end(end)),
             // Other parts of the same file fail alike: it is told and counted once.
@@ -215,19 +218,19 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn end(&mut self, end: End) {
+    fn end(&mut self, end: WishEnd) {
         let (template, seed) = end.wish;
         let sum = self.sums.entry(template).or_default();
         sum.all += 1;
         let result = match end.how {
-            How::Kept(line, rows) => {
+            WishOutcome::Kept(line, rows) => {
                 sum.kept += 1;
                 self.progress.line(&line);
                 rows.iter().for_each(|row| self.table.add(row));
                 Ok(())
             }
-            How::LeftOut => Ok(()),
-            How::NobodyFits => {
+            WishOutcome::LeftOut => Ok(()),
+            WishOutcome::NobodyFits => {
                 sum.unfit += 1;
                 if self.told.insert((end.scene.clone(), template)) {
                     let name = template.map_or("", Template::name);
@@ -235,7 +238,7 @@ impl<'a> Report<'a> {
                 }
                 Ok(())
             }
-            How::Failed(failure) => {
+            WishOutcome::Failed(failure) => {
                 let place = format!("{}, seed {seed}: {}", end.scene, failure.message);
                 Err(Failure::new(failure.exit, place))
             }

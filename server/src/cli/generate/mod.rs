@@ -6,14 +6,13 @@ mod asked;
 mod made;
 mod manifest;
 mod many;
-mod pointers;
 mod tell;
 mod who;
 
 use super::inputs::{Inputs, Reading, no_ids, tell_notes};
 use super::output::{self, Folder};
-use super::score::figures::Filter;
-use super::values::{For, for_one, index, one_of, seeds, within};
+use super::score::figures::FigureFilter;
+use super::values::{For, for_one, index, one_of, seeds, whole, within};
 use super::{Common, Exit, Failure};
 use api::GenerateRequest;
 use api::limits;
@@ -24,7 +23,7 @@ use scene::AgentType;
 use scene::scenarios::Template;
 use std::ops::Range;
 use std::path::PathBuf;
-use who::Who;
+use who::AgentSelector;
 
 /// Heading of what is asked of single road users.
 const ROAD_USERS: &str = "Road users";
@@ -46,7 +45,7 @@ pub struct GenerateArgs {
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
-    /// Exit 4 when nobody fits a template somewhere, or when --where leaves nothing.
+    /// Exit 4 when nobody fits a template somewhere, or when --where leaves nothing of one.
     #[arg(long)]
     strict: bool,
     /// Situations to make, with commas. Who plays them is picked from the scene and told; everybody else answers
@@ -54,16 +53,16 @@ pub struct GenerateArgs {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "NAME", conflicts_with_all = ["agents", "goal", "goal_from_log"])]
     template: Vec<Template>,
     /// Keep only samples for which this holds, such as 'actor.min_ttc_s < 1.5 && collisions == 0'. See score --help.
-    #[arg(long = "where", value_name = "CONDITION", value_parser = Filter::parse)]
-    filter: Option<Filter>,
+    #[arg(long = "where", value_name = "CONDITION", value_parser = FigureFilter::parse)]
+    filter: Option<FigureFilter>,
 
-    /// Road users to regenerate, with commas: ids, @all, @moving, @vehicles, @pedestrians, @cyclists, @ego. All when
-    /// absent.
+    /// Road users to regenerate, with commas: ids, @all, @moving, @vehicles, @pedestrians, @cyclists, @ego. When
+    /// absent: those with a goal or via points, or all when nobody has.
     #[arg(long, value_delimiter = ',', value_name = "WHO", help_heading = ROAD_USERS)]
-    agents: Vec<Who>,
+    agents: Vec<AgentSelector>,
     /// The rest answers: all of it, or these alone (--react=7,8).
     #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "@all", value_name = "WHO", help_heading = ROAD_USERS)]
-    react: Vec<Who>,
+    react: Vec<AgentSelector>,
     /// Goal of a road user: X,Y[,SPEED[,HEADING[,TIME]]], an empty place leaves the field free; or keys, as in
     /// 6=ahead:40,left:3.5,speed:0,time:4 (x y heading in the scene, ahead left turn from the start pose; speed, time).
     #[arg(long, value_name = "ID=GOAL", value_parser = for_one(asked::goal), help_heading = ROAD_USERS)]
@@ -71,7 +70,7 @@ pub struct GenerateArgs {
     /// Goals where the recording goes: place, heading, speed and time of its last state within the horizon. Who has a
     /// --goal keeps that.
     #[arg(long, value_delimiter = ',', value_name = "WHO", help_heading = ROAD_USERS)]
-    goal_from_log: Vec<Who>,
+    goal_from_log: Vec<AgentSelector>,
     /// A place that a road user passes on its way: X,Y[,TIME[,TOLERANCE]], or keys, as in 6=x:10,y:4,tolerance:2. Up
     /// to four of each road user, in the order in which they are passed.
     #[arg(long, value_name = "ID=VIA", value_parser = for_one(asked::via), help_heading = ROAD_USERS)]
@@ -94,10 +93,10 @@ pub struct GenerateArgs {
     forget: bool,
 
     /// The same seed gives the same answer.
-    #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = GenerateRequest::default().seed, value_parser = whole(0, MAX_SAFE_INTEGER), help_heading = DRAWING)]
     seed: u64,
-    /// A result for each seed: a count, or FIRST..END with the end left out.
-    #[arg(long, value_name = "COUNT|FIRST..END", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
+    /// A result for each seed: a count, or FIRST..LAST.
+    #[arg(long, value_name = "COUNT|FIRST..LAST", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
     seeds: Option<Range<u64>>,
     /// Independent joint scenes of each seed.
     #[arg(long, value_name = "N", default_value_t = GenerateRequest::default().samples, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
@@ -115,8 +114,8 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = GenerateRequest::default().start_s, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
     at: f64,
     /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9 (9 when absent).
-    #[arg(long, value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
-    replan: Option<f64>,
+    #[arg(long, alias = "replan", value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
+    replan_interval: Option<f64>,
     /// Scale of the noise, which makes seeds differ; 0 is the best guess.
     #[arg(long, value_name = "SCALE", default_value_t = GenerateRequest::default().diversity, value_parser = within(0.0, limits::DIVERSITY, ""), help_heading = DRAWING)]
     diversity: f64,
@@ -170,15 +169,15 @@ fn one(args: &GenerateArgs, source: &super::inputs::Source, common: &Common) -> 
     let maker = made::Maker { args, operations: &operations, scored: args.filter.is_some() };
     let template = args.template.first().copied();
     let made = match maker.make(source, item.scene, template, args.seed)? {
-        made::Outcome::Made(made) => *made,
-        made::Outcome::NobodyFits(template) => {
+        made::MakeOutcome::Made(made) => *made,
+        made::MakeOutcome::NobodyFits(template) => {
             let message = format!("{}: {}: no road user fits", source.shown(), template.name());
             return Err(Failure::new(Exit::Partly, message));
         }
     };
     tell::lines(&made, args).iter().for_each(|line| say(line));
     if made.samples.is_empty() {
-        let condition = args.filter.as_ref().map_or("", Filter::text);
+        let condition = args.filter.as_ref().map_or("", FigureFilter::text);
         let message = format!("nothing written: no sample of {} holds {condition}", made.all_samples);
         return Err(Failure::new(Exit::Partly, message));
     }

@@ -2,7 +2,7 @@
 //! with the future that is shown.
 
 use super::GenerateArgs;
-use super::made::Made;
+use super::made::MadeScene;
 use experts::{ReachReport, Resolved, Source as From, WarningCode};
 use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
 use scene::{AgentFutures, Future};
@@ -13,7 +13,7 @@ const MOST_FAULTS: usize = 3;
 const NEAR_M: f64 = 0.005;
 
 /// All lines of an answer, those of the first sample.
-pub fn lines(made: &Made, args: &GenerateArgs) -> Vec<String> {
+pub fn lines(made: &MadeScene, args: &GenerateArgs) -> Vec<String> {
     let mut lines: Vec<String> = made.casting.iter().map(|c| format!("template: {}", c.words)).collect();
     let sample = made.scene.generated.as_ref().and_then(|generated| generated.samples.first());
     for (id, futures) in
@@ -142,7 +142,7 @@ fn fault(fault: &Fault) -> String {
 
 /// Says who comes in after the start of a scene that is generated whole and keeps its log, which knows nothing of
 /// what the others do now.
-fn latecomers(made: &Made, args: &GenerateArgs) -> Option<String> {
+fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
     let whole = args.agents.is_empty() && args.react.is_empty() && made.casting.is_none();
     let samples = made.scene.generated.iter().flat_map(|generated| &generated.samples);
     let start = args.start_step();

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// Road users of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Who {
+pub enum AgentSelector {
     /// Everybody that can be generated.
     All,
     /// Who moves at the start.
@@ -21,7 +21,7 @@ pub enum Who {
 
 const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego";
 
-impl FromStr for Who {
+impl FromStr for AgentSelector {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -45,7 +45,7 @@ impl FromStr for Who {
 /// # Errors
 /// Exit 2 when a word means nobody here; `flag` names where it stands.
 pub fn ids(
-    who: &[Who],
+    who: &[AgentSelector],
     scene: &Scene,
     start_step: usize,
     flag: &str,
@@ -54,8 +54,8 @@ pub fn ids(
     for who in who {
         let there = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other);
         let meant: Vec<String> = match who {
-            Who::All => return Ok(None),
-            Who::Id(id) => vec![id.clone()],
+            AgentSelector::All => return Ok(None),
+            AgentSelector::Id(id) => vec![id.clone()],
             _ => there
                 .filter(|agent| who.means(scene, agent, start_step))
                 .map(|agent| agent.id.clone())
@@ -73,7 +73,7 @@ pub fn ids(
     Ok(Some(ids))
 }
 
-impl Who {
+impl AgentSelector {
     fn means(&self, scene: &Scene, agent: &scene::Agent, start_step: usize) -> bool {
         let shown = scene.shown(agent);
         let Some(state) = shown.track.at(start_step) else { return false };
@@ -115,7 +115,7 @@ mod tests {
         ];
         let scene = Scene::bare("test", LaneMap::default(), agents);
         let meant = |words: &[&str]| {
-            let who: Vec<Who> = words.iter().map(|word| word.parse().unwrap()).collect();
+            let who: Vec<AgentSelector> = words.iter().map(|word| word.parse().unwrap()).collect();
             ids(&who, &scene, 0, "--agents")
         };
         let some = |ids: &[&str]| Some(ids.iter().map(|id| (*id).to_owned()).collect::<Vec<_>>());
@@ -126,6 +126,6 @@ mod tests {
             meant(&["@cyclists"]).unwrap_err().message,
             "--agents: nobody in the scene is a cyclist at the start"
         );
-        assert!("@everybody".parse::<Who>().unwrap_err().contains("@moving"));
+        assert!("@everybody".parse::<AgentSelector>().unwrap_err().contains("@moving"));
     }
 }

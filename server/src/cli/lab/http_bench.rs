@@ -4,7 +4,7 @@ use super::failed;
 use super::served::{Connection, JSON, NDJSON, Served};
 use crate::base::clock;
 use crate::cli::{Common, Failure};
-use api::generate::{GenerationEvent, Plan};
+use api::generate::{GenerationEvent, GenerationPlan};
 use api::limits::CallLimits;
 use api::{GenerateRequest, Standings};
 use experts::{Cancel, Generator};
@@ -88,7 +88,7 @@ fn refused(problem: api::Problem) -> Failure {
 /// A request answered in this process, without a socket, a queue or text.
 struct Alone<'a> {
     generator: &'a Generator,
-    plan: Plan,
+    plan: GenerationPlan,
 }
 
 impl Alone<'_> {

@@ -18,12 +18,12 @@ const ROAD_USERS: &str = "road_users";
 
 /// A condition on a score, as text and as what it means.
 #[derive(Clone, Debug)]
-pub struct Filter {
+pub struct FigureFilter {
     text: String,
     expression: Arc<Expression>,
 }
 
-impl Filter {
+impl FigureFilter {
     /// Reads one.
     ///
     /// # Errors
@@ -191,19 +191,19 @@ mod tests {
         assert_eq!((figures.get("collisions"), figures.get("min_ttc_s")), (Some(0.0), None));
         // Every figure of a score is a name that can be asked for.
         assert!(figures.0.keys().all(|name| known.contains(name)), "{:?}", figures.0.keys());
-        assert!(Filter::parse("min_ttc_s < 1.5 && collisions == 0").is_ok());
-        assert!(Filter::parse("collisions == 0").unwrap().holds(&figures));
+        assert!(FigureFilter::parse("min_ttc_s < 1.5 && collisions == 0").is_ok());
+        assert!(FigureFilter::parse("collisions == 0").unwrap().holds(&figures));
     }
 
     #[test]
     fn a_slip_is_named() {
-        let wrong = Filter::parse("min_tcc_s < 1").unwrap_err();
+        let wrong = FigureFilter::parse("min_tcc_s < 1").unwrap_err();
         assert!(
             wrong.starts_with(
                 "column 1: no figure is named \"min_tcc_s\" (did you mean min_ttc_s?); there are"
             ),
             "{wrong}"
         );
-        assert!(!Filter::parse("something_else < 1").unwrap_err().contains("did you mean"));
+        assert!(!FigureFilter::parse("something_else < 1").unwrap_err().contains("did you mean"));
     }
 }

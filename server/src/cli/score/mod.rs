@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::tally::Tally;
 use super::{Common, Failure, parallel, values};
 use clap::Args;
-use figures::{Figures, Filter};
+use figures::{FigureFilter, Figures};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::score::{Drivable, Score, ScoreInput};
 use scene::{Sample, Scene};
@@ -34,8 +34,8 @@ pub struct ScoreArgs {
     /// Only what this holds for, such as 'min_ttc_s < 1.5 && collisions == 0': figures of the score (lists count
     /// what the log does not show), actor.FIGURE for the road user asked for; <, <=, >, >=, ==, !=, &&, ||, !, ( ).
     /// A figure that a scene does not have holds for nothing. An unknown name lists all there are.
-    #[arg(long = "where", value_name = "CONDITION", value_parser = Filter::parse)]
-    filter: Option<Filter>,
+    #[arg(long = "where", value_name = "CONDITION", value_parser = FigureFilter::parse)]
+    filter: Option<FigureFilter>,
     /// One JSON object a line in place of text.
     #[arg(long)]
     json: bool,

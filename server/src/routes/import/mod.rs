@@ -1,5 +1,6 @@
 //! `/v1/import`: scenes out of files.
 
+mod file;
 mod order;
 mod reply;
 
@@ -16,7 +17,7 @@ use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use experts::Cancel;
-use order::{Order, Ready, known};
+use order::{ImportOrder, Ready, known};
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
@@ -80,7 +81,7 @@ pub async fn import(
     let cost = Duration::from_nanos(20 * upload.expected_bytes());
     let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
     let (most, most_files) = (app.limits.import_scenes as usize, app.limits.import_files as usize);
-    let order = Order {
+    let order = ImportOrder {
         upload,
         form,
         format,

@@ -1,56 +1,23 @@
 //! The work on an upload: reads its files and makes their scenes ready.
 
+use super::file::ImportFile;
 use super::reply::{
     ImportReply, ImportedBody, ImportedFile, ImportedFiles, ImportedScene, SkippedRecord, around_scenes,
 };
-use crate::base::netconvert::companions;
 use crate::base::problem::ProblemDoc;
 use crate::base::{id, metrics};
 use crate::http::body::Room;
 use crate::http::packed::{PackedText, TextPacker};
-use crate::http::upload::{self, Upload};
+use crate::http::upload::Upload;
 use crate::scenes::store::PackedScene;
 use crate::scenes::{Facts, record};
-use api::import::{Companions, ReadScene, SceneFile, names};
+use api::import::{ReadScene, SceneFile, names};
 use api::{Code, Problem};
 use experts::Cancel;
+use formats::FieldProblem;
 use formats::native::{MapForm, SceneDoc};
-use formats::{FieldProblem, Source};
 use scene::licence::is_noncommercial;
 use std::sync::Arc;
-
-/// A file to be read.
-struct ImportFile {
-    file: Arc<dyn Source>,
-    /// Name that the file was given: a label, nothing is opened.
-    label: Option<String>,
-    /// What came with it.
-    beside: Companions,
-}
-
-impl ImportFile {
-    /// What was uploaded: a file, or the parts `file` of a form of this type, at most so many, each with the parts
-    /// `net` and `columns` where they are there.
-    fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
-        let Some(content_type) = form else {
-            let beside = companions();
-            return Ok(vec![Self { file: Arc::<Upload>::clone(upload), label: None, beside }]);
-        };
-        let names = [("file", most), ("net", 1), ("columns", 1)];
-        let [files, mut net, mut columns] = upload::parts(upload, content_type, names)?;
-        if files.is_empty() {
-            return Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"));
-        }
-        let source = |part| Arc::new(part) as Arc<dyn Source>;
-        let beside =
-            Companions { net: net.pop().map(source), columns: columns.pop().map(source), ..companions() };
-        let file = |mut part: upload::Part| {
-            let label = part.label.take();
-            Self { file: source(part), label, beside: beside.clone() }
-        };
-        Ok(files.into_iter().map(file).collect())
-    }
-}
 
 /// Files that were read.
 pub(super) enum Ready {
@@ -61,7 +28,7 @@ pub(super) enum Ready {
 }
 
 /// What the worker is to do with an upload.
-pub(super) struct Order {
+pub(super) struct ImportOrder {
     pub(super) upload: Arc<Upload>,
     /// Content-Type of a form.
     pub(super) form: Option<String>,
@@ -75,7 +42,7 @@ pub(super) struct Order {
     pub(super) refuse_nc: bool,
 }
 
-impl Order {
+impl ImportOrder {
     /// Reads the files and makes their scenes ready: nothing is stored unless all of them can be. Also the formats
     /// of the files that were read.
     pub(super) fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
@@ -99,7 +66,7 @@ impl Order {
 
 /// What there is of an upload so far. Of each scene only what is stored or replied is kept, in compressed form.
 struct ImportProgress<'o> {
-    order: &'o Order,
+    order: &'o ImportOrder,
     /// Scenes of all files.
     count: usize,
     /// Formats of the files that were read.
@@ -112,7 +79,7 @@ struct ImportProgress<'o> {
 }
 
 impl<'o> ImportProgress<'o> {
-    fn new(order: &'o Order) -> Result<Self, Problem> {
+    fn new(order: &'o ImportOrder) -> Result<Self, Problem> {
         let (formats, rows, text) = (Vec::new(), Vec::new(), TextPacker::new()?);
         Ok(Self { order, count: 0, formats, rows, text, open: false })
     }

@@ -1640,9 +1640,9 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate. With none, those of `react` go on as they do, past the end of what is known of them,
-             *     and give way to each other there.
-             * @default all
+             * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
+             *     has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
+             *     give way to each other there.
              */
             agents?: components["schemas"]["Who"];
             /**

@@ -5,9 +5,9 @@ use crate::cli::{Failure, inputs};
 use api::Problem;
 
 /// Members of a request and the flags that say them.
-const FLAGS: [(&str, &str); 11] = [
+const FLAGS: [(&str, &str); 20] = [
     ("/horizon_s", "--horizon"),
-    ("/replan_interval_s", "--replan"),
+    ("/replan_interval_s", "--replan-interval"),
     ("/start_s", "--at"),
     ("/samples", "--samples"),
     ("/modes", "--modes"),
@@ -17,6 +17,16 @@ const FLAGS: [(&str, &str); 11] = [
     ("/agents", "--agents"),
     ("/react", "--react"),
     ("/pinned", "--pinned"),
+    // Of a placement.
+    ("/at_s", "--at"),
+    ("/min_gap_m", "--min-gap"),
+    ("/density/count", "--count"),
+    ("/density", "--density"),
+    ("/types", "--types"),
+    ("/region", "--region"),
+    ("/keep", "--keep"),
+    ("/speeds", "--speeds"),
+    ("/arrivals", "--arrivals"),
 ];
 
 /// What a request is refused for; faults of the scene itself stay the file's.
@@ -36,14 +46,22 @@ fn in_flags(pointer: &str) -> Option<String> {
     if let Some(rest) = pointer.strip_prefix("/conditions/") {
         return Some(of_conditions(rest));
     }
+    if let Some(name) = pointer.strip_prefix("/types/") {
+        return Some(format!("--types {}", unescaped(name)));
+    }
     let flag = FLAGS.iter().find(|(member, _)| pointer.starts_with(member));
     flag.map(|(_, flag)| (*flag).to_owned())
+}
+
+/// A token of a pointer as it was (RFC 6901).
+fn unescaped(token: &str) -> String {
+    token.replace("~1", "/").replace("~0", "~")
 }
 
 /// Such as `6/goal/speed_mps`.
 fn of_conditions(rest: &str) -> String {
     let mut parts = rest.split('/');
-    let id = parts.next().unwrap_or_default().replace("~1", "/").replace("~0", "~");
+    let id = unescaped(parts.next().unwrap_or_default());
     let path: Vec<&str> = parts.collect();
     let key = |name: &str| {
         let ends = ["_mps", "_rad", "_m", "_s"];
@@ -70,6 +88,8 @@ mod tests {
         assert_eq!(flag("/conditions/a~1b/start/x_m"), "--start a/b: x");
         assert_eq!(flag("/conditions/6/length_m"), "--size 6: length");
         assert_eq!(flag("/agents/0"), "--agents");
+        assert_eq!(flag("/types/car"), "--types car");
+        assert_eq!(flag("/density/count"), "--count");
         assert_eq!(in_flags("/scene/map"), None);
     }
 }

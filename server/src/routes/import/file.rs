@@ -1,0 +1,41 @@
+//! The files of an upload.
+
+use crate::base::netconvert::companions;
+use crate::http::upload::{self, Upload};
+use api::import::Companions;
+use api::{Code, Problem};
+use formats::Source;
+use std::sync::Arc;
+
+/// A file to be read.
+pub(super) struct ImportFile {
+    pub(super) file: Arc<dyn Source>,
+    /// Name that the file was given: a label, nothing is opened.
+    pub(super) label: Option<String>,
+    /// What came with it.
+    pub(super) beside: Companions,
+}
+
+impl ImportFile {
+    /// What was uploaded: a file, or the parts `file` of a form of this type, at most so many, each with the parts
+    /// `net` and `columns` where they are there.
+    pub(super) fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
+        let Some(content_type) = form else {
+            let beside = companions();
+            return Ok(vec![Self { file: Arc::<Upload>::clone(upload), label: None, beside }]);
+        };
+        let names = [("file", most), ("net", 1), ("columns", 1)];
+        let [files, mut net, mut columns] = upload::parts(upload, content_type, names)?;
+        if files.is_empty() {
+            return Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"));
+        }
+        let source = |part| Arc::new(part) as Arc<dyn Source>;
+        let beside =
+            Companions { net: net.pop().map(source), columns: columns.pop().map(source), ..companions() };
+        let file = |mut part: upload::Part| {
+            let label = part.label.take();
+            Self { file: source(part), label, beside: beside.clone() }
+        };
+        Ok(files.into_iter().map(file).collect())
+    }
+}
