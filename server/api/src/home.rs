@@ -28,8 +28,8 @@ pub trait Home: Sync {
     /// `not-found`.
     fn open(&self, id: &str) -> impl Future<Output = Result<Opened, Problem>> + Send;
 
-    /// Keeps a scene in memory for the calls that follow, and gives it a name. `None` of a home without a memory.
-    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene>;
+    /// Keeps a scene in memory for the calls that follow, and gives it a name; none in a home without a memory.
+    fn hold(&self, scene: Scene) -> (Option<String>, Opened);
 }
 
 /// Scenes by id, in memory. An empty one is the home of calls that carry their scenes.
@@ -42,8 +42,8 @@ impl Home for BTreeMap<String, Opened> {
         self.get(id).cloned().ok_or_else(not_found)
     }
 
-    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene> {
-        Err(scene)
+    fn hold(&self, scene: Scene) -> (Option<String>, Opened) {
+        (None, Opened::new(scene, String::new()))
     }
 }
 
@@ -113,10 +113,8 @@ impl SceneRef {
                 if !self.hold {
                     return Ok(Subject::passing(scene));
                 }
-                Ok(match home.hold(scene) {
-                    Ok((name, opened)) => Subject::standing(opened, Some(name)),
-                    Err(scene) => Subject::passing(scene),
-                })
+                let (name, opened) = home.hold(scene);
+                Ok(Subject::standing(opened, name))
             }
             (None, Some(id)) => {
                 let opened = home.open(&id).await?;

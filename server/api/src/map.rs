@@ -62,7 +62,7 @@ pub struct TemplateList {
 
 impl TemplateList {
     /// Those of this build.
-    pub fn new() -> Self {
+    pub fn current() -> Self {
         let item = |template: &Template| {
             let layout = json!({ "template": template.name(), "parameters": template.all_parameters() });
             TemplateItem { title: template.title(), layout }

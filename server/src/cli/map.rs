@@ -58,7 +58,7 @@ fn setting(text: &str) -> Result<Setting, String> {
 /// Exit 2, 3, 8.
 pub fn run(args: MapArgs, common: &Common) -> Result<(), Failure> {
     if args.list {
-        let mut text = serde_json::to_string_pretty(&TemplateList::new()).unwrap_or_default();
+        let mut text = serde_json::to_string_pretty(&TemplateList::current()).unwrap_or_default();
         text.push('\n');
         return output::print(text.as_bytes());
     }

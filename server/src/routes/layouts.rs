@@ -34,5 +34,5 @@ pub async fn make(
 #[utoipa::path(get, path = "/v1/map/templates", operation_id = "listTemplates", tag = "maps",
     responses((status = 200, description = "all templates", body = ref("#/components/schemas/TemplateList")), Unread))]
 pub async fn templates() -> axum::Json<TemplateList> {
-    axum::Json(TemplateList::new())
+    axum::Json(TemplateList::current())
 }

@@ -173,11 +173,11 @@ impl Home for Catalog {
         Ok(opened)
     }
 
-    fn hold(&self, scene: Scene) -> Result<(String, Opened), Scene> {
+    fn hold(&self, scene: Scene) -> (Option<String>, Opened) {
         let name = format!("{HELD}{}", id::fresh());
         let opened = Opened::new(scene, String::new());
         self.open.put(name.clone(), opened.clone(), held_bytes(&opened.scene));
-        Ok((name, opened))
+        (Some(name), opened)
     }
 }
 
