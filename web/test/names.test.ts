@@ -2,7 +2,7 @@
 /* eslint-disable max-len -- an answer is one line */
 import { describe, expect, it } from 'vitest';
 import type { FaultKind, Manoeuvre, RelationKind } from '../src/model/document/scene-json';
-import type { About } from '../src/model/document/future-facts';
+import type { FutureFacts } from '../src/model/document/future-facts';
 import { distances, type Motion } from '../src/model/base/motion';
 import { nameAll, nameRest, type Nameable, type Naming } from '../src/model/words/future-names';
 
@@ -88,7 +88,7 @@ function motionOf(speed: number, states: readonly number[]): Motion {
 
 const modesOf = ({ speed, modes }: Answered): Nameable[] =>
   modes.map(([manoeuvre, relations, states]) => {
-    const about: About = {
+    const about: FutureFacts = {
       faults: [],
       manoeuvre: manoeuvre as Manoeuvre,
       relations: relations.map((r) => {
@@ -111,7 +111,7 @@ const paced = (...speeds: number[]): Motion => {
 
 describe('what a name says of speed', () => {
   const givingWay = (motion: Motion): Nameable => {
-    const about: About = {
+    const about: FutureFacts = {
       faults: [],
       manoeuvre: 'straight',
       relations: [{ kind: 'gives_way_to', with: '3', time: 5 }],
@@ -128,7 +128,7 @@ describe('what a name says of speed', () => {
   });
 
   it('is no softer braking where nothing brakes', () => {
-    const about: About = { faults: [], manoeuvre: 'straight', relations: [] };
+    const about: FutureFacts = { faults: [], manoeuvre: 'straight', relations: [] };
     const list = [paced(8, 8, 5, 4, 6, 9, 9, 9, 9, 9), paced(8, 8, 8, 8, 8, 7.8, 7.6, 7.5, 7.4, 7.4)];
     const names = nameAll(
       list.map((motion) => ({ motion, about })),
@@ -255,7 +255,7 @@ describe('names of what can hardly be told apart', () => {
 
   it('do not call it by the road or a stop where it is not so', () => {
     const rolls = drives(0.4, { at: 20 });
-    const about = (kind: FaultKind | null, manoeuvre: Manoeuvre = 'straight'): About => ({
+    const about = (kind: FaultKind | null, manoeuvre: Manoeuvre = 'straight'): FutureFacts => ({
       faults: kind ? [{ kind, time: 1, until: 2, at: [0, 0], extent: 1, with: null, edge: null }] : [],
       relations: [],
       manoeuvre,

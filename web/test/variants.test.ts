@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { choose, patchScene, setGoal } from '../src/model/document/commands';
 import type { TrafficEvent } from '../src/model/words/event-words';
 import { emptyMotion, type Futures, type MotionSet } from '../src/model/document/futures';
-import { partingOf } from '../src/model/words/comparison';
+import { comparisonOf } from '../src/model/words/comparison';
 import { motionFrom, type Motion } from '../src/model/base/motion';
 import { readScene } from '../src/model/document/scene-reader';
 import { sceneKey, startPose, type Agent, type Scene } from '../src/model/document/scene';
@@ -180,7 +180,7 @@ describe('what tells variants apart', () => {
 
   it('is said with the moment at which they part', () => {
     const side = (label: string, m: Motion) => ({ label, scene: s, set: setOf(s, { [a.id]: m }), events: [] });
-    const p = partingOf(side('1', on), side('4', stops));
+    const p = comparisonOf(side('1', on), side('4', stops));
     expect(p.parted.map((x) => x.agent.id)).toEqual([a.id]);
     expect(p.same).toBe(p.all - 1);
     expect(p.moments).toHaveLength(1);
@@ -188,7 +188,7 @@ describe('what tells variants apart', () => {
     expect(p.moments[0].time).toBeGreaterThan(1);
     expect(p.moments[0].time).toBeLessThan(2.2);
     expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });
-    expect(partingOf(side('1', on), side('2', on)).moments).toEqual([]);
+    expect(comparisonOf(side('1', on), side('2', on)).moments).toEqual([]);
     // Of more than can be told the worst of both sides are, whichever side they are on.
     const happens = (kind: TrafficEvent['kind'], time: number) =>
       ({
@@ -204,10 +204,10 @@ describe('what tells variants apart', () => {
       }) as unknown as TrafficEvent;
     const many = { ...side('1', on), events: [5, 6, 7, 8, 9].map((t) => happens('near', t)) };
     const worse = { ...side('4', on), events: [happens('near', 2), happens('collision', 3)] };
-    const told = (l: typeof many, r: typeof many) => partingOf(l, r).moments.map((k) => k.words);
+    const told = (l: typeof many, r: typeof many) => comparisonOf(l, r).moments.map((k) => k.words);
     expect(told(many, worse)).toEqual(['4: near, at 2', '4: collision, at 3', '1: near, at 5', '1: near, at 6']);
     expect(told(worse, many)).toEqual(told(many, worse));
-    const wide = partingOf(side('1', on), side('2', drive(a, [8], 0.6)));
+    const wide = comparisonOf(side('1', on), side('2', drive(a, [8], 0.6)));
     expect(wide.moments[0].words).toBe(`${a.name} keeps further left in 2`);
   });
 });

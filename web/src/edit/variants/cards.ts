@@ -1,7 +1,7 @@
 // What is known of each variant, and of two that are compared.
 import { counted, worstOf } from '../../model/physics/events';
 import type { MotionSet } from '../../model/document/futures';
-import { partingOf, type Parting, type Side } from '../../model/words/comparison';
+import { comparisonOf, type Comparison, type Side } from '../../model/words/comparison';
 import { sceneKey, type Agent, type Scene, type Variant, type VariantState } from '../../model/document/scene';
 import { nameVariants } from '../../model/words/variant-names';
 import type { SpeedUnit } from '../../model/base/units';
@@ -30,7 +30,7 @@ export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet 
 export interface Compared {
   readonly left: WholeCard;
   readonly right: WholeCard;
-  readonly parting: Parting;
+  readonly parting: Comparison;
 }
 
 export type Filter = 'all' | 'events' | 'starred';
@@ -60,7 +60,7 @@ export function comparedOf(cards: readonly Card[], pair: readonly [number, numbe
   const [left, right] = (pair ?? []).map((id) => cards.find((c) => c.id === id));
   if (!isWhole(left) || !isWhole(right)) return null;
   const side = (c: WholeCard): Side => ({ label: String(c.id), scene: c.scene, set: c.set, events: c.events });
-  return { left, right, parting: partingOf(side(left), side(right)) };
+  return { left, right, parting: comparisonOf(side(left), side(right)) };
 }
 
 export const hasEvents = (c: Pick<Card, 'events'>): boolean => worstOf(counted(c.events)) !== null;

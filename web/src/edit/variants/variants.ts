@@ -30,7 +30,7 @@ import {
 import { readEvents } from '../../model/words/event-words';
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
-import type { Parted } from '../../model/words/comparison';
+import type { Diverging } from '../../model/words/comparison';
 import {
   cardsOf,
   comparedOf,
@@ -149,7 +149,7 @@ export class Variants {
 
   readonly #followed = signal<string | null>(null);
   /** Whose speed in the two is looked at: who was picked for it, else who is furthest apart. */
-  readonly followed = computed<Parted | null>(() => {
+  readonly followed = computed<Diverging | null>(() => {
     const parted = this.compared.value?.parting.parted ?? [];
     return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
   });

@@ -1,7 +1,8 @@
 // What the server knows of road users and of itself: the limits of motion, the ranges of what may be asked, and the
 // defaults. One file, written from the server's own tables, read at build time.
 import domain from '../../../../assets/domain.json';
-import type { Agent, AgentType } from '../document/scene';
+import type { Agent } from '../document/scene';
+import type { AgentType } from './kinds';
 
 /** Hard limits of motion: no answer ever breaks them. `comfort_…` is what people choose, not what is possible. */
 export interface Limits {

@@ -1,5 +1,4 @@
 // What can be placed: the kinds with their types, names and usual sizes.
-import type { AgentType, Kind } from '../document/scene';
 import { TEXTS } from '../../texts/kinds';
 
 /** A size that road users of a kind often have. */

@@ -1,7 +1,5 @@
 // Every change of the document is a command with an exact inverse.
-import { KIND_NAMES } from '../base/kinds';
-import type { Profile } from '../physics/speed-profile';
-import { kindOf } from './scene-reader';
+import { KIND_NAMES, kindOf, type Kind } from '../base/kinds';
 import { inOrder, type Via } from './vias';
 import {
   durationOf,
@@ -20,7 +18,7 @@ import {
   type StartSpec,
   withRoster,
 } from './scene';
-import type { Kind } from '../base/kinds';
+import type { Profile } from './profile';
 import { TEXTS } from '../../texts/steps';
 
 export interface Command {

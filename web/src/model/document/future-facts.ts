@@ -25,14 +25,14 @@ export interface Relation {
   readonly time: number;
 }
 
-export interface About {
+export interface FutureFacts {
   /** The worst first. */
   readonly faults: readonly Fault[];
   readonly relations: readonly Relation[];
   readonly manoeuvre: Manoeuvre | null;
 }
 
-export const NOTHING_SAID: About = { faults: [], relations: [], manoeuvre: null };
+export const NOTHING_SAID: FutureFacts = { faults: [], relations: [], manoeuvre: null };
 
 /** All kinds, the worst first. */
 export const FAULT_KINDS: readonly FaultKind[] = [
@@ -63,7 +63,7 @@ const kindMark = (kind: FaultKind): Mark => KIND_MARKS[kind] ?? 'rule';
 
 export const faultMark = (f: Pick<Fault, 'kind'>): Mark => kindMark(f.kind);
 
-export const markOf = (about: About): Mark => (about.faults.length ? faultMark(about.faults[0]) : 'ok');
+export const markOf = (about: FutureFacts): Mark => (about.faults.length ? faultMark(about.faults[0]) : 'ok');
 
 /** Below 0: the first is worse. */
 export const compareMarks = (a: Mark, b: Mark): number => MARKS.indexOf(a) - MARKS.indexOf(b);
@@ -73,7 +73,7 @@ export const leavesRoad = (f: Pick<Fault, 'kind'>): boolean =>
   f.kind === 'over_median' || f.kind === 'off_road' || f.kind === 'wrong_way';
 
 /** Null where the generator says nothing about its futures. */
-export function readAbout(m: Pick<ModeJson, 'faults' | 'relations' | 'manoeuvre'>): About | null {
+export function readAbout(m: Pick<ModeJson, 'faults' | 'relations' | 'manoeuvre'>): FutureFacts | null {
   if (!m.faults && !m.relations && !m.manoeuvre) return null;
   const faults = (m.faults ?? []).filter((f) => FAULT_KINDS.includes(f.kind)).map(readFault);
   const rank = (f: Fault): number => FAULT_KINDS.indexOf(f.kind);

@@ -1,7 +1,6 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
-import type { Answering } from './reaction-records';
 import type { AgentFuturesJson } from './scene-json';
-import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './future-facts';
+import { NOTHING_SAID, readAbout, sentAbout, type FutureFacts, type FaultKind, type SentAbout } from './future-facts';
 import type { Point, Pose, Vec } from '../base/geometry';
 import { furthestApart, motionFrom, type Motion } from '../base/motion';
 import { nameAll, type Naming } from '../words/future-names';
@@ -17,7 +16,7 @@ export interface Future {
   /** What the name rests on: a relation, or a manner. */
   readonly basis?: string;
   /** What the generator says about it; null where it says nothing. */
-  readonly about?: About | null;
+  readonly about?: FutureFacts | null;
   /** The same as it was sent. */
   readonly sent?: SentAbout;
   /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */

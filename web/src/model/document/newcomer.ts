@@ -2,10 +2,9 @@
 import type { Pose, Vec } from '../base/geometry';
 import { KIND_NAMES, PLACED_KINDS, typeOfKind, type PlacedKind, type Preset } from '../base/kinds';
 import { rangesOf } from '../base/domain';
-import { motionFrom, poseAtStep, type Motion } from '../base/motion';
+import { motionFrom, poseAtStep, type Motion, trackJson } from '../base/motion';
 import { freeGoal, logStartSpec, type Agent, type GoalSpec, type Others } from './scene';
 import { readVias, shiftedVias } from './vias';
-import { trackJson } from './scene-writer';
 
 export interface Newcomer {
   readonly kind: PlacedKind;

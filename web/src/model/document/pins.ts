@@ -2,13 +2,21 @@
 // the start and the goal that it was made for. One that is taken is picked like any other of its futures.
 import type { Future, Futures } from './futures';
 import { wrapAngle } from '../base/geometry';
-import { endPose, endsBefore, motionFrom, poseAt, poseAtStep, type Columns, type Motion } from '../base/motion';
+import {
+  endPose,
+  endsBefore,
+  motionFrom,
+  poseAt,
+  poseAtStep,
+  type Columns,
+  type Motion,
+  trackJson,
+} from '../base/motion';
 import { patchAgents, type AgentPatch, type Command } from './commands';
 import { shortFor, AT_GOAL_M, startPose, type Agent, type Pin, type Scene } from './scene';
 import type { AgentType } from '../base/kinds';
 import { metres, speedLabel, type SpeedUnit } from '../base/units';
 import { passed } from './vias';
-import { trackJson } from './scene-writer';
 import { TEXTS } from '../../texts/pins';
 
 /** So many a road user has at most: with six beside them more are not told apart on the picture. */

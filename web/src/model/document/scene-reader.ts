@@ -1,6 +1,5 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
-import { readAnswering, type Answering } from './reaction-records';
-import { readProfile } from '../physics/speed-profile';
+import { readAnswering } from './reaction-records';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
   isMapRef,
@@ -18,7 +17,8 @@ import { DEFAULTS } from '../base/domain';
 import { readFeedback } from './feedback';
 import { isStill, motionFrom, poseAtStep, type Motion } from '../base/motion';
 import { KIND_NAMES } from '../base/kinds';
-import { emptyMotion, type Futures, type MotionSet } from './futures';
+import { type Answering, emptyMotion, type Futures, type MotionSet } from './futures';
+import { readProfile } from './profile';
 import {
   durationOf,
   freeGoal,

@@ -6,7 +6,7 @@ import type { Feedback } from './feedback';
 import type { AgentJson } from './scene-json';
 import { wrapAngle, type Pose, type Vec } from '../base/geometry';
 import { STEP_S, type Columns, type Motion } from '../base/motion';
-import type { Profile } from '../physics/speed-profile';
+import type { Profile } from './profile';
 import { NO_VIAS, type Via } from './vias';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';

@@ -3,7 +3,8 @@
 import type { Limits } from '../base/domain';
 import { clamp, type Vec } from '../base/geometry';
 import { STEP_S, type Motion } from '../base/motion';
-import { alongOf, APART_S, motionOf, movedPoint, type Profile, type SpeedPoint } from './speed-profile';
+import { alongOf, APART_S, motionOf, movedPoint } from './speed-profile';
+import type { Profile, SpeedPoint } from '../document/profile';
 
 /** A speed that is missed by less is as it was asked for, m/s. */
 const SLACK_MPS = 0.3;

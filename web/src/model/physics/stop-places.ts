@@ -1,6 +1,7 @@
 // Where one stops on a way: at a stop line, before a crosswalk, behind somebody who stands.
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
-import { alongOf, lineOf, type Path } from './speed-profile';
+import { alongOf, lineOf } from './speed-profile';
+import type { Path } from '../document/profile';
 import { TEXTS } from '../../texts/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 

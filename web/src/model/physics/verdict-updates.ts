@@ -1,6 +1,6 @@
 // A picked future is not judged anew with the answers of the others to it: what it does by itself stays as it was
 // judged, and whom it hits or nearly hits is what the score of the whole scene says.
-import { FAULT_KINDS, NOTHING_SAID, type About, type Fault } from '../document/future-facts';
+import { FAULT_KINDS, NOTHING_SAID, type FutureFacts, type Fault } from '../document/future-facts';
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import type { Vec } from '../base/geometry';
 import type { Agent, Scene } from '../document/scene';
@@ -127,7 +127,7 @@ export function metAnew(a: Agent, f: Futures, changed: readonly Changed[]): Futu
   return modes.some((m, i) => m !== f.modes[i]) ? { ...f, modes } : f;
 }
 
-function withMeetings(a: Agent, m: Future, about: About, others: readonly Changed[]): Future {
+function withMeetings(a: Agent, m: Future, about: FutureFacts, others: readonly Changed[]): Future {
   const ids = new Set(others.map((o) => o.agent.id));
   const ofThem = (x: Fault): boolean => meets(x) && x.with !== null && ids.has(x.with);
   const old = about.faults.filter(ofThem);

@@ -1,7 +1,8 @@
 // What differs between two variants: who does another thing, since when, and what comes of it.
 import { compareMarks } from '../document/future-facts';
-import { meetsGoal, motionOf } from '../physics/changes';
-import { summary, counted, type TrafficEvent } from '../physics/events';
+import { counted } from '../physics/events';
+import { meetsGoal, motionOf } from '../physics/playback';
+import { summary, type TrafficEvent } from './event-words';
 import type { MotionSet } from '../document/futures';
 import { toLocal, type Vec } from '../base/geometry';
 import { poseAt, STEP_S, type Motion } from '../base/motion';
@@ -33,7 +34,7 @@ export interface Row {
 }
 
 /** One who does another thing. */
-export interface Parted {
+export interface Diverging {
   readonly agent: Agent;
   readonly left: Motion;
   readonly right: Motion;
@@ -43,9 +44,9 @@ export interface Parted {
   readonly since: number;
 }
 
-export interface Parting {
+export interface Comparison {
   /** Those furthest apart first. */
-  readonly parted: readonly Parted[];
+  readonly parted: readonly Diverging[];
   readonly rows: readonly Row[];
   readonly moments: readonly Moment[];
   /** How many do the same in both. */
@@ -62,7 +63,7 @@ const SOON_S = 4;
 const STANDS_MPS = 0.3;
 const SLOWS_MPS = 1;
 
-export function partingOf(left: Side, right: Side): Parting {
+export function comparisonOf(left: Side, right: Side): Comparison {
   const all = [...left.scene.agents.values()].filter((a) => a.type !== 'other');
   const parted = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
   return {
@@ -74,7 +75,7 @@ export function partingOf(left: Side, right: Side): Parting {
   };
 }
 
-function partedOf(left: Side, right: Side, agent: Agent): Parted | null {
+function partedOf(left: Side, right: Side, agent: Agent): Diverging | null {
   const other = right.scene.agents.get(agent.id);
   if (!other) return null;
   const m = motionOf(left.scene, left.set, agent),
@@ -97,7 +98,7 @@ function partedOf(left: Side, right: Side, agent: Agent): Parted | null {
 
 const row = (what: string, left: string, right: string): Row => ({ what, left, right, differs: left !== right });
 
-function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
+function rowsOf(left: Side, right: Side, parted: readonly Diverging[]): Row[] {
   const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
   const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
   const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
@@ -110,7 +111,7 @@ function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
   ];
 }
 
-function deeds(scene: Scene, { agent, left, right }: Parted): Row {
+function deeds(scene: Scene, { agent, left, right }: Diverging): Row {
   const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
   const [p, q] = [deedWords(a), deedWords(b)];
   return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
@@ -137,7 +138,7 @@ function goals(left: Side, right: Side): Row[] {
 
 // -------------------------------------------------------------- the moments
 
-function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
+function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Moment[] {
   const said = (e: TrafficEvent): string =>
     e.what === 'collision' && e.b ? TEXTS.meets(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
   // Where there are too many the worst are told, and of these the first, whichever side they are on.
@@ -155,7 +156,7 @@ function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[]
 const sameMeeting = (p: TrafficEvent, q: TrafficEvent): boolean =>
   p.what === q.what && p.a.id === q.a.id && p.b?.id === q.b?.id && Math.abs(p.time - q.time) < 0.5;
 
-function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Parted): Moment {
+function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Diverging): Moment {
   const p = poseAt(m, t)!,
     q = poseAt(n, t)!;
   const at: Vec = [(p.x + q.x) / 2, (p.y + q.y) / 2];

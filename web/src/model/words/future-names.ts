@@ -1,6 +1,6 @@
 // Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
 // the same. No two in one list are alike.
-import { faultMark, leavesRoad, type About, type RelationKind } from '../document/future-facts';
+import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
 import { wrapAngle } from '../base/geometry';
 import {
   distances,
@@ -19,7 +19,7 @@ import { TEXTS } from '../../texts/names';
 /** What a name is made from. */
 export interface Nameable {
   readonly motion: Motion;
-  readonly about?: About | null;
+  readonly about?: FutureFacts | null;
 }
 
 /** Who is named, and what the others are called. */
@@ -288,7 +288,7 @@ function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
   return { basis: forms[0], forms };
 }
 
-function mannerWords(m: Motion, manoeuvre: NonNullable<About['manoeuvre']>, onFoot: boolean): string[] {
+function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>, onFoot: boolean): string[] {
   switch (manoeuvre) {
     case 'left':
     case 'right': {
@@ -315,7 +315,7 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<About['manoeuvre']>, onFo
 // -------------------------------------------------------------- shapes
 
 /** What it does, from its shape alone. */
-function shapeOf(m: Motion, onFoot: boolean): NonNullable<About['manoeuvre']> {
+function shapeOf(m: Motion, onFoot: boolean): NonNullable<FutureFacts['manoeuvre']> {
   const n = m.x.length - 1;
   if (n < 2 || pathLength(m) < STAYS_M) return 'stays';
   const turn = totalTurn(m);

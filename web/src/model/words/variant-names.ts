@@ -1,14 +1,14 @@
 // Names of variants, made of what tells each from the others: a future of the road user that they are about, else
 // whoever does another thing than in most of them.
-import { motionOf } from '../physics/changes';
-import { counted, type TrafficEvent } from '../physics/events';
+import { counted } from '../physics/events';
 import type { MotionSet } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
 import { poseAt, type Motion } from '../base/motion';
-import type { Agent, Scene } from '../document/scene';
-import { valueOf, valueWords, type Over } from '../physics/sweep';
+import type { Agent, Scene, VariantState } from '../document/scene';
+import { valueOf, type Over } from '../physics/sweep';
 import { num, type SpeedUnit } from '../base/units';
-import type { VariantState } from '../document/variants';
+import { motionOf } from '../physics/playback';
+import type { TrafficEvent } from './event-words';
 import { TEXTS } from '../../texts/variants';
 
 export interface Nameless {

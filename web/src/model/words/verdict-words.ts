@@ -4,7 +4,7 @@ import {
   faultMark,
   leavesRoad,
   markOf,
-  type About,
+  type FutureFacts,
   type Fault,
   type FaultKind,
   type Mark,
@@ -12,7 +12,7 @@ import {
 import { LETTERS, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
-import type { AgentType } from '../document/scene';
+import type { AgentType } from '../base/kinds';
 import { acceleration, metres, seconds } from '../base/units';
 import { TEXTS } from '../../texts/verdicts';
 
@@ -166,7 +166,7 @@ interface Said {
 
 const group = (key: string, many: string, one: string): Group => ({ key, letters: [], many, one });
 
-function groupOf(f: Futures, i: number, about: About | null, said: Said): Group | null {
+function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): Group | null {
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
