@@ -14,6 +14,8 @@ export interface Place extends Omit<KeptHistory, 'steps'> {
   /** When it was last written, milliseconds since 1970. */
   readonly at: number;
   readonly synced: Synced | null;
+  /** Digests of the versions that were sent to the server after that one. */
+  readonly sent?: readonly string[];
 }
 
 /** What all road users did in a document. */

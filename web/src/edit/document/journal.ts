@@ -5,12 +5,11 @@ import {
   isSameDocument,
   replay,
   type Committed,
-  type DocumentRef,
   type HistoryChange,
   type KeptHistory,
 } from '../../model/document/history';
 import { isComplete, stateOf, withState, type SceneState } from '../../model/document/scene-diff';
-import { sceneKey, type Scene } from '../../model/document/scene';
+import { sceneKey, shortFor, type Scene } from '../../model/document/scene';
 import type { GeneratedJson } from '../../model/document/scene-json';
 import { ofAgents, variantsJson } from '../../model/document/scene-writer';
 import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
@@ -21,6 +20,8 @@ export type Keeping = 'kept' | 'full' | 'off';
 
 /** Scenes whose steps are kept; of more, those looked at longest ago are forgotten once the server has them. */
 const MOST_SCENES = 60;
+/** So many versions that were sent without a reply are remembered of a scene. */
+const MOST_SENT = 20;
 
 /**
  * How a scene goes on from what is kept of it. `ahead`: with changes that the server does not have. `conflict`: with
@@ -50,8 +51,11 @@ export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: 
     newer.adopt(TEXTS.changedElsewhere, file);
     return { scene: file, history: newer.kept(), standing: 'behind' };
   }
-  return { scene, history, standing: standingOf(file, scene, history, synced) };
+  return { scene, history, standing: standingOf(file, scene, { history, sent: kept.place.sent ?? [] }) };
 }
+
+/** Names what is to be saved of a scene, shortly. */
+const digestOf = (scene: Scene): string => shortFor(versionOf(scene));
 
 /** Does the server have the document that the kept steps lead to? */
 const isSynced = ({ head, revision, synced }: Place): boolean =>
@@ -73,22 +77,18 @@ function isWhole({ steps, place }: KeptScene): boolean {
 export const versionOf = (scene: Scene): string =>
   sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene)]);
 
-/** A page that ended right after it had saved could not note that: the server's version is then one of its steps. */
-function standingOf(file: Scene, scene: Scene, kept: KeptHistory, synced: Synced | null): Standing {
+/** A version that was sent from here, or a document that undo leads back to, is no other version. */
+function standingOf(
+  file: Scene,
+  scene: Scene,
+  { history, sent }: { history: KeptHistory; sent: readonly string[] },
+): Standing {
   const theirs = versionOf(file);
   if (versionOf(scene) === theirs) return 'same';
-  const history = new History(scene, undefined, kept);
-  return isOneOf(theirs, history, synced) ? 'ahead' : 'conflict';
-}
-
-/** Is a version one of the documents that undo leads back to, as far as `until`? */
-export function isOneOf(version: string, history: History, until: DocumentRef | null): boolean {
-  const back = new History(history.scene, undefined, history.kept());
-  do {
-    if (versionOf(back.scene) === version) return true;
-    if (until && isSameDocument(back.ref, until)) return false;
-  } while (back.undo());
-  return false;
+  const back = new History(scene, undefined, history);
+  if (sent.includes(digestOf(file))) return 'ahead';
+  while (back.undo()) if (versionOf(back.scene) === theirs) return 'ahead';
+  return 'conflict';
 }
 
 export class Journal {
@@ -98,15 +98,13 @@ export class Journal {
   /** The document before the first step, where the file is another by now. */
   #base: SceneState | null = null;
   #synced: Synced | null = null;
+  /** Digests of the versions of each scene that were sent since the last one that the server is known to hold. */
+  readonly #sent = new Map<string, readonly string[]>();
   #writing: Promise<void> = Promise.resolve();
   /** Entries that are missing, because there was no room: all is written anew when there is. */
   #gap = true;
 
   readonly keeping: ReadonlySignal<Keeping> = this.#keeping;
-  /** The document of the followed scene that the server is known to hold. */
-  get syncedTo(): Synced | null {
-    return this.#synced;
-  }
   /** Called when a step is kept. */
   onKept: (() => void) | null = null;
 
@@ -129,6 +127,7 @@ export class Journal {
     this.#history = history;
     this.#scene = scene;
     this.#synced = kept?.place.synced ?? null;
+    this.#sent.set(scene, [...(kept?.place.sent ?? []), ...(this.#sent.get(scene) ?? [])].slice(-MOST_SENT));
     this.#base = kept?.base ?? (own ? stateOf(history.first()) : null);
     this.#gap = kept === null;
     history.onChange = (change) => this.#changed(change);
@@ -150,13 +149,34 @@ export class Journal {
     this.#history = null;
   }
 
+  /** A committed document is about to be sent to the server: ends when this is kept, with all steps before it. */
+  async sending({ scene }: Committed): Promise<void> {
+    const digest = digestOf(scene);
+    const sent = [...(this.#sent.get(scene.id) ?? []).filter((d) => d !== digest), digest].slice(-MOST_SENT);
+    this.#sent.set(scene.id, sent);
+    this.#note(scene.id, (place) => ({ ...place, sent }));
+    await this.#writing;
+  }
+
+  /** Was this document sent from here since the last one that the server is known to hold? */
+  wasSent(scene: Scene): boolean {
+    return (this.#sent.get(scene.id) ?? []).includes(digestOf(scene));
+  }
+
   /** The server holds a committed document under an ETag; its scene need not be open any more. */
   synced({ scene, step, revision }: Committed, etag: string): void {
     const synced = { etag, step, revision };
+    const sent = this.#sent.get(scene.id);
     if (this.#history && scene.id === this.#scene) {
       this.#synced = synced;
       this.#changed({});
-    } else this.#note(scene.id, (place) => ({ ...place, synced }));
+    } else this.#note(scene.id, (place) => ({ ...place, synced, sent }));
+  }
+
+  /** The same by a save that was answered: what was sent before it cannot arrive any more. */
+  saved(committed: Committed, etag: string): void {
+    this.#sent.delete(committed.scene.id);
+    this.synced(committed, etag);
   }
 
   #note(scene: string, change: (place: Place) => Place): void {
@@ -208,7 +228,13 @@ export class Journal {
     if (!history) return;
     if (shorter) this.#base = stateOf(history.first());
     const { steps, ...at } = history.kept();
-    const place: Place = { scene: this.#scene, ...at, synced: this.#synced, at: Date.now() };
+    const place: Place = {
+      scene: this.#scene,
+      ...at,
+      synced: this.#synced,
+      sent: this.#sent.get(this.#scene),
+      at: Date.now(),
+    };
     const whole = this.#gap || shorter;
     if (whole && !steps.length && !this.#synced) return;
     const base = this.#base;

@@ -10,7 +10,7 @@ import { readGenerated } from '../../model/words/named-futures';
 import { touched, type Scene } from '../../model/document/scene';
 import type { Lock } from './document';
 import { keptAnswers, resume, type Journal } from './journal';
-import type { Saving } from './saving';
+import { atMost, type Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 import type { Session } from './session';
@@ -58,12 +58,17 @@ export class Library {
     turns: (on: TurnEvents) => SceneTurns = (on) => new SceneTurns(on),
   ) {
     this.#turns = turns({
-      got: () => void this.again(),
-      leaving: () => this.#handOver(),
-      lost: () => this.#elsewhere(),
-      changed: () => void this.again(),
+      got: (id) => void (this.#isOpen(id) && this.again()),
+      leaving: (id) => (this.#isOpen(id) ? this.#handOver() : Promise.resolve()),
+      lost: (id) => this.#isOpen(id) && this.#elsewhere(),
+      changed: (id) => void (this.#isOpen(id) && this.again()),
     });
     journal.onKept = () => this.#turns.tellChanged();
+  }
+
+  /** On its way to another scene the tab waits in line for that one, and has this one open. */
+  #isOpen(id: string): boolean {
+    return this.session.document.scene.peek()?.id === id;
   }
 
   async open(id: string): Promise<void> {
@@ -99,7 +104,7 @@ export class Library {
       this.session.open(scene, saved, null);
       this.session.lockWith(lock);
     });
-    this.saving.opened(this.session.document.committed.peek()!, null, 'same');
+    void this.saving.opened(this.session.document.committed.peek()!, null, 'same');
     this.#show(scene, saved !== null, false);
   }
 
@@ -140,8 +145,8 @@ export class Library {
     await this.#turns.goTo(id);
     const { fetched, kept } = await this.#newest(id, first, fetch);
     if (turn !== this.#reached) return;
-    this.#adopt(fetched, kept, again);
-    void this.journal.flush().then(() => this.#turns.left());
+    const before = this.#adopt(fetched, kept, again);
+    void Promise.all([before, this.journal.flush()]).then(() => this.#turns.left());
   }
 
   /**
@@ -155,18 +160,21 @@ export class Library {
   ): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
     const { document } = this.session;
     for (let fetched = first, asked = false; ; asked = true) {
-      const [before, saved] = [document.committed.peek(), this.saving.etagOf(id)];
+      const [before, saved, mine] = [document.committed.peek(), this.saving.etagOf(id), this.#turns.holds];
       await this.journal.flush();
       const kept = await this.journal.read(id);
       const synced = kept?.place.synced?.etag;
       const moved =
-        this.saving.etagOf(id) !== saved || (before?.scene.id === id && before !== document.committed.peek());
+        this.#turns.holds !== mine ||
+        this.saving.etagOf(id) !== saved ||
+        (before?.scene.id === id && before !== document.committed.peek());
       if (!moved && (asked || !synced || synced === fetched.etag)) return { fetched, kept };
       fetched = await fetch().catch(() => fetched);
     }
   }
 
-  #adopt({ json, map, plain, etag: found }: Fetched, kept: KeptScene | null, again: boolean): void {
+  /** Puts a scene on screen; ends when the one before is saved, or cannot be. */
+  #adopt({ json, map, plain, etag: found }: Fetched, kept: KeptScene | null, again: boolean): Promise<void> {
     const { session, journal, saving } = this;
     const { document } = session;
     const mine = this.#turns.holds;
@@ -192,7 +200,7 @@ export class Library {
       if (!mine) this.#lock();
     });
     const committed = document.committed.peek()!;
-    saving.opened(committed, etag, standing);
+    const before = saving.opened(committed, etag, standing);
     if (mine) {
       journal.follow(document.history!, scene.id, history && kept, own);
       if (standing === 'behind') void journal.retry();
@@ -203,6 +211,7 @@ export class Library {
     this.#show(scene, answers !== null, again);
     if (again) this.#asSeen(seen.who, seen.when);
     else if (standing === 'ahead' && !own) this.#welcomeBack();
+    return before;
   }
 
   /** Answers that are missing are asked for. */
@@ -264,8 +273,7 @@ export class Library {
 
   /** Steps are kept and saved, also those of a scene that comes next, unless the server takes its time over it. */
   async written(next?: string): Promise<void> {
-    const late = new Promise((resolve) => setTimeout(resolve, WRITTEN_WITHIN_MS));
-    await Promise.race([this.saving.flush(next), late]);
+    await atMost(WRITTEN_WITHIN_MS, this.saving.flush(next));
     await this.journal.flush();
   }
 
@@ -279,7 +287,8 @@ export class Library {
     try {
       const { plain, etag = null } = await this.#fetch(id);
       document.afterTrial(() => {
-        if (document.scene.peek()?.id !== id || document.lock.peek()) return;
+        // The other version may have been replaced meanwhile.
+        if (document.scene.peek()?.id !== id || document.lock.peek() || !this.saving.conflict.peek()) return;
         this.session.adopt(TEXTS.theOtherVersion, plain);
         this.saving.tookTheirs(etag);
         if (etag) this.journal.synced(document.committed.peek()!, etag);

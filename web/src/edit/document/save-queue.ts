@@ -16,30 +16,27 @@ export interface Conflict {
 export interface SaveEvents {
   /** The server holds a snapshot under an ETag. */
   saved(snapshot: Snapshot, etag: string | null): void;
-  /** Was this version, found on the server, sent from here? `unsure`: snapshots that were sent without a reply. */
-  isOurs(theirs: SceneJson, unsure: readonly Snapshot[]): boolean;
+  /** A snapshot is about to be sent; it is when this ends. */
+  sending(snapshot: Snapshot): Promise<void>;
+  /** Was this version, found on the server, sent from here? */
+  isOurs(theirs: SceneJson): boolean;
 }
 
 /** A change waits so long for the next one. */
 const DELAY_MS = 300;
 /** After a request without an answer the next one follows so much later, and so on; the last one repeats. */
 const RETRY_MS = [2000, 5000, 15_000, 30_000];
-/** So many versions without a reply are kept for a comparison. */
-const MOST_UNSURE = 20;
 
 export class SaveQueue {
   readonly #state = signal<QueueState>('saved');
   readonly #conflict = signal<Conflict | null>(null);
   /** The newest version, while the server lacks it. */
   #newest: Snapshot | null = null;
-  /** Sent, and not answered: the server may have them. */
-  #unsure: Snapshot[] = [];
   #etag: string | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** The newest version is to be sent as soon as no request is on its way. */
   #due = false;
   #running: Promise<void> | null = null;
-  #sent: Snapshot | null = null;
   /** Rises when what is on its way does not count any more. */
   #turn = 0;
   #tries = 0;
@@ -92,9 +89,8 @@ export class SaveQueue {
   /** Another tab takes care of the scene from now on. What is on its way may still arrive at the server. */
   stop(): void {
     clearTimeout(this.#timer);
-    if (this.#sent) this.#doubt(this.#sent);
     this.#turn++;
-    this.#running = this.#sent = this.#newest = null;
+    this.#running = this.#newest = null;
     this.#due = false;
     this.#tries = 0;
     if (this.#state.peek() === 'saving') this.#state.value = 'behind';
@@ -113,7 +109,6 @@ export class SaveQueue {
   /** The conflict ends: the version on the server is the document now. */
   tookTheirs(etag: string | null): void {
     this.stop();
-    this.#unsure = [];
     this.#etag = etag;
     this.#conflict.value = null;
     this.#state.value = 'saved';
@@ -136,35 +131,28 @@ export class SaveQueue {
   async #sendAll(turn: number): Promise<void> {
     while (this.#due && this.#newest && !this.#conflict.peek()) {
       this.#due = false;
-      const snapshot = (this.#sent = this.#newest);
+      const snapshot = this.#newest;
       const end = await this.#try(snapshot);
       if (turn !== this.#turn) return;
       end();
     }
-    this.#running = this.#sent = null;
+    this.#running = null;
   }
 
   /** What follows from a request, to be done where it still counts. */
   async #try(snapshot: Snapshot): Promise<() => void> {
     try {
+      await this.on.sending(snapshot);
       const etag = await this.#put(snapshot);
       return () => this.#saved(snapshot, etag);
     } catch (e) {
       if (e instanceof Refused && (e.status === 412 || e.status === 404)) return this.#compare();
-      return () => {
-        if (!(e instanceof Refused)) this.#doubt(snapshot);
-        this.#away(e);
-      };
+      return () => this.#away(e);
     }
-  }
-
-  #doubt(snapshot: Snapshot): void {
-    this.#unsure = [...this.#unsure.filter((s) => s !== snapshot), snapshot].slice(-MOST_UNSURE);
   }
 
   #saved(snapshot: Snapshot, etag: string | null): void {
     this.#etag = etag;
-    this.#unsure = [];
     this.#tries = 0;
     if (this.#newest === snapshot) {
       this.#newest = null;
@@ -188,7 +176,7 @@ export class SaveQueue {
     try {
       const { json, etag } = await this.client.scene(this.id);
       return () => {
-        if (!this.on.isOurs(json, this.#unsure)) return this.#contradicted(etag);
+        if (!this.on.isOurs(json)) return this.#contradicted(etag);
         this.#etag = etag;
         this.#due = true;
       };

@@ -6,13 +6,16 @@ import type { Committed } from '../../model/document/history';
 import { readScene } from '../../model/document/scene-reader';
 import type { Client } from '../../net/client';
 import type { Document } from './document';
-import { isOneOf, versionOf, type Journal, type Standing } from './journal';
+import type { Journal, Standing } from './journal';
 import { SaveQueue, type Conflict, type QueueState } from './save-queue';
 import type { SceneFile, Snapshot } from './scene-file';
 import type { SceneList } from './scene-list';
 
 /** `local`: kept on this computer only. `full`: there was no room even for that. `off`: this page may keep nothing. */
 export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full' | 'off';
+
+/** A storage that does not answer holds a save up no longer than this. */
+const SENDING_MS = 1000;
 
 export class Saving {
   readonly #queues = new Map<string, SaveQueue>();
@@ -64,10 +67,18 @@ export class Saving {
     return this.#queues.get(id)?.etag ?? null;
   }
 
-  /** Another scene is open: `ahead` with changes that the server does not have, `conflict` where it has others. */
-  opened(committed: Committed, etag: string | null, standing: Standing): void {
+  /**
+   * Another scene is open: `ahead` with changes that the server does not have, `conflict` where it has others. Ends
+   * when the one before is saved, or cannot be.
+   */
+  opened(committed: Committed, etag: string | null, standing: Standing): Promise<void> {
+    const before = this.#open.peek()?.flush() ?? Promise.resolve();
+    this.#openAs(committed, etag, standing);
+    return before;
+  }
+
+  #openAs(committed: Committed, etag: string | null, standing: Standing): void {
     const { id } = committed.scene;
-    void this.#open.peek()?.flush();
     if (!this.#isSaved(id)) {
       this.#open.value = null;
       return;
@@ -131,7 +142,8 @@ export class Saving {
     if (known) return known;
     const queue: SaveQueue = new SaveQueue(id, this.client, {
       saved: (snapshot, etag) => this.#saved(queue, snapshot, etag),
-      isOurs: (theirs, unsure) => this.#isOurs(queue, theirs, unsure),
+      sending: ({ committed }) => atMost(SENDING_MS, this.journal.sending(committed)),
+      isOurs: (theirs) => this.#isOurs(theirs),
     });
     this.#queues.set(id, queue);
     return queue;
@@ -142,17 +154,17 @@ export class Saving {
       this.#held.value = committed.version;
       this.file.noteStored(body());
     }
-    if (etag) this.journal.synced(committed, etag);
+    if (etag) this.journal.saved(committed, etag);
     void this.list.refresh().catch(() => undefined);
   }
 
-  /** A save whose reply was lost, or one of another tab that kept its steps here, is no other version. */
-  #isOurs(queue: SaveQueue, theirs: SceneJson, unsure: readonly Snapshot[]): boolean {
+  /** A save whose reply was lost, or that the tab before sent late, is no other version. */
+  #isOurs(theirs: SceneJson): boolean {
     const map = isMapRef(theirs.map) ? this.file.map : theirs.map;
-    if (!map) return false;
-    const version = versionOf(readScene(theirs, map));
-    if (unsure.some((s) => versionOf(s.committed.scene) === version)) return true;
-    const { history } = this.document;
-    return this.#open.peek() === queue && history !== null && isOneOf(version, history, this.journal.syncedTo);
+    return map !== null && this.journal.wasSent(readScene(theirs, map));
   }
 }
+
+/** Ends when the work does, or so many milliseconds later. */
+export const atMost = (ms: number, work: Promise<void>): Promise<void> =>
+  Promise.race([work, new Promise<void>((resolve) => setTimeout(resolve, ms))]);
