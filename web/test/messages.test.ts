@@ -8,14 +8,16 @@ import { german as germanFiles } from '../src/texts/german/file-messages';
 import { german as germanMaps } from '../src/texts/german/map-messages';
 import { german } from '../src/texts/german/messages';
 import { TEXTS as MAPS } from '../src/texts/map-messages';
+import { german as germanProblems } from '../src/texts/german/problem-messages';
+import { TEXTS as PROBLEMS } from '../src/texts/problem-messages';
 import { TEXTS } from '../src/texts/messages';
 
 const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
 const together = (...tables: { readonly sentences: object }[]): object =>
   Object.assign({}, ...tables.map((table) => table.sentences));
 const LANGUAGES = {
-  english: together(TEXTS, FILES, MAPS),
-  german: together(german, germanFiles, germanMaps),
+  english: together(TEXTS, FILES, MAPS, PROBLEMS),
+  german: together(german, germanFiles, germanMaps, germanProblems),
 } as Record<string, Record<string, string | ((values: Record<string, string>) => string)>>;
 
 /** The values that a sentence asks for. */

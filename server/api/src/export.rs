@@ -1,7 +1,7 @@
 //! Files out of scenes.
 
 use crate::code::Code;
-use crate::english::Sentence;
+use crate::english;
 use crate::import::{known, names};
 use crate::problem::Problem;
 use formats::{ExportOptions, ExportedMotion, registry};
@@ -59,8 +59,8 @@ pub fn write_part(
 ) -> Result<WrittenFile, Problem> {
     let found = registry::by_id(known(format)).ok_or_else(|| {
         let shown: String = format.chars().take(40).collect();
-        let values = [("format", shown.into()), ("formats", names().join(", ").into())];
-        Problem::said(Code::FormatUnknown, Sentence::UnknownFormat, values).at("/query/format")
+        let message = english::unknown_format(&shown, &names().join(", "));
+        Problem::of(Code::FormatUnknown, message).at("/query/format")
     })?;
     let mut copy = None;
     if let Some(sample) = sample {

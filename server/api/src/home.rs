@@ -1,7 +1,7 @@
 //! Where scenes come from: "a scene, or the id of one", and who knows ids.
 
 use crate::code::Code;
-use crate::english::Sentence;
+use crate::english;
 use crate::opened::{Opened, Standings};
 use crate::problem::Problem;
 use formats::native::SceneDoc;
@@ -119,12 +119,12 @@ impl SceneRef {
             (None, Some(id)) => {
                 let opened = home.open(&id).await?;
                 if self.etag.is_some_and(|etag| etag != opened.etag) {
-                    let problem = Problem::said(Code::StaleEtag, Sentence::ChangedScene, []);
+                    let problem = Problem::of(Code::StaleEtag, english::changed_scene());
                     return Err(problem.with(|m| m.etag = Some(opened.etag)));
                 }
                 Ok(Subject::standing(opened, None))
             }
-            _ => Err(Problem::said(Code::InvalidField, Sentence::OneScene, []).at("/scene")),
+            _ => Err(Problem::of(Code::InvalidField, english::one_scene()).at("/scene")),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes out of files: the formats of the `formats` crate behind the words that carriers use.
 
 use crate::code::Code;
-use crate::english::Sentence;
+use crate::english;
 use crate::problem::Problem;
 use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
@@ -90,12 +90,10 @@ impl SceneFile {
         let info = found.info();
         let Companions { net, columns, netconvert } = beside.clone();
         if net.is_some() && !info.takes_net {
-            let values = [("format", info.id.into())];
-            return Err(Problem::said(Code::InvalidField, Sentence::NoNetwork, values).at(NET_POINTER));
+            return Err(Problem::of(Code::InvalidField, english::no_network(info.id)).at(NET_POINTER));
         }
         if columns.is_some() && !found.takes_columns() {
-            let values = [("format", info.id.into())];
-            return Err(Problem::said(Code::InvalidField, Sentence::NoColumns, values).at(COLUMNS_POINTER));
+            return Err(Problem::of(Code::InvalidField, english::no_columns(info.id)).at(COLUMNS_POINTER));
         }
         let options =
             ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };

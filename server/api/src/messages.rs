@@ -2,11 +2,15 @@
 
 use scene::message::MessageKind;
 
-/// The table of sentences: of the engine, of map checks and of the readers' warnings. Codes are unique.
+/// The table of sentences: of refused requests, the engine, map checks and the readers' warnings. Codes are unique.
 pub fn all() -> impl Iterator<Item = &'static MessageKind> {
-    [experts::sentences::MESSAGES, layouts::messages::MESSAGES, formats::sentences::MESSAGES]
-        .into_iter()
-        .flatten()
+    let tables = [
+        crate::english::MESSAGES,
+        experts::sentences::MESSAGES,
+        layouts::messages::MESSAGES,
+        formats::sentences::MESSAGES,
+    ];
+    tables.into_iter().flatten()
 }
 
 /// The table as it is committed, for clients that write the sentences in another language.

@@ -4,16 +4,20 @@
 //! switch on `code`, which never changes.
 
 use crate::code::Code;
-use crate::english::{Sentence, Values};
+use crate::english;
 use experts::GenerateError;
 use formats::{FieldProblem, Kind, ReadError};
+use scene::message::Message;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
+use std::collections::BTreeMap;
 
-/// What a refusal says beyond its sentence; each member only where it means something.
+/// Members of a refusal beyond its code; each is present only where it applies.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct ProblemMembers {
+    /// `detail` as data.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<Message>,
     /// All faults that were found in the body or the query.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(max = 32))]
@@ -68,8 +72,8 @@ pub struct Problem {
     pub detail: String,
     /// Further members, such as `limit` or `errors`.
     pub members: Box<ProblemMembers>,
-    /// What `detail` was made of, by name, for carriers and languages that say it in another way.
-    pub values: Values,
+    /// Facts that a carrier needs beside the document, by name: the methods that an address has, for instance.
+    pub facts: BTreeMap<&'static str, String>,
     /// Of a defect: what the log has to say about it. Not for the caller.
     pub cause: Option<String>,
 }
@@ -77,13 +81,12 @@ pub struct Problem {
 impl Problem {
     /// A refusal with one sentence.
     pub fn new(code: Code, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into(), members: Box::default(), values: Values::new(), cause: None }
+        Self { code, detail: detail.into(), members: Box::default(), facts: BTreeMap::new(), cause: None }
     }
 
-    /// A refusal with a sentence of the table and its values.
-    pub fn said<const N: usize>(code: Code, sentence: Sentence, values: [(&'static str, Value); N]) -> Self {
-        let values = Values::from(values);
-        Self { values: values.clone(), ..Self::new(code, sentence.english(&values)) }
+    /// A refusal with a sentence as data.
+    pub fn of(code: Code, message: Message) -> Self {
+        Self::new(code, message.to_string()).with(|m| m.message = Some(message))
     }
 
     /// One field's fault.
@@ -94,14 +97,12 @@ impl Problem {
     /// A number outside its range.
     pub fn range(pointer: &str, min: f64, max: f64, got: f64) -> Self {
         let error = FieldProblem::range(pointer, min, max, got);
-        let values = Values::from([("min", min.into()), ("max", max.into()), ("got", got.into())]);
-        let problem = Self { values, ..Self::new(Code::OutOfRange, error.detail.clone()) };
-        problem.with(|m| m.errors = Some(vec![error]))
+        Self::new(Code::OutOfRange, error.detail.clone()).with(|m| m.errors = Some(vec![error]))
     }
 
     /// A defect: the cause is for the log, the caller gets a plain sentence.
     pub fn internal(cause: impl std::fmt::Display) -> Self {
-        Self { cause: Some(cause.to_string()), ..Self::said(Code::Internal, Sentence::Defect, []) }
+        Self { cause: Some(cause.to_string()), ..Self::of(Code::Internal, english::defect()) }
     }
 
     /// Says that it is about one field.
@@ -118,10 +119,10 @@ impl Problem {
         self
     }
 
-    /// Adds a value.
+    /// Adds a fact for the carrier.
     #[must_use]
-    pub fn value(mut self, name: &'static str, value: impl Into<Value>) -> Self {
-        self.values.insert(name, value.into());
+    pub fn fact(mut self, name: &'static str, fact: impl Into<String>) -> Self {
+        self.facts.insert(name, fact.into());
         self
     }
 
@@ -158,8 +159,8 @@ pub fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
 /// The fault of an id that no road user of the scene has.
 pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
     let shown: String = id.chars().take(64).collect();
-    let detail = Sentence::UnknownAgent.english(&Values::from([("id", shown.into())]));
-    FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, detail)
+    let message = english::unknown_agent(&shown);
+    FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message.english)
 }
 
 impl From<ReadError> for Problem {

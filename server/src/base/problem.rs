@@ -82,10 +82,7 @@ impl Refusal {
     /// Headers that go with it.
     fn headers(&self) -> Vec<(HeaderName, HeaderValue)> {
         let Self(problem) = self;
-        let text = |name: &str| {
-            let value = problem.values.get(name).and_then(|value| value.as_str());
-            value.and_then(|value| HeaderValue::from_str(value).ok())
-        };
+        let text = |name: &str| problem.facts.get(name).and_then(|value| HeaderValue::from_str(value).ok());
         let by_code = match problem.code {
             Code::Unauthorized => Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"))),
             Code::UpgradeRequired => Some((header::UPGRADE, HeaderValue::from_static("websocket"))),
@@ -104,9 +101,9 @@ impl Refusal {
     }
 }
 
-/// Value of a problem: the methods that an address knows, as the header Allow has them.
+/// Fact of a problem: the methods that an address knows, as the header Allow has them.
 pub const ALLOWED: &str = "allowed";
-/// Value of a problem: the encodings that a body may have, as the header Accept-Encoding has them.
+/// Fact of a problem: the encodings that a body may have, as the header Accept-Encoding has them.
 pub const ENCODINGS: &str = "encodings";
 
 impl IntoResponse for Refusal {
@@ -151,7 +148,7 @@ mod tests {
         assert_eq!(header(busy, "retry-after").as_deref(), Some("3"));
         let unauthorized = Problem::new(Code::Unauthorized, "no");
         assert_eq!(header(unauthorized, "www-authenticate").as_deref(), Some("Bearer"));
-        let method = Problem::new(Code::MethodNotAllowed, "no").value(super::ALLOWED, "GET, HEAD");
+        let method = Problem::new(Code::MethodNotAllowed, "no").fact(super::ALLOWED, "GET, HEAD");
         assert_eq!(header(method, "allow").as_deref(), Some("GET, HEAD"));
         assert_eq!(header(Problem::new(Code::NotFound, "no"), "retry-after"), None);
     }

@@ -366,7 +366,7 @@ fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
         (Some(b"zstd"), None) => Ok(Encoding::Zstd),
         _ => {
             let detail = "Content-Encoding may be gzip or zstd, once.";
-            Err(Problem::new(Code::UnsupportedMediaType, detail).value(ENCODINGS, "gzip, zstd"))
+            Err(Problem::new(Code::UnsupportedMediaType, detail).fact(ENCODINGS, "gzip, zstd"))
         }
     }
 }

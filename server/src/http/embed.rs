@@ -23,7 +23,7 @@ pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response 
     }
     if method != Method::GET && method != Method::HEAD {
         let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
-        return Refusal::from(problem.value(ALLOWED, "GET, HEAD")).into_response();
+        return Refusal::from(problem.fact(ALLOWED, "GET, HEAD")).into_response();
     }
     let name = path.trim_start_matches('/');
     match Editor::get(name).filter(|_| !is_packed(name)) {

@@ -6,7 +6,8 @@
 
 use super::net::Carrier;
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
+use crate::base::problem::{ProblemDoc, Refusal};
+use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
 use axum::http::{HeaderMap, HeaderValue, Request, header};
@@ -80,8 +81,9 @@ impl ServerMessage {
 
     /// The last message of a question that cannot be answered, or no further.
     fn failed(ask: u64, problem: Problem) -> Result<Message, axum::Error> {
-        let document = serde_json::to_vec(&problem.doc(None, None)).map_err(axum::Error::new)?;
-        Self { ask, head: Some(Head::of(&problem.into_response())), last: true }.with(&document)
+        let refusal = Refusal::from(problem);
+        let document = ProblemDoc::of(&refusal.0, None, None).text();
+        Self { ask, head: Some(Head::of(&refusal.into_response())), last: true }.with(document.as_bytes())
     }
 }
 

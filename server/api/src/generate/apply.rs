@@ -1,7 +1,7 @@
 //! The scene that a request is about, with its road users and conditions of this call.
 
 use super::request::{GenerateRequest, KeptFutures, MOST_ANGLE_RAD, more_than_a_turn};
-use crate::english::Sentence;
+use crate::english;
 use crate::problem::{Problem, refuse, unknown_agent};
 use formats::native::{ConditionsDoc, Context, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
@@ -45,7 +45,7 @@ impl GenerateRequest {
                 Ok(conditions) => {
                     for k in conditions.unknown_edges(&scene.map) {
                         let at = format!("{pointer}/goal/may_cross/{k}");
-                        faults.push(FieldProblem::new(at, "invalid-field", Sentence::UnknownEdge.text()));
+                        faults.push(FieldProblem::new(at, "invalid-field", english::unknown_edge().english));
                     }
                     agent.conditions = conditions;
                 }

@@ -3,7 +3,7 @@
 use super::concerned;
 use super::request::{AgentChoice, GenerateRequest, ReactChoice, StreamModes};
 use crate::code::Code;
-use crate::english::Sentence;
+use crate::english;
 use crate::feedback::FeedbackDoc;
 use crate::limits::CallLimits;
 use crate::problem::{Problem, refuse, unknown_agent};
@@ -36,13 +36,13 @@ impl GenerateRequest {
             ReactChoice::Ids(ids) => React::Only(self.known(scene, "/react", ids)?),
         };
         if agents.as_ref().is_some_and(BTreeSet::is_empty) && react == React::Nobody {
-            return Err(Problem::said(Code::InvalidField, Sentence::NobodyAsked, []).at("/agents"));
+            return Err(Problem::of(Code::InvalidField, english::nobody_asked()).at("/agents"));
         }
         let named = agents.as_ref().map_or(0, BTreeSet::len);
         let most = limits.regenerated_agents;
         if named as u64 > most {
-            let values = [("count", named.into()), ("most", most.into())];
-            let problem = Problem::said(Code::TooManyAgents, Sentence::TooManyRegenerated, values);
+            let message = english::too_many_regenerated(named, most as usize);
+            let problem = Problem::of(Code::TooManyAgents, message);
             return Err(problem.at("/agents").limit(most));
         }
         let horizon_steps = self.horizon_steps();
@@ -76,8 +76,8 @@ impl GenerateRequest {
         let points = answered * self.modes * count * horizon_steps as u64;
         let most = limits.reply_points;
         if points > most {
-            let values = [("points", points.into()), ("most", most.into())];
-            let problem = Problem::said(Code::ReplyTooLarge, Sentence::TooManyPoints, values);
+            let message = english::too_many_points(points as usize, most as usize);
+            let problem = Problem::of(Code::ReplyTooLarge, message);
             return Err(problem.at("/samples").limit(most));
         }
         Ok(request)
@@ -99,7 +99,7 @@ impl GenerateRequest {
                 None => faults.push(FieldProblem::new(
                     format!("/pinned/{i}"),
                     "invalid-field",
-                    Sentence::NoFutureKept.text(),
+                    english::no_future_kept().english,
                 )),
             }
         }

@@ -1,7 +1,7 @@
 //! Numbers of a request that do not depend on the scene.
 
 use super::request::{GenerateRequest, ShownDoc};
-use crate::english::{Sentence, Values};
+use crate::english;
 use crate::limits::{DIVERSITY, DRAFT_MS, LEAST_HORIZON_S, MODES, MOST_HORIZON_S, REPLAN_S, SAMPLES, STEPS};
 use crate::problem::{Problem, refuse};
 use crate::score;
@@ -31,7 +31,7 @@ impl GenerateRequest {
         let mut faults: Vec<_> =
             outside.map(|(pointer, min, max, got)| FieldProblem::range(pointer, min, max, got)).collect();
         if let Some(got) = self.replan_interval_s.filter(|s| !REPLAN_S.contains(s)) {
-            let detail = Sentence::ReplanInterval.english(&Values::from([("got", got.into())]));
+            let detail = english::replan_interval(got).english;
             faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", detail));
         }
         faults.extend(score::beyond(&self.thresholds));
@@ -43,9 +43,7 @@ impl ShownDoc {
     /// The places that count.
     pub(super) fn places(&self, pointer: &str) -> Result<Vec<Vec2>, FieldProblem> {
         if self.x_m.len() != self.y_m.len() {
-            let values =
-                Values::from([("count", self.y_m.len().into()), ("expected", self.x_m.len().into())]);
-            let detail = Sentence::UnequalColumns.english(&values);
+            let detail = english::unequal_columns(self.y_m.len(), self.x_m.len()).english;
             return Err(FieldProblem::new(format!("{pointer}/y_m"), "invalid-field", detail));
         }
         let places = self.x_m.iter().zip(&self.y_m).take(MOST_SHOWN);

@@ -1,7 +1,7 @@
 //! What a generation is asked for: the request with its defaults.
 
 use crate::compact::FuturesForm;
-use crate::english::{Sentence, Values};
+use crate::english;
 use crate::feedback::FeedbackDoc;
 use crate::home::{AboutScene, SceneRef, one_scene};
 use experts::request::DEFAULTS;
@@ -260,5 +260,5 @@ impl GenerateRequest {
 pub fn more_than_a_turn(got: f64) -> String {
     let radians = format!("{:.4}", got.to_radians());
     let got = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
-    Sentence::MoreThanATurn.english(&Values::from([("got", got.into()), ("radians", radians.into())]))
+    english::more_than_a_turn(&got, &radians).english
 }

@@ -932,9 +932,11 @@ export interface components {
             kind: components["schemas"]["CheckKind"];
             /** @description Lanes it is about. */
             lanes: string[];
+            /** @description The finding as data. */
+            message: components["schemas"]["Message"];
             /** @description All is well. */
             passed: boolean;
-            /** @description In words. */
+            /** @description The finding in English. */
             text: string;
         };
         /**
@@ -2009,10 +2011,12 @@ export interface components {
          * @description Something a reader changed or left out without refusing.
          */
         ImportWarning: {
-            /** @description A word that programs can switch on. */
+            /** @description The kind of change; programs switch on it. */
             code: string;
-            /** @description For people. */
+            /** @description The change in English. */
             detail: string;
+            /** @description The change as data. */
+            message: components["schemas"]["Message"];
         };
         /**
          * ImportedBody
@@ -2651,6 +2655,23 @@ export interface components {
             traffic: components["schemas"]["Traffic"];
         };
         /**
+         * Message
+         * @description One sentence.
+         */
+        Message: {
+            /** @description Names the sentence; it never changes. */
+            code: string;
+            /** @description What fills its placeholders. An optional value that is absent is left out. */
+            values: {
+                [key: string]: components["schemas"]["MessageValue"];
+            };
+        };
+        /**
+         * MessageValue
+         * @description A value in a sentence. Its unit is the suffix of its name (`_m`, `_s`, `_mps`, `_mps2`).
+         */
+        MessageValue: number | string;
+        /**
          * MetaDoc
          * @description Where the scene came from and what people say about it.
          */
@@ -3055,6 +3076,8 @@ export interface components {
              * @description Line of the fault, from 1.
              */
             line?: number;
+            /** @description `detail` as data. */
+            message?: components["schemas"]["Message"];
             /**
              * Format: uint64
              * @description Byte of the decoded file.
@@ -3147,6 +3170,8 @@ export interface components {
         } | {
             /** @description Limit that binds. */
             limiting: components["schemas"]["Limiting"];
+            /** @description The reason as data. */
+            message: components["schemas"]["Message"];
             /** @description State at the goal time that comes nearest. */
             nearest: components["schemas"]["NearestState"];
             /**
@@ -3156,9 +3181,9 @@ export interface components {
             needs: number | null;
             /** @constant */
             status: "unreachable";
-            /** @description Who is in the way, where somebody is. */
+            /** @description The agent in the way, if there is one. */
             with?: string | null;
-            /** @description One sentence for people. */
+            /** @description The reason in English. */
             words: string;
         };
         /**
@@ -4514,12 +4539,14 @@ export interface components {
          * @description Something unlikely that was done anyway.
          */
         Warning: {
-            /** @description Whom it concerns. */
+            /** @description The agent that it concerns. */
             agent: string | null;
             /** @description A word that programs can switch on. */
             code: components["schemas"]["WarningCode"];
-            /** @description One sentence. */
+            /** @description The warning in English. */
             detail: string;
+            /** @description The warning as data. */
+            message: components["schemas"]["Message"];
         };
         /**
          * WarningCode
