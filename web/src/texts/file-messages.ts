@@ -1,6 +1,5 @@
 // The warnings of the readers of files, by their codes: see `messages.ts`.
-import type { Values } from './messages';
-import { table } from './table';
+import { table, type Values } from './table';
 
 export const TEXTS = table('file-messages', {
   lists: { subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' } },

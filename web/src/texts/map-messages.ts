@@ -1,6 +1,5 @@
 // The checks of a drawn map, by their codes: see `messages.ts`.
-import type { Values } from './messages';
-import { table } from './table';
+import { table, type Values } from './table';
 
 export const TEXTS = table('map-messages', {
   lists: { vehicle: { bus: '12 m bus', car: '5 m car' } },

@@ -1,11 +1,6 @@
 // The sentences of the engine, by their codes: `assets/messages.json` lists them with their values. Each value comes as
 // text in the units of the page; a value that is absent is empty.
-import { table } from './table';
-
-export type Values = Readonly<Record<string, string>>;
-
-/** A sentence about a value, where the value is present. */
-export const need = (value: string, sentence: (x: string) => string): string => (value ? sentence(value) : '');
+import { need, table, type Values } from './table';
 
 export const TEXTS = table('messages', {
   /** Before a sentence that holds from a time on. */

@@ -1,6 +1,5 @@
 // The sentences of refused requests, by their codes: see `messages.ts`.
-import type { Values } from './messages';
-import { table } from './table';
+import { table, type Values } from './table';
 
 export const TEXTS = table('problem-messages', {
   lists: {},

@@ -2,7 +2,8 @@
 import { acceleration, metres, num, seconds, speedInUse } from '../base/units';
 import type { Message } from '../document/message';
 import { armTitle } from './arm-names';
-import { TEXTS, type Values } from '../../texts/messages';
+import { TEXTS } from '../../texts/messages';
+import type { Values } from '../../texts/table';
 
 /** Sentences by code, and the words of values that name a thing of a list. */
 export interface Sentences {

@@ -1,6 +1,5 @@
 import type { TEXTS } from '../file-messages';
-import type { Values } from '../messages';
-import type { Said } from '../table';
+import type { Said, Values } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   lists: {

@@ -1,5 +1,5 @@
-import { need, type TEXTS, type Values } from '../messages';
-import type { Said } from '../table';
+import type { TEXTS } from '../messages';
+import { need, type Said, type Values } from '../table';
 
 export const german: Said<typeof TEXTS> = {
   since: (time, sentence) => `Ab ${time}: ${sentence}`,
