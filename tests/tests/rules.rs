@@ -180,7 +180,7 @@ const HOUSES: &[House] = &[
         module: &[],
         floors: &[
             &["code", "english", "limits", "opened", "domain", "compact", "feedback"],
-            &["problem", "events"],
+            &["problem", "events", "messages"],
             &["home", "import", "map"],
             &["export", "info", "score", "place"],
             &["generate"],

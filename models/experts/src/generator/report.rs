@@ -8,14 +8,12 @@ use crate::request::{
     Source, Warning, WarningCode,
 };
 use crate::sentences::{self, Need, Speed, kind};
+use crate::tuning::fixed::report::OFF_ROAD_M;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::message::Message;
 use scene::motion::{Kind, Limiting, MotionState, Reach};
 use scene::via::passings;
 use scene::{AgentId, AgentType, Conditions, Passing, STEP_S, State, Via, wrap_angle};
-
-/// A start or goal farther from any lane is off the road, metres.
-const OFF_ROAD_M: f64 = 6.0;
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {

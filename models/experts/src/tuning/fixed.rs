@@ -35,6 +35,11 @@ numbers! {
         /// Harder braking must lead so much farther, metres.
         HARDER_M: f64 = 2.0;
     }
+    /// Of warnings.
+    report {
+        /// A start or goal farther from any lane is off the road, metres.
+        OFF_ROAD_M: f64 = 6.0;
+    }
     /// Of rounds with feedback.
     rounds {
         /// A round's draw is at least this diverse: a person must see what there is.
