@@ -45,6 +45,16 @@ describe('two tabs at one scene', () => {
     expect(a.said).toEqual([]);
   });
 
+  it('the first has it still when it comes back before it has left it', async () => {
+    const [a, b] = tabs();
+    await a.turns.goTo('s');
+    await b.turns.goTo('s');
+    await a.turns.goTo('other');
+    expect(await a.turns.goTo('s')).toBe(true);
+    a.turns.left();
+    expect([a.said, b.said, a.turns.holds, b.turns.holds]).toEqual([[], [], true, false]);
+  });
+
   it('only those who look at it hear of changes', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');

@@ -29,8 +29,8 @@ export class SceneTurns {
   #holds = false;
   #waiting: AbortController | null = null;
   #letGo: (() => void) | null = null;
-  /** Releases the scenes before this one. */
-  #before: (() => void)[] = [];
+  /** Scenes that were gone over from and are held yet, each with what releases it. */
+  readonly #before = new Map<string, () => void>();
 
   constructor(
     private readonly on: TurnEvents,
@@ -54,11 +54,12 @@ export class SceneTurns {
     if (scene === this.#scene) return this.holds;
     this.#waiting?.abort();
     this.#waiting = null;
-    if (this.#letGo) this.#before.push(this.#letGo);
-    this.#letGo = null;
-    this.#holds = false;
+    if (this.#letGo && this.#scene) this.#before.set(this.#scene, this.#letGo);
+    this.#letGo = this.#before.get(scene) ?? null;
+    this.#before.delete(scene);
+    this.#holds = this.#letGo !== null;
     this.#scene = scene;
-    if (!this.#locks) return true;
+    if (this.holds) return true;
     const free = await this.#request(scene, { ifAvailable: true });
     if (!free && this.#scene === scene) this.#queue(scene);
     return free;
@@ -66,8 +67,8 @@ export class SceneTurns {
 
   /** Nothing of the scenes before this one is open any more: other tabs may have them. */
   left(): void {
-    for (const letGo of this.#before) letGo();
-    this.#before = [];
+    for (const letGo of this.#before.values()) letGo();
+    this.#before.clear();
   }
 
   leave(): void {

@@ -20,6 +20,8 @@ export interface Seen {
   readonly id: string;
   readonly status: number;
   readonly json: SceneJson | null;
+  /** Its tab was closed while the request was on its way. */
+  readonly late: boolean;
 }
 
 export class ScriptedServer {
@@ -51,7 +53,7 @@ export class ScriptedServer {
         const reply =
           fate.fails === 'busy'
             ? problem(503, 'shutting-down')
-            : this.#act(collection, method, decodeURIComponent(id), init);
+            : this.#act(collection, method, decodeURIComponent(id), { init, late: !here() });
         await passes(fate.back);
         if (here() && fate.fails === 'reply') throw new TypeError('no answer');
         if (here()) return reply;
@@ -62,11 +64,16 @@ export class ScriptedServer {
     };
   }
 
-  #act(collection: string, method: string, id: string, init?: RequestInit): Response {
+  #act(
+    collection: string,
+    method: string,
+    id: string,
+    { init, late }: { init?: RequestInit; late: boolean },
+  ): Response {
     if (collection !== 'scenes') return problem(404, 'not-found');
     const json = typeof init?.body === 'string' ? (JSON.parse(init.body) as SceneJson) : null;
     const reply = this.#answer(method, id, json, new Headers(init?.headers));
-    this.seen.push({ method, id, status: reply.status, json });
+    this.seen.push({ method, id, status: reply.status, json, late });
     return reply;
   }
 

@@ -190,14 +190,14 @@ const HAPPENINGS: Record<string, Happening> = {
     },
   },
   'close the tab': {
-    weight: 2,
+    weight: 4,
     run(t, c) {
       c.world.closeTab(t);
       return '';
     },
   },
   'another tab': {
-    weight: 3,
+    weight: 8,
     everywhere: true,
     async run(_, c) {
       if (c.world.tabs.length > 1) return null;
@@ -295,14 +295,33 @@ export async function runSchedule(seed: number): Promise<Outcome> {
   return { seed, steps, broken: [...new Set(world.broken)] };
 }
 
+/** Tabs are closed at rest, with no conflict left. */
+async function closeAll(c: Course): Promise<void> {
+  for (const t of [...c.world.tabs]) {
+    const { editor, saving } = t.tab;
+    if (!c.world.broken.length && saving.conflict.peek() && !editor.lock.peek()) await endConflict(t, c);
+    c.world.closeTab(t);
+  }
+}
+
+/** "Keep this version" ends a conflict, whatever the server has; once more where that was changed again since. */
+async function endConflict({ name, tab }: OpenTab, c: Course): Promise<void> {
+  for (let tries = 0; tries < 2 && tab.saving.conflict.peek(); tries++) {
+    void tab.saving.keepMine();
+    await rest(c);
+  }
+  const state = tab.saving.state.peek();
+  if (state !== 'saved') c.world.broken.push(`${name} kept its version, and says "${state}"`);
+}
+
 /** Every scene is opened once more in a tab of its own, and comes to rest. */
 async function again(c: Course, steps: string[]): Promise<void> {
-  for (const t of [...c.world.tabs]) c.world.closeTab(t);
+  await closeAll(c);
   for (const id of SCENES) {
     steps.push(`${id} is opened in a new tab`);
     void c.world.openTab().then((t) => t && open(t, id));
     await rest(c);
-    for (const t of [...c.world.tabs]) c.world.closeTab(t);
+    await closeAll(c);
     if (c.world.broken.length) return;
   }
 }

@@ -205,8 +205,13 @@ export class World {
 
   /** At any time: what came to the server was committed before, and no example was saved. */
   checkRequests(): void {
-    for (const { method, id, json } of this.server.seen.slice(this.#seen)) {
+    for (const { method, id, json, status, late } of this.server.seen.slice(this.#seen)) {
       if (method !== 'PUT' || !json) continue;
+      // Where nothing is kept no other tab can know of it.
+      if (this.storeOff && late && status < 300) {
+        this.foreign.add(id);
+        this.#foreignDocuments.add(versionOf(readScene(json)));
+      }
       if (!OWN.includes(id)) this.broken.push(`the example was saved: PUT ${id}`);
       else if (!this.#documents.get(id)!.has(versionOf(readScene(json))))
         this.broken.push(`the server got a document of ${id} that was never committed`);
@@ -239,7 +244,8 @@ export class World {
     const overwritten = this.foreign.has(scene.id) && (!there || this.#isForeign(there.json));
     if (state === 'saved' && !isThere && !overwritten) this.broken.push(`${says}, which the server does not have`);
     if (state === 'saving' || state === 'example') this.broken.push(`${says} at rest`);
-    if (state === 'conflict' && !this.foreign.has(scene.id)) this.broken.push(`${says}, which nobody else changed`);
+    if (state === 'conflict' && !this.foreign.has(scene.id) && !this.storeOff)
+      this.broken.push(`${says}, which nobody else changed`);
     if (state !== 'saved' && state !== 'conflict') this.broken.push(`${says} although the server answers`);
   }
 

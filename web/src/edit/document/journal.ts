@@ -57,9 +57,9 @@ export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: 
 /** Names what is to be saved of a scene, shortly. */
 const digestOf = (scene: Scene): string => shortFor(versionOf(scene));
 
-/** Does the server have the document that the kept steps lead to? */
-const isSynced = ({ head, revision, synced }: Place): boolean =>
-  synced !== null && isSameDocument(synced, { step: head, revision });
+/** Does the server have the document that the kept steps lead to, with no other one on its way there? */
+const isSynced = ({ head, revision, synced, sent = [] }: Place): boolean =>
+  synced !== null && !sent.length && isSameDocument(synced, { step: head, revision });
 
 /** What all road users do in the document that the kept steps lead to, as far as it is kept. */
 export function keptAnswers(kept: KeptScene | null): GeneratedJson | null {

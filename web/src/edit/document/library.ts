@@ -4,6 +4,7 @@ import { Away, Refused, type Client } from '../../net/client';
 import { keep } from '../../net/storage';
 import type { KeptScene } from '../../net/step-store';
 import { SceneTurns, type TurnEvents } from '../../net/scene-lock';
+import type { Committed } from '../../model/document/history';
 import { isMapRef, type MapJson, type SceneJson } from '../../model/document/scene-json';
 import { readScene, SceneError } from '../../model/document/scene-reader';
 import { readGenerated } from '../../model/words/named-futures';
@@ -27,6 +28,13 @@ interface Fetched {
   readonly plain: Scene;
   /** Undefined where the server was not reached. */
   readonly etag: string | null | undefined;
+}
+
+/** A scene that was asked for: what came, what this tab knew of it before, and how it is asked for once more. */
+interface Asked {
+  readonly first: Fetched;
+  readonly before: { readonly committed: Committed | null; readonly etag: string | null };
+  fetch(): Promise<Fetched>;
 }
 
 /** Whose answers a scene that was opened lacks: of none it is judged alone. */
@@ -139,36 +147,37 @@ export class Library {
   /** The scene before stays in hand until the other one is on screen and all of its steps are written. */
   async #bring(id: string, fetch: () => Promise<Fetched>, again: boolean): Promise<void> {
     const turn = ++this.#asked;
+    const before = this.#known(id);
     const first = await fetch();
     if (turn !== this.#asked) return;
     this.#reached = turn;
     await this.#turns.goTo(id);
-    const { fetched, kept } = await this.#newest(id, first, fetch);
+    const { fetched, kept } = await this.#newest(id, { first, before, fetch });
     if (turn !== this.#reached) return;
-    const before = this.#adopt(fetched, kept, again);
-    void Promise.all([before, this.journal.flush()]).then(() => this.#turns.left());
+    const left = this.#adopt(fetched, kept, again);
+    void Promise.all([left, this.journal.flush()]).then(() => this.#turns.left());
+  }
+
+  /** What this tab itself knows of a scene: its document, where it is open, and its version on the server. */
+  #known(id: string): Asked['before'] {
+    const committed = this.session.document.committed.peek();
+    return { committed: committed?.scene.id === id ? committed : null, etag: this.saving.etagOf(id) };
   }
 
   /**
-   * What the server has and what is kept, of one moment: asked for anew where another version was saved since, by this
-   * tab or by the one that had the scene before.
+   * What the server has and what is kept, of one moment: asked for anew where another version was committed or saved
+   * since, by this tab or by the one that had the scene before.
    */
-  async #newest(
-    id: string,
-    first: Fetched,
-    fetch: () => Promise<Fetched>,
-  ): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
-    const { document } = this.session;
-    for (let fetched = first, asked = false; ; asked = true) {
-      const [before, saved, mine] = [document.committed.peek(), this.saving.etagOf(id), this.#turns.holds];
+  async #newest(id: string, { first, before, fetch }: Asked): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
+    for (let fetched = first, known = before, again = false; ; again = true) {
+      const mine = this.#turns.holds;
       await this.journal.flush();
       const kept = await this.journal.read(id);
       const synced = kept?.place.synced?.etag;
-      const moved =
-        this.#turns.holds !== mine ||
-        this.saving.etagOf(id) !== saved ||
-        (before?.scene.id === id && before !== document.committed.peek());
-      if (!moved && (asked || !synced || synced === fetched.etag)) return { fetched, kept };
+      const { committed, etag } = this.#known(id);
+      const moved = this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
+      if (!moved && (again || !synced || synced === fetched.etag)) return { fetched, kept };
+      known = this.#known(id);
       fetched = await fetch().catch(() => fetched);
     }
   }
@@ -179,20 +188,23 @@ export class Library {
     const { document } = session;
     const mine = this.#turns.holds;
     const own = this.list.isOwn(plain.id);
-    let etag = found === undefined ? (kept?.place.synced?.etag ?? saving.etagOf(plain.id)) : found;
+    const away = found === undefined;
+    let etag = away ? (kept?.place.synced?.etag ?? saving.etagOf(plain.id)) : found;
     let { scene, history, standing } = resume(plain, kept, own, etag);
     const unsaved = saving.unsaved(plain.id);
     if (standing === 'fresh' && unsaved) {
       // Nothing is kept on this computer: the change waits in this tab alone.
       [scene, history, standing, etag] = [unsaved.committed.scene, null, 'ahead', saving.etagOf(plain.id)];
-    }
+    } else if (standing === 'fresh' && away) scene = document.scene.peek() ?? scene;
+    const current = !away && standing !== 'ahead' && standing !== 'conflict';
+    const generated = current ? json.generated : standing === 'fresh' ? this.file.answers() : keptAnswers(kept);
+    // What the server has is not known: it is told once it is back, and says whether it has another version.
+    if (away && own && standing !== 'conflict') standing = 'ahead';
     journal.letGo();
     this.file.adopt(json, map, true);
     this.file.mapRef = this.#mapRefOf(json);
     keep('last-scene', scene.id);
     this.list.noteOpened(scene.id);
-    const current = standing !== 'ahead' && standing !== 'conflict';
-    const generated = current ? json.generated : keptAnswers(kept);
     const answers = generated ? readGenerated({ ...json, generated }, scene) : null;
     const seen = { who: session.selection.peek(), when: session.time.peek() };
     batch(() => {
@@ -204,7 +216,7 @@ export class Library {
     if (mine) {
       journal.follow(document.history!, scene.id, history && kept, own);
       if (standing === 'behind') void journal.retry();
-      if (own && etag && current) journal.synced(committed, etag);
+      if (own && etag && standing !== 'ahead' && standing !== 'conflict') journal.synced(committed, etag);
       if (standing === 'ahead') saving.changed();
       void journal.tidy((id) => this.list.isOwn(id));
     }
