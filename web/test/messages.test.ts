@@ -3,20 +3,20 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { toldIn } from '../src/model/base/units';
 import { messageText } from '../src/model/words/message-text';
-import { TEXTS as FILES } from '../src/texts/file-messages';
+import { SENTENCES as FILES } from '../src/texts/file-messages';
 import { german as germanFiles } from '../src/texts/german/file-messages';
 import { german as germanMaps } from '../src/texts/german/map-messages';
 import { german } from '../src/texts/german/messages';
-import { TEXTS as MAPS } from '../src/texts/map-messages';
+import { SENTENCES as MAPS } from '../src/texts/map-messages';
 import { german as germanProblems } from '../src/texts/german/problem-messages';
-import { TEXTS as PROBLEMS } from '../src/texts/problem-messages';
-import { TEXTS } from '../src/texts/messages';
+import { SENTENCES as PROBLEMS } from '../src/texts/problem-messages';
+import { SENTENCES } from '../src/texts/messages';
 
 const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
 const together = (...tables: { readonly sentences: object }[]): object =>
   Object.assign({}, ...tables.map((table) => table.sentences));
 const LANGUAGES = {
-  english: together(TEXTS, FILES, MAPS, PROBLEMS),
+  english: together(SENTENCES, FILES, MAPS, PROBLEMS),
   german: together(german, germanFiles, germanMaps, germanProblems),
 } as Record<string, Record<string, string | ((values: Record<string, string>) => string)>>;
 

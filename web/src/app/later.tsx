@@ -7,37 +7,140 @@ import { useSignal } from '@preact/signals';
 import { NOT_LOADED } from './incomplete';
 import { TEXTS } from '../texts/page';
 
+/** Counts the attempts, so that each has an address of its own. */
+let attempts = 0;
+
+/** Browsers may keep the failure of a module under its address; the next attempt takes another one. */
+function loadAnew<M>(error: unknown): Promise<M> {
+  const address = /https?:\S+\.js/.exec(String(error))?.[0];
+  if (!address) throw error;
+  return import(/* @vite-ignore */ `${address}?attempt=${++attempts}`) as Promise<M>;
+}
+
+/** Fetches a module and takes one part of it. */
+const of =
+  <M, P>(load: () => Promise<M>, pick: (module: M) => P) =>
+  async (): Promise<P> =>
+    pick(await load().catch(loadAnew<M>));
+
 /** In the order in which they are likely to be wanted. */
 const PARTS = {
-  hint: () => import('./hud/coach').then((m) => m.Coach),
-  'speed points': () => import('./timeline/speed-points').then((m) => m.SpeedPoints),
-  agent: () => import('./inspector/agent-panel').then((m) => m.AgentPanel),
-  handles: () => import('./inspector/agent-panel').then((m) => m.Sliders),
-  palette: () => import('./dialogs/palette').then((m) => m.Palette),
-  'context menu': () => import('./context-menu').then((m) => m.ContextMenu),
-  events: () => import('./inspector/events-panel').then((m) => m.EventsPanel),
-  several: () => import('./inspector/several-panel').then((m) => m.SeveralPanel),
-  place: () => import('./hud/place-panel').then((m) => m.PlacePanel),
-  points: () => import('./timeline/point-fields').then((m) => m.PointFields),
-  scenes: () => import('./scenes/drawer').then((m) => m.Drawer),
-  fill: () => import('./hud/fill-panel').then((m) => m.default),
-  history: () => import('./history/panel').then((m) => m.HistoryPanel),
-  'empty scene': () => import('./hud/empty-scene').then((m) => m.EmptyScene),
-  empty: () => import('./scenes/empty').then((m) => m.Empty),
-  variants: () => import('./variants/strip').then((m) => m.default),
-  cases: () => import('./cases/panel').then((m) => m.default),
-  compare: () => import('./variants/compare-panel').then((m) => m.default),
-  'compare view': () => import('./variants/compare-view').then((m) => m.default),
-  templates: () => import('./layouts/templates').then((m) => m.default),
-  layout: () => import('./layouts/panel').then((m) => m.default),
-  'round cards': () => import('./rounds/strip').then((m) => m.default),
-  rounds: () => import('./rounds/panel').then((m) => m.default),
-  import: () => import('./dialogs/import-files').then((m) => m.ImportFiles),
-  'import report': () => import('./dialogs/import-report').then((m) => m.ImportReport),
-  export: () => import('./outward/export').then((m) => m.default),
-  share: () => import('./outward/share').then((m) => m.default),
-  'save-as': () => import('./dialogs/save-as').then((m) => m.SaveAs),
-  shortcuts: () => import('./dialogs/shortcuts').then((m) => m.Shortcuts),
+  hint: of(
+    () => import('./hud/coach'),
+    (m) => m.Coach,
+  ),
+  'speed points': of(
+    () => import('./timeline/speed-points'),
+    (m) => m.SpeedPoints,
+  ),
+  agent: of(
+    () => import('./inspector/agent-panel'),
+    (m) => m.AgentPanel,
+  ),
+  handles: of(
+    () => import('./inspector/agent-panel'),
+    (m) => m.Sliders,
+  ),
+  palette: of(
+    () => import('./dialogs/palette'),
+    (m) => m.Palette,
+  ),
+  'context menu': of(
+    () => import('./context-menu'),
+    (m) => m.ContextMenu,
+  ),
+  events: of(
+    () => import('./inspector/events-panel'),
+    (m) => m.EventsPanel,
+  ),
+  several: of(
+    () => import('./inspector/several-panel'),
+    (m) => m.SeveralPanel,
+  ),
+  place: of(
+    () => import('./hud/place-panel'),
+    (m) => m.PlacePanel,
+  ),
+  points: of(
+    () => import('./timeline/point-fields'),
+    (m) => m.PointFields,
+  ),
+  scenes: of(
+    () => import('./scenes/drawer'),
+    (m) => m.Drawer,
+  ),
+  fill: of(
+    () => import('./hud/fill-panel'),
+    (m) => m.default,
+  ),
+  history: of(
+    () => import('./history/panel'),
+    (m) => m.HistoryPanel,
+  ),
+  'empty scene': of(
+    () => import('./hud/empty-scene'),
+    (m) => m.EmptyScene,
+  ),
+  empty: of(
+    () => import('./scenes/empty'),
+    (m) => m.Empty,
+  ),
+  variants: of(
+    () => import('./variants/strip'),
+    (m) => m.default,
+  ),
+  cases: of(
+    () => import('./cases/panel'),
+    (m) => m.default,
+  ),
+  compare: of(
+    () => import('./variants/compare-panel'),
+    (m) => m.default,
+  ),
+  'compare view': of(
+    () => import('./variants/compare-view'),
+    (m) => m.default,
+  ),
+  templates: of(
+    () => import('./layouts/templates'),
+    (m) => m.default,
+  ),
+  layout: of(
+    () => import('./layouts/panel'),
+    (m) => m.default,
+  ),
+  'round cards': of(
+    () => import('./rounds/strip'),
+    (m) => m.default,
+  ),
+  rounds: of(
+    () => import('./rounds/panel'),
+    (m) => m.default,
+  ),
+  import: of(
+    () => import('./dialogs/import-files'),
+    (m) => m.ImportFiles,
+  ),
+  'import report': of(
+    () => import('./dialogs/import-report'),
+    (m) => m.ImportReport,
+  ),
+  export: of(
+    () => import('./outward/export'),
+    (m) => m.default,
+  ),
+  share: of(
+    () => import('./outward/share'),
+    (m) => m.default,
+  ),
+  'save-as': of(
+    () => import('./dialogs/save-as'),
+    (m) => m.SaveAs,
+  ),
+  shortcuts: of(
+    () => import('./dialogs/shortcuts'),
+    (m) => m.Shortcuts,
+  ),
 } as const;
 
 type Parts = typeof PARTS;

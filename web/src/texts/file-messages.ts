@@ -1,7 +1,7 @@
 // The warnings of the readers of files, by their codes: see `messages.ts`.
 import { table, type Values } from './table';
 
-export const TEXTS = table('file-messages', {
+export const SENTENCES = table('file-messages', {
   lists: { subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' } },
   sentences: {
     'agents-near-ego': (v: Values) => `${v.found} road users; the ${v.kept} nearest to the ego are kept`,

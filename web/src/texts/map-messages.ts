@@ -1,7 +1,7 @@
 // The checks of a drawn map, by their codes: see `messages.ts`.
 import { table, type Values } from './table';
 
-export const TEXTS = table('map-messages', {
+export const SENTENCES = table('map-messages', {
   lists: { vehicle: { bus: '12 m bus', car: '5 m car' } },
   sentences: {
     'lanes-lead': 'Every lane leads somewhere',

@@ -1,7 +1,7 @@
 // The sentences of refused requests, by their codes: see `messages.ts`.
 import { table, type Values } from './table';
 
-export const TEXTS = table('problem-messages', {
+export const SENTENCES = table('problem-messages', {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `the scene has no road user \"${v.id}\"`,

@@ -14,9 +14,6 @@ export type Said<T> = {
 /** Values of a sentence of the server, by name, as text in the units of the page; one that is absent is empty. */
 export type Values = Readonly<Record<string, string>>;
 
-/** A sentence about a value, where the value is present. */
-export const need = (value: string, sentence: (x: string) => string): string => (value ? sentence(value) : '');
-
 /** The words of an area, as this language says them. */
 export function table<const T extends Words>(area: string, english: T): Said<T> {
   const said = change ? change.area(area, english) : english;

@@ -211,6 +211,10 @@ export function startStandIn(options = {}) {
               limiting: 'speed',
               needs: null,
               words: `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.`,
+              message: {
+                code: 'goal-too-far',
+                values: { time_s: g.time_s ?? 9, goal_m: d, start_mps: 5, kind: 'vehicle', most_m: d / 2 },
+              },
             }
           : { status: 'reached', position_m: 0, heading_rad: 0, speed_mps: 0 },
         ...(o.judged ? { by_road: byRoad(g) } : {}),

@@ -3,7 +3,7 @@ import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { messageText } from '../../model/words/message-text';
-import { TEXTS as SENTENCES } from '../../texts/file-messages';
+import { SENTENCES } from '../../texts/file-messages';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';

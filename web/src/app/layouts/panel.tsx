@@ -4,7 +4,7 @@ import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { messageText } from '../../model/words/message-text';
-import { TEXTS as SENTENCES } from '../../texts/map-messages';
+import { SENTENCES } from '../../texts/map-messages';
 import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';

@@ -2,7 +2,7 @@
 import { acceleration, metres, num, seconds, speedInUse } from '../base/units';
 import type { Message } from '../document/message';
 import { armTitle } from './arm-names';
-import { TEXTS } from '../../texts/messages';
+import { SENTENCES } from '../../texts/messages';
 import type { Values } from '../../texts/table';
 
 /** Sentences by code, and the words of values that name a thing of a list. */
@@ -25,7 +25,7 @@ function valueText(name: string, value: string | number, onFoot: boolean, { list
 }
 
 /** A sentence of a table, or what the server calls it in English where the table does not have its code. */
-export function messageText({ code, values }: Message, english = code, table: Sentences = TEXTS): string {
+export function messageText({ code, values }: Message, english = code, table: Sentences = SENTENCES): string {
   const sentence = table.sentences[code];
   if (sentence === undefined) return english;
   const onFoot = values.kind === 'pedestrian';
@@ -33,5 +33,5 @@ export function messageText({ code, values }: Message, english = code, table: Se
   const written =
     typeof sentence === 'string' ? sentence : sentence(new Proxy<Values>({}, { get: (_, name) => text(String(name)) }));
   const { since_s: since } = values;
-  return typeof since === 'number' ? TEXTS.since(seconds(since), written) : written;
+  return typeof since === 'number' ? SENTENCES.since(seconds(since), written) : written;
 }

@@ -1,7 +1,7 @@
-import type { TEXTS } from '../file-messages';
+import type { SENTENCES } from '../file-messages';
 import type { Said, Values } from '../table';
 
-export const german: Said<typeof TEXTS> = {
+export const german: Said<typeof SENTENCES> = {
   lists: {
     subject: { 'road-users': 'Verkehrsteilnehmer', 'map-features': 'Kartenelemente', tracks: 'Spuren der Aufnahme' },
   },

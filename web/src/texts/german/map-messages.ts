@@ -1,7 +1,7 @@
-import type { TEXTS } from '../map-messages';
+import type { SENTENCES } from '../map-messages';
 import type { Said, Values } from '../table';
 
-export const german: Said<typeof TEXTS> = {
+export const german: Said<typeof SENTENCES> = {
   lists: { vehicle: { bus: '12-m-Bus', car: '5-m-Auto' } },
   sentences: {
     'lanes-lead': 'Jede Spur führt weiter',

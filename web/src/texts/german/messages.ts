@@ -1,21 +1,21 @@
-import type { TEXTS } from '../messages';
-import { need, type Said, type Values } from '../table';
+import type { SENTENCES } from '../messages';
+import type { Said, Values } from '../table';
 
-export const german: Said<typeof TEXTS> = {
+export const german: Said<typeof SENTENCES> = {
   since: (time, sentence) => `Ab ${time}: ${sentence}`,
   lists: { kind: { vehicle: 'dieses Fahrzeug', cyclist: 'dieses Fahrrad', pedestrian: 'diese Person' } },
   sentences: {
     'goal-too-far': (v: Values) =>
       `Zu weit für ${v.time_s}. Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} aus ${v.start_mps} kommt ${v.kind} höchstens ${v.most_m} weit.`,
     'goal-too-fast': (v: Values) =>
-      `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich.${need(v.need_mps2, (x) => ` Nötig wären ${x}.`)}`,
+      `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
     'goal-above-top-speed': (v: Values) =>
-      `Schneller, als ${v.kind} fahren oder gehen kann.${need(v.need_mps, (x) => ` Nötig wären ${x}.`)}`,
+      `Schneller, als ${v.kind} fahren oder gehen kann.${v.need_mps && ` Nötig wären ${v.need_mps}.`}`,
     'goal-too-near': (v: Values) =>
-      `So bald ist Anhalten nicht möglich. Aus ${v.start_mps} sind ${v.least_m} nötig, das Ziel ist ${v.goal_m} entfernt.${need(v.need_mps2, (x) => ` Nötig wären ${x}.`)}`,
+      `So bald ist Anhalten nicht möglich. Aus ${v.start_mps} sind ${v.least_m} nötig, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
     'goal-too-slow': (v: Values) =>
-      `So starkes Bremsen ist in ${v.time_s} nicht möglich.${need(v.need_mps2, (x) => ` Nötig wären ${x}.`)}`,
-    'goal-too-tight': (v: Values) => `Zu eng bei diesem Tempo.${need(v.need_mps2, (x) => ` Nötig wären quer ${x}.`)}`,
+      `So starkes Bremsen ist in ${v.time_s} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+    'goal-too-tight': (v: Values) => `Zu eng bei diesem Tempo.${v.need_mps2 && ` Nötig wären quer ${v.need_mps2}.`}`,
     'goal-turn-too-tight': (v: Values) => `Die Kurve ist für ${v.kind} zu eng.`,
     'goal-blocked': (v: Values) =>
       `Im Weg für ${v.kind}: Verkehrsteilnehmer ${v.agent}. Der Halt liegt ${v.short_m} vor dem Ziel.`,

@@ -1,7 +1,7 @@
-import type { TEXTS } from '../problem-messages';
+import type { SENTENCES } from '../problem-messages';
 import type { Said, Values } from '../table';
 
-export const german: Said<typeof TEXTS> = {
+export const german: Said<typeof SENTENCES> = {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
