@@ -200,7 +200,8 @@ const HAPPENINGS: Record<string, Happening> = {
     weight: 8,
     everywhere: true,
     async run(_, c) {
-      if (c.world.tabs.length > 1) return null;
+      // Where nothing is kept two tabs know nothing of each other's changes.
+      if (c.world.tabs.length > (c.world.storeOff ? 0 : 1)) return null;
       return begin(c);
     },
   },

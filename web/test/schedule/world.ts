@@ -188,6 +188,11 @@ export class World {
       if (last) this.#entries.push({ scene: scene.id, tab: open, step: last });
     });
     effect(() => {
+      // A tab that hands a scene over leaves it to the next one to save it.
+      const scene = document.lock.value && document.scene.peek();
+      if (scene && this.#newest.get(scene.id)?.tab === open) this.#newest.set(scene.id, { scene, tab: null });
+    });
+    effect(() => {
       if (notices.crash.value) this.broken.push(`${open.name} crashed: ${notices.crash.value}`);
     });
   }

@@ -75,7 +75,7 @@ function isWhole({ steps, place }: KeptScene): boolean {
 
 /** What is to be saved of a scene: what is asked, and what people call things. */
 export const versionOf = (scene: Scene): string =>
-  sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene)]);
+  sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene), scene.feedback]);
 
 /** A version that was sent from here, or a document that undo leads back to, is no other version. */
 function standingOf(

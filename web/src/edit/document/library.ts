@@ -26,8 +26,9 @@ interface Fetched {
   readonly json: SceneJson;
   readonly map: MapJson;
   readonly plain: Scene;
-  /** Undefined where the server was not reached. */
-  readonly etag: string | null | undefined;
+  readonly etag: string | null;
+  /** The server was not reached for the newest. */
+  readonly away?: true;
 }
 
 /** A scene that was asked for: what came, what this tab knew of it before, and how it is asked for once more. */
@@ -95,7 +96,7 @@ export class Library {
     const { raw, map, stored } = this.file;
     if (!plain || !raw || !map || !stored) return;
     // Without the server what is kept on this computer is enough.
-    const here: Fetched = { json: raw, map, plain: readScene(raw, map), etag: undefined };
+    const here: Fetched = { json: raw, map, plain: readScene(raw, map), etag: null, away: true };
     await this.#bring(plain.id, () => this.#fetch(plain.id).catch(() => here), true);
   }
 
@@ -169,35 +170,35 @@ export class Library {
    * since, by this tab or by the one that had the scene before.
    */
   async #newest(id: string, { first, before, fetch }: Asked): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
+    let mine = this.#turns.holds;
     for (let fetched = first, known = before, again = false; ; again = true) {
-      const mine = this.#turns.holds;
       await this.journal.flush();
       const kept = await this.journal.read(id);
       const synced = kept?.place.synced?.etag;
       const { committed, etag } = this.#known(id);
       const moved = this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
       if (!moved && (again || !synced || synced === fetched.etag)) return { fetched, kept };
-      known = this.#known(id);
-      fetched = await fetch().catch(() => fetched);
+      [known, mine] = [this.#known(id), this.#turns.holds];
+      fetched = await fetch().catch((): Fetched => ({ ...fetched, away: true }));
     }
   }
 
   /** Puts a scene on screen; ends when the one before is saved, or cannot be. */
-  #adopt({ json, map, plain, etag: found }: Fetched, kept: KeptScene | null, again: boolean): Promise<void> {
+  #adopt({ json, map, plain, etag: found, away }: Fetched, kept: KeptScene | null, again: boolean): Promise<void> {
     const { session, journal, saving } = this;
     const { document } = session;
     const mine = this.#turns.holds;
     const own = this.list.isOwn(plain.id);
-    const away = found === undefined;
-    let etag = away ? (kept?.place.synced?.etag ?? saving.etagOf(plain.id)) : found;
+    const open = this.#known(plain.id).committed;
+    let etag = away ? (kept?.place.synced?.etag ?? (open ? saving.etagOf(plain.id) : found)) : found;
     let { scene, history, standing } = resume(plain, kept, own, etag);
     const unsaved = saving.unsaved(plain.id);
     if (standing === 'fresh' && unsaved) {
       // Nothing is kept on this computer: the change waits in this tab alone.
       [scene, history, standing, etag] = [unsaved.committed.scene, null, 'ahead', saving.etagOf(plain.id)];
-    } else if (standing === 'fresh' && away) scene = document.scene.peek() ?? scene;
+    } else if (standing === 'fresh' && away && open) scene = open.scene;
     const current = !away && standing !== 'ahead' && standing !== 'conflict';
-    const generated = current ? json.generated : standing === 'fresh' ? this.file.answers() : keptAnswers(kept);
+    const generated = current ? json.generated : standing === 'fresh' && open ? this.file.answers() : keptAnswers(kept);
     // What the server has is not known: it is told once it is back, and says whether it has another version.
     if (away && own && standing !== 'conflict') standing = 'ahead';
     journal.letGo();
@@ -297,7 +298,7 @@ export class Library {
     const id = document.scene.peek()?.id;
     if (!id) return;
     try {
-      const { plain, etag = null } = await this.#fetch(id);
+      const { plain, etag } = await this.#fetch(id);
       document.afterTrial(() => {
         // The other version may have been replaced meanwhile.
         if (document.scene.peek()?.id !== id || document.lock.peek() || !this.saving.conflict.peek()) return;

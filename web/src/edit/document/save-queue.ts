@@ -18,8 +18,8 @@ export interface SaveEvents {
   saved(snapshot: Snapshot, etag: string | null): void;
   /** A snapshot is about to be sent; it is when this ends. */
   sending(snapshot: Snapshot): Promise<void>;
-  /** Was this version, found on the server, sent from here? */
-  isOurs(theirs: SceneJson): boolean;
+  /** Is a version, found on the server, this one, another one that was sent from here, or none of ours? */
+  compare(theirs: SceneJson, snapshot: Snapshot): 'same' | 'ours' | 'theirs';
 }
 
 /** A change waits so long for the next one. */
@@ -146,7 +146,7 @@ export class SaveQueue {
       const etag = await this.#put(snapshot);
       return () => this.#saved(snapshot, etag);
     } catch (e) {
-      if (e instanceof Refused && (e.status === 412 || e.status === 404)) return this.#compare();
+      if (e instanceof Refused && (e.status === 412 || e.status === 404)) return this.#compare(snapshot);
       return () => this.#away(e);
     }
   }
@@ -172,11 +172,13 @@ export class SaveQueue {
   }
 
   /** The server has another version than the one that was to be replaced: it may be ours, with its reply lost. */
-  async #compare(): Promise<() => void> {
+  async #compare(snapshot: Snapshot): Promise<() => void> {
     try {
       const { json, etag } = await this.client.scene(this.id);
       return () => {
-        if (!this.on.isOurs(json)) return this.#contradicted(etag);
+        const found = this.on.compare(json, snapshot);
+        if (found === 'theirs') return this.#contradicted(etag);
+        if (found === 'same') return this.#saved(snapshot, etag);
         this.#etag = etag;
         this.#due = true;
       };

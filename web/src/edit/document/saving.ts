@@ -6,7 +6,7 @@ import type { Committed } from '../../model/document/history';
 import { readScene } from '../../model/document/scene-reader';
 import type { Client } from '../../net/client';
 import type { Document } from './document';
-import type { Journal, Standing } from './journal';
+import { versionOf, type Journal, type Standing } from './journal';
 import { SaveQueue, type Conflict, type QueueState } from './save-queue';
 import type { SceneFile, Snapshot } from './scene-file';
 import type { SceneList } from './scene-list';
@@ -143,7 +143,7 @@ export class Saving {
     const queue: SaveQueue = new SaveQueue(id, this.client, {
       saved: (snapshot, etag) => this.#saved(queue, snapshot, etag),
       sending: ({ committed }) => atMost(SENDING_MS, this.journal.sending(committed)),
-      isOurs: (theirs) => this.#isOurs(theirs),
+      compare: (theirs, snapshot) => this.#compare(theirs, snapshot),
     });
     this.#queues.set(id, queue);
     return queue;
@@ -159,9 +159,12 @@ export class Saving {
   }
 
   /** A save whose reply was lost, or that the tab before sent late, is no other version. */
-  #isOurs(theirs: SceneJson): boolean {
-    const map = isMapRef(theirs.map) ? this.file.map : theirs.map;
-    return map !== null && this.journal.wasSent(readScene(theirs, map));
+  #compare(theirs: SceneJson, { committed, map }: Snapshot): 'same' | 'ours' | 'theirs' {
+    const there = isMapRef(theirs.map) ? map : theirs.map;
+    if (!there) return 'theirs';
+    const scene = readScene(theirs, there);
+    if (versionOf(scene) === versionOf(committed.scene)) return 'same';
+    return this.journal.wasSent(scene) ? 'ours' : 'theirs';
   }
 }
 
