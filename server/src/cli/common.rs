@@ -94,6 +94,7 @@ impl Common {
     ///
     /// # Errors
     /// Exit 7.
+    #[cfg(feature = "lab")]
     pub fn generator(&self) -> Result<experts::Generator, Failure> {
         Ok(self.engine()?.generator)
     }
