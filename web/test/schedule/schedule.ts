@@ -282,6 +282,8 @@ export async function runSchedule(seed: number): Promise<Outcome> {
     await clock.pass(100);
     const most = LEAST_STEPS + dice.below(MOST_STEPS - LEAST_STEPS);
     for (let i = 0; i < most && !world.broken.length; i++) {
+      // A person does something when no promise waits, as events of a page come.
+      await clock.pass(0);
       steps.push(await step(c));
       world.checkRequests();
     }

@@ -31,13 +31,6 @@ interface Fetched {
   readonly away?: true;
 }
 
-/** A scene that was asked for: what came, what this tab knew of it before, and how it is asked for once more. */
-interface Asked {
-  readonly first: Fetched;
-  readonly before: { readonly committed: Committed | null; readonly etag: string | null };
-  fetch(): Promise<Fetched>;
-}
-
 /** Whose answers a scene that was opened lacks: of none it is judged alone. */
 export type Missing = 'none' | 'changed' | 'everybody';
 
@@ -148,39 +141,35 @@ export class Library {
   /** The scene before stays in hand until the other one is on screen and all of its steps are written. */
   async #bring(id: string, fetch: () => Promise<Fetched>, again: boolean): Promise<void> {
     const turn = ++this.#asked;
-    const before = this.#known(id);
-    const first = await fetch();
+    let known = this.#known(id);
+    let fetched = await fetch();
     if (turn !== this.#asked) return;
     this.#reached = turn;
     await this.#turns.goTo(id);
-    const { fetched, kept } = await this.#newest(id, { first, before, fetch });
-    if (turn !== this.#reached) return;
-    const left = this.#adopt(fetched, kept, again);
-    void Promise.all([left, this.journal.flush()]).then(() => this.#turns.left());
+    let mine = this.#turns.holds;
+    // What the server has and what is kept must be of one moment: both are asked for anew where another version was
+    // committed or saved since, by this tab or by the one that had the scene before.
+    for (let asked = false; ; asked = true) {
+      await this.journal.flush();
+      const kept = await this.journal.read(id);
+      if (turn !== this.#reached) return;
+      const { committed, etag } = this.#known(id);
+      const synced = kept?.place.synced?.etag;
+      const moved = this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
+      if (!moved && (asked || !synced || synced === fetched.etag)) {
+        const left = this.#adopt(fetched, kept, again);
+        return void Promise.all([left, this.journal.flush()]).then(() => this.#turns.left());
+      }
+      [known, mine] = [this.#known(id), this.#turns.holds];
+      const older = fetched;
+      fetched = await fetch().catch((): Fetched => ({ ...older, away: true }));
+    }
   }
 
   /** What this tab itself knows of a scene: its document, where it is open, and its version on the server. */
-  #known(id: string): Asked['before'] {
+  #known(id: string): { readonly committed: Committed | null; readonly etag: string | null } {
     const committed = this.session.document.committed.peek();
     return { committed: committed?.scene.id === id ? committed : null, etag: this.saving.etagOf(id) };
-  }
-
-  /**
-   * What the server has and what is kept, of one moment: asked for anew where another version was committed or saved
-   * since, by this tab or by the one that had the scene before.
-   */
-  async #newest(id: string, { first, before, fetch }: Asked): Promise<{ fetched: Fetched; kept: KeptScene | null }> {
-    let mine = this.#turns.holds;
-    for (let fetched = first, known = before, again = false; ; again = true) {
-      await this.journal.flush();
-      const kept = await this.journal.read(id);
-      const synced = kept?.place.synced?.etag;
-      const { committed, etag } = this.#known(id);
-      const moved = this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
-      if (!moved && (again || !synced || synced === fetched.etag)) return { fetched, kept };
-      [known, mine] = [this.#known(id), this.#turns.holds];
-      fetched = await fetch().catch((): Fetched => ({ ...fetched, away: true }));
-    }
   }
 
   /** Puts a scene on screen; ends when the one before is saved, or cannot be. */

@@ -6,7 +6,7 @@ export const german: Said<typeof SENTENCES> = {
   lists: { kind: { vehicle: 'dieses Fahrzeug', cyclist: 'dieses Fahrrad', pedestrian: 'diese Person' } },
   sentences: {
     'goal-too-far': (v: Values) =>
-      `Zu weit für ${v.time_s}. Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} aus ${v.start_mps} kommt ${v.kind} höchstens ${v.most_m} weit.`,
+      `Zu weit für ${v.time_s}. Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} kommt ${v.kind} aus ${v.start_mps} höchstens ${v.most_m} weit.`,
     'goal-too-fast': (v: Values) =>
       `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
     'goal-above-top-speed': (v: Values) =>
