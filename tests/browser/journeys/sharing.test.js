@@ -108,7 +108,7 @@ journeys('sharing', (stage) => {
     // 3 pictures and 90 cm a row: 9 m/s.
     for (const c of cars) assert.ok(Math.abs(c.speed - 9) < 0.5, `${c.speed} m/s`);
     await e.page.locator('.toast .btn').click();
-    assert.match(await e.text('.dlg.import .notes'), /Headings come from the way/);
+    assert.match(await e.text('.dlg.import .notes'), /Headings are derived from the motion/);
   });
 
   it('takes what it can of a broken file, and of one that is too large', { timeout: 60_000 }, async () => {
