@@ -230,3 +230,26 @@ describe('a document that was saved', () => {
     expect(there.agents.get('1')!.goal.pos).toEqual([12, 3]);
   });
 });
+
+describe('a scene that is opened again while a change waits', () => {
+  it('and that was changed elsewhere meanwhile is not overwritten by what waits', async () => {
+    const store = new PassingStepStore();
+    tab = new Tab(server, { store });
+    await tab.list.refresh();
+    await open('mine');
+    tab.editor.run(setSeed(7));
+    await pass(1000);
+    server.put('mine', { ...server.scenes.get('mine')!.json, name: 'Theirs' });
+    server.fate = (method) => (method === 'GET' ? { there: 50 } : {});
+    const opened = tab.library.again();
+    tab.editor.run(setSeed(8));
+    tab.editor.undo();
+    await pass(3000);
+    await opened;
+    expect([nameOf('mine'), tab.editor.scene.peek()!.name, tab.saving.state.peek()]).toEqual([
+      'Theirs',
+      'Theirs',
+      'saved',
+    ]);
+  });
+});

@@ -132,6 +132,8 @@ export class SaveQueue {
     while (this.#due && this.#newest && !this.#conflict.peek()) {
       this.#due = false;
       const snapshot = this.#newest;
+      await this.on.sending(snapshot);
+      if (turn !== this.#turn) return;
       const end = await this.#try(snapshot);
       if (turn !== this.#turn) return;
       end();
@@ -142,8 +144,7 @@ export class SaveQueue {
   /** What follows from a request, to be done where it still counts. */
   async #try(snapshot: Snapshot): Promise<() => void> {
     try {
-      await this.on.sending(snapshot);
-      const etag = await this.#put(snapshot);
+      const etag = await this.#put(snapshot, this.#etag);
       return () => this.#saved(snapshot, etag);
     } catch (e) {
       if (e instanceof Refused && (e.status === 412 || e.status === 404)) return this.#compare(snapshot);
@@ -161,12 +162,12 @@ export class SaveQueue {
     this.on.saved(snapshot, etag);
   }
 
-  async #put(snapshot: Snapshot): Promise<string | null> {
+  async #put(snapshot: Snapshot, etag: string | null): Promise<string | null> {
     try {
-      return await this.client.save(this.id, snapshot.body(), this.#etag);
+      return await this.client.save(this.id, snapshot.body(), etag);
     } catch (e) {
       const unknownMap = e instanceof Refused && e.problem.code === 'unknown-map';
-      if (unknownMap) return this.client.save(this.id, snapshot.complete(), this.#etag);
+      if (unknownMap) return this.client.save(this.id, snapshot.complete(), etag);
       throw e;
     }
   }

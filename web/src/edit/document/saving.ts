@@ -72,7 +72,9 @@ export class Saving {
    * when the one before is saved, or cannot be.
    */
   opened(committed: Committed, etag: string | null, standing: Standing): Promise<void> {
-    const before = this.#open.peek()?.flush() ?? Promise.resolve();
+    const queue = this.#open.peek();
+    const other = queue !== this.#queues.get(committed.scene.id);
+    const before = (other && queue?.flush()) || Promise.resolve();
     this.#openAs(committed, etag, standing);
     return before;
   }
