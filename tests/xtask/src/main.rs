@@ -258,15 +258,7 @@ fn built(name: &str) -> anyhow::Result<PathBuf> {
     Ok(target.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
 }
 
-/// The program that `cargo test --workspace` has built, else built now.
+/// The program as it stands: a build that is older than the sources would be checked in their place.
 fn program() -> anyhow::Result<PathBuf> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-    let program = target.join("debug/dragtraffic");
-    if !program.is_file()
-        && let Outcome::Failed(why) =
-            run(cargo_command().arg("build").args(WHOLE).args(["--bin", "dragtraffic"]))?
-    {
-        bail!(why);
-    }
-    Ok(program.canonicalize()?)
+    Ok(built("dragtraffic")?.canonicalize()?)
 }
