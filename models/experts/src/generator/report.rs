@@ -121,7 +121,10 @@ pub(super) fn reach_report(
         },
         Reach::Unreachable { nearest, limiting, needs, .. } => {
             let reason = reason(actor, nearest, *limiting, *needs, blocked_by);
-            let message = since_s.map_or(reason.clone(), |since_s| sentences::since(reason, since_s));
+            let message = match since_s {
+                Some(since_s) => sentences::since(reason, since_s),
+                None => reason,
+            };
             ReachReport::Unreachable {
                 nearest: nearest.into(),
                 limiting: (*limiting).into(),
