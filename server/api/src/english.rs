@@ -2,8 +2,8 @@
 
 scene::messages! {
     unknown_agent(id: &str) = "unknown-agent", "the scene has no road user \"{id}\"";
-    nobody_asked() =
-        "nobody-asked", "\"all\" or at least one id expected, or at least one road user that reacts";
+    no_agents_named() =
+        "no-agents-named", "\"all\" or at least one id expected, or at least one road user that reacts";
     too_many_regenerated(count: usize, most: usize) =
         "too-many-regenerated", "{count} road users to regenerate; at most {most}";
     too_many_points(points: usize, most: usize) =

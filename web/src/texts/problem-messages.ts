@@ -5,7 +5,7 @@ export const SENTENCES = table('problem-messages', {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `the scene has no road user \"${v.id}\"`,
-    'nobody-asked': '\"all\" or at least one id expected, or at least one road user that reacts',
+    'no-agents-named': '\"all\" or at least one id expected, or at least one road user that reacts',
     'too-many-regenerated': (v: Values) => `${v.count} road users to regenerate; at most ${v.most}`,
     'too-many-points': (v: Values) => `the reply would have ${v.points} points; at most ${v.most}`,
     'no-future-kept': 'the scene keeps no future of this road user from the start on',

@@ -36,7 +36,7 @@ impl GenerateRequest {
             ReactChoice::Ids(ids) => React::Only(self.known(scene, "/react", ids)?),
         };
         if agents.as_ref().is_some_and(BTreeSet::is_empty) && react == React::Nobody {
-            return Err(Problem::of(Code::InvalidField, english::nobody_asked()).at("/agents"));
+            return Err(Problem::of(Code::InvalidField, english::no_agents_named()).at("/agents"));
         }
         let named = agents.as_ref().map_or(0, BTreeSet::len);
         let most = limits.regenerated_agents;

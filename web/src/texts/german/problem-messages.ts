@@ -5,7 +5,7 @@ export const german: Said<typeof SENTENCES> = {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
-    'nobody-asked':
+    'no-agents-named':
       '„all“ oder mindestens eine Kennung wird erwartet, oder mindestens ein Verkehrsteilnehmer, der reagiert',
     'too-many-regenerated': (v: Values) => `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
     'too-many-points': (v: Values) => `Die Antwort hätte ${v.points} Punkte; höchstens ${v.most}`,
