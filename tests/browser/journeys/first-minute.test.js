@@ -92,7 +92,7 @@ journeys('the first minute', (stage) => {
       moves: 72,
       then: (i) => (i === 48 ? e.picture('mid-drag') : null),
     });
-    assert.match(await e.text('.helpbar'), /where they would wait/);
+    assert.match(await e.text('.helpbar'), /where others would wait/);
     await e.settled();
     assert.match(await e.text('.status'), /Six futures/);
     const [previews, foreseen] = [false, true].map((react) => e.wire.since(mark).filter((a) => a.body.react === react));

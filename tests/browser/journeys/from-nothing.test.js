@@ -40,7 +40,7 @@ journeys('from nothing', (stage) => {
   it('a cut-in: two cars, a goal in the other lane, and all of it kept', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     const { a, b } = lanesBeside(await openEmpty(e));
-    assert.match(await e.text('.nobody'), /Nobody is on it yet/);
+    assert.match(await e.text('.nobody'), /No road users yet/);
     await e.picture('nobody');
     await e.key('c');
     assert.equal(await e.shows('.nobody'), false);

@@ -175,7 +175,7 @@ journeys('goals and values', (stage) => {
     await play.click();
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.5);
     await play.click();
-    await e.page.getByRole('button', { name: 'To the start' }).click();
+    await e.page.getByRole('button', { name: 'Go to start' }).click();
     await e.settled();
 
     const done = { page: await e.inspector(), scene: await stored(e, id) };

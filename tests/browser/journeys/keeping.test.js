@@ -122,12 +122,12 @@ journeys('keeping', (stage) => {
     await e.cdp.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1 });
     await e.type('goal-time', '8.0');
     await e.page.waitForSelector('.banner');
-    assert.match(await e.text('.banner'), /No room left on this computer for saving\./);
+    assert.match(await e.text('.banner'), /No space left on this computer for saving\./);
     await e.page.getByRole('button', { name: 'Export', exact: true }).last().click();
     await e.page.waitForSelector('.flyout.export');
     await e.key('Escape');
     await e.cdp.send('Storage.overrideQuotaForOrigin', { origin });
-    await e.page.getByRole('button', { name: 'Make room' }).click();
+    await e.page.getByRole('button', { name: 'Free space' }).click();
     await e.page.waitForSelector('.banner', { state: 'detached' });
     const kept = await e.page.evaluate(
       () =>
@@ -162,7 +162,7 @@ journeys('keeping', (stage) => {
       await e.key('Enter');
       await e.page.waitForSelector('.banner');
       assert.match(await e.text('.banner'), /This scene was changed elsewhere\..*Nothing is overwritten/s);
-      await e.page.getByRole('button', { name: 'Open the other one' }).click();
+      await e.page.getByRole('button', { name: 'Open other version' }).click();
       await e.until(() => document.querySelector('.title input').value === 'Theirs');
       await undo(e);
       assert.equal(await e.page.inputValue('.title input'), 'Mine');

@@ -9,7 +9,7 @@ const making = (e) => e.page.evaluate(() => document.querySelector('.stage').get
 /** The map that was asked for last is on the picture. */
 async function drawn(e) {
   await e.frames(2);
-  await e.until(() => /worked out in/.test(document.querySelector('.status')?.textContent ?? ''));
+  await e.until(() => /lanes? · \d+ crosswalks? · \d+ ms/.test(document.querySelector('.status')?.textContent ?? ''));
   await e.settled();
   assert.ok(await making(e));
 }

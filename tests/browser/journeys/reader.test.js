@@ -25,7 +25,7 @@ journeys('by a screen reader', (stage) => {
     assert.equal(named('complementary').length, 1);
     assert.ok(named('navigation').some((n) => /^Road users, \d+$/.test(n)));
     assert.ok(named('navigation').includes('Tools'));
-    for (const tool of ['Select and drag', 'Move the picture', 'Measure', 'Place a car', 'Place a pedestrian'])
+    for (const tool of ['Select and drag', 'Pan the view', 'Measure', 'Place a car', 'Place a pedestrian'])
       assert.ok(
         named('button').some((n) => n.startsWith(tool)),
         `${tool} among ${named('button').join(', ')}`,
@@ -116,7 +116,7 @@ journeys('by a screen reader', (stage) => {
     assert.ok(cyclists.length && cyclists.every((u) => u.kind === 'Cyclist'));
     await press(e, 'radio', 'Vehicles');
     await press(e, 'button', 'With a goal');
-    await e.page.getByText('Nobody is like that.').waitFor();
+    await e.page.getByText('No matches.').waitFor();
     await press(e, 'button', 'With a goal');
     const car = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.speed > 4);
     await press(e, 'button', new RegExp(`^${car.name}, `));

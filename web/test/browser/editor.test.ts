@@ -98,7 +98,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await said.waitFor();
     expect(await said.innerText()).toContain('Your scenes are safe.');
     await d.page.unroute('**/assets/desk-*.js');
-    await said.getByRole('button', { name: 'Load again' }).click();
+    await said.getByRole('button', { name: 'Reload' }).click();
     await d.ready();
   });
 
@@ -111,7 +111,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
     const previews = () => d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
     await expect.poll(() => previews().length).toBeGreaterThan(2);
-    expect(await d.text('.helpbar')).toContain('where they would wait');
+    expect(await d.text('.helpbar')).toContain('where others would wait');
     await d.release();
     // Whether it was asked while the hand still moved or on release: about the same goal.
     const last = d.server.log.filter((l) => l.react).at(-1)!;
@@ -141,9 +141,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
     for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
     await d.key('h');
-    await expect.poll(() => d.text('.helpbar')).toContain('show the others’ answers');
+    await expect.poll(() => d.text('.helpbar')).toContain('show others’ reactions');
     await d.key('h');
-    await expect.poll(() => d.text('.helpbar')).toContain('hide the others’ answers');
+    await expect.poll(() => d.text('.helpbar')).toContain('hide others’ reactions');
     const asked = d.server.log.filter((l) => l.react).length;
     await d.release();
     expect(d.server.log.filter((l) => l.react).length).toBe(asked);
@@ -320,7 +320,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     );
     await d.page.waitForSelector('.banner', { timeout: 9000 });
     // While the hand is there panels say it a moment later.
-    await d.page.waitForFunction(() => document.querySelector('.status')!.textContent!.includes('Generator away'));
+    await d.page.waitForFunction(() => document.querySelector('.status')!.textContent!.includes('Generator offline'));
     await d.page.waitForFunction(() => !document.querySelector('.fu'));
     await d.page.mouse.up();
     await d.page.waitForFunction(() => /1 change waiting/.test(document.querySelector('.status')!.textContent!));
@@ -598,6 +598,6 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } }));
     });
     await d.page.waitForSelector('.empty');
-    expect(await d.text('.empty')).toContain('Bring a scene');
+    expect(await d.text('.empty')).toContain('Import a scene');
   });
 });

@@ -180,7 +180,7 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
   it('are German where it is chosen, and the page says so', async () => {
     d = await (await Driver.open(browser, {}, '/', speaking('de'))).ready();
     expect(await d.page.getAttribute('html', 'lang')).toBe('de');
-    expect(await d.text('.coach')).toContain('Auf ein Auto klicken');
+    expect(await d.text('.coach')).toContain('Auf einen Pkw klicken');
     expect(await d.page.locator('[data-action="undo"]').getAttribute('aria-label')).toBe('Rückgängig');
     await d.select('1');
     await d.settled();

@@ -288,8 +288,8 @@ describe('placing', () => {
     p.click(p.at(x, y));
     expect(all()).toHaveLength(n);
     const toast = p.editor.notices.toast.peek()!;
-    expect(toast.text).toMatch(/^Car 1 stands here/);
-    expect([toast.action?.label, toast.second?.label]).toEqual(['Further on', 'Put here']);
+    expect(toast.text).toMatch(/^Car 1 is here/);
+    expect([toast.action?.label, toast.second?.label]).toEqual(['Place ahead', 'Place here']);
     toast.action!.run();
     expect(all()).toHaveLength(n + 1);
     const put = p.editor.agent.peek()!;
@@ -349,8 +349,8 @@ describe('placing', () => {
     p.up(p.at(100, 100));
     const placed = p.editor.selected.peek().length;
     expect(placed).toBeLessThan(50);
-    if (placed) expect(p.editor.undoName.peek()).toMatch(/of 50 buses placed, no room for more/);
-    else expect(p.editor.notices.toast.peek()?.text).toBe('There is no room here.');
+    if (placed) expect(p.editor.undoName.peek()).toMatch(/of 50 buses placed: no room for more/);
+    else expect(p.editor.notices.toast.peek()?.text).toBe('No room here.');
   });
 });
 

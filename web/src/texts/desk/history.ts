@@ -1,15 +1,15 @@
-import { table } from '../table';
+import { plural, table } from '../table';
 
 export const TEXTS = table('history', {
   history: 'History',
   ofSteps: (at: number, count: number) => `${at} of ${count} steps`,
-  nothingDoneYet: 'nothing done yet',
-  olderSteps: (count: number) => `${count} older steps`,
-  oneBack: 'one back',
-  keptOnThisComputer: 'Kept on this computer',
-  howItWas: 'How it was',
+  nothingDoneYet: 'no steps yet',
+  olderSteps: (count: number) => plural(count, { one: `${count} older step`, other: `${count} older steps` }),
+  oneBack: 'one step back',
+  keptOnThisComputer: 'Stored on this computer',
+  howItWas: 'Initial state',
   beforeTheFirst: 'before the first step',
-  goBackToThis: 'go back to this one',
+  goBackToThis: 'go back to this step',
   branch: 'branch',
   named: 'named',
   nameThisStep: 'Name this step',

@@ -4,7 +4,7 @@ export const TEXTS = table('number-field', {
   less: 'less',
   more: 'more',
   changeTheUnit: 'Change the unit',
-  isNoNumber: (trim: string) => `“${trim}” is no number`,
+  isNoNumber: (trim: string) => `“${trim}” is not a number`,
   notANumber: 'Not a number',
   to: (text: string, text2: string, unit: string) => `${text} to ${text2} ${unit}`,
   dragToChange: 'Drag to change',

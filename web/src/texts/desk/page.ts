@@ -1,12 +1,12 @@
 import { table } from '../table';
 
 export const TEXTS = table('page', {
-  thereAreNoRoad: 'There are no road users on the clipboard.',
+  thereAreNoRoad: 'No road users on the clipboard.',
   thisPartOfThe: 'This part of the editor did not load. Nothing is lost.',
   theEditorDid: 'The editor did not load completely. Your scenes are safe.',
-  loadAgain: 'Load again',
+  loadAgain: 'Reload',
   tryAgain: 'Try again',
-  loadThePageAnew: 'Load the page anew',
+  loadThePageAnew: 'Reload the page',
   roadUser: 'road user',
   dropToImport: 'Drop to import',
   nearlyClosed: 'nearly closed',
@@ -20,7 +20,7 @@ export const TEXTS = table('page', {
   readOnly: 'Read-only',
   savedOnThisComputer: 'Saved on this computer',
   changedElsewhere: 'Changed elsewhere',
-  noRoomToSave: 'No room to save',
+  noRoomToSave: 'No space to save',
   notSaved: 'Not saved',
   newMap: 'New map',
   fileAndSettings: 'File and settings',

@@ -1,17 +1,17 @@
 import { table } from '../table';
 
 export const TEXTS = table('parts', {
-  noSeed: (typed: string) => `“${typed}” is no seed: that is a whole number.`,
+  noSeed: (typed: string) => `“${typed}” is not a seed: enter a whole number.`,
   seed: 'Seed',
   diversity: 'Diversity',
   waiting: 'Waiting …',
   generate: 'Generate',
-  howFarTheSix: 'How far the six may differ',
+  howFarTheSix: 'How much the six futures may differ',
   react: 'React',
   replayLog: 'Replay log',
-  goOn: 'Go on',
+  goOn: 'Continue',
   holdStill: 'Hold still',
-  everybodyYou: 'Everybody adapts when you let go; who has a goal still meets it.',
-  theyDoWhatWas: 'They do what was recorded; who was put here goes on as it did.',
-  theyStayWhere: 'They stay where they start, and nobody else comes in.',
+  everybodyYou: 'All road users react on release; goals are still met.',
+  theyDoWhatWas: 'Recorded road users replay the log; placed ones continue unchanged.',
+  theyStayWhere: 'Others stay at their start; nobody else arrives.',
 });

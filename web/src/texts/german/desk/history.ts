@@ -1,16 +1,17 @@
 import type { TEXTS } from '../../desk/history';
+import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   history: 'Verlauf',
   ofSteps: (at: number, all: number) => `${at} von ${all} Schritten`,
-  nothingDoneYet: 'noch nichts getan',
-  olderSteps: (count) => `${count} ältere Schritte`,
-  oneBack: 'einen zurück',
-  keptOnThisComputer: 'Auf diesem Rechner behalten',
-  howItWas: 'Wie es war',
+  nothingDoneYet: 'noch keine Schritte',
+  olderSteps: (count) => plural(count, { one: `${count} älterer Schritt`, other: `${count} ältere Schritte` }),
+  oneBack: 'einen Schritt zurück',
+  keptOnThisComputer: 'Auf diesem Rechner gesichert',
+  howItWas: 'Anfangszustand',
   beforeTheFirst: 'vor dem ersten Schritt',
-  goBackToThis: 'hierher zurück',
+  goBackToThis: 'zurück zu diesem Schritt',
   branch: 'Zweig',
   named: 'benannt',
   nameThisStep: 'Diesen Schritt benennen',
