@@ -120,8 +120,8 @@ journeys('correcting a log', (stage) => {
   it('everybody plans anew every three seconds, over twelve', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    const again = e.page.getByRole('group', { name: 'How often everybody plans anew' });
-    await e.page.getByRole('group', { name: 'How much is worked out' }).getByRole('button', { name: '12' }).click();
+    const again = e.page.getByRole('group', { name: 'Planning window of all road users' });
+    await e.page.getByRole('group', { name: 'Computed length' }).getByRole('button', { name: '12' }).click();
     await e.settled();
     const mark = e.wire.asked.length;
     await again.getByRole('button', { name: '3', exact: true }).click();

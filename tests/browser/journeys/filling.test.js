@@ -103,9 +103,9 @@ journeys('filling', (stage) => {
     const everywhere = await preview(e);
     assert.ok(everywhere.length > 20, `${everywhere.length} on the whole map`);
     await draw(e, ARM);
-    await slide(e, 'How busy', 6);
+    await slide(e, 'Density', 6);
     const few = await preview(e);
-    await slide(e, 'How busy', 10);
+    await slide(e, 'Density', 10);
     const many = await preview(e);
     assert.ok(few.length >= 3 && many.length > few.length, `${few.length}, then ${many.length}`);
     assert.ok(
@@ -146,9 +146,9 @@ journeys('filling', (stage) => {
       const before = await count(e);
       await start(e);
       await draw(e, ARM);
-      await slide(e, 'How busy', 10);
+      await slide(e, 'Density', 10);
       const first = await preview(e);
-      const seed = await e.page.inputValue('[aria-label="Seed of the fill"]');
+      const seed = await e.page.inputValue('[aria-label="Seed for filling"]');
       const good = first.find((p) => p.x > 15 && p.x < 44 && p.y > -12 && p.y < 10);
       assert.ok(good, 'somebody stands well inside');
       await e.page.mouse.click(...(await e.at(good.x, good.y)));
@@ -169,7 +169,7 @@ journeys('filling', (stage) => {
       assert.equal(second.length, first.length, 'as many as before');
       // Let go of, with the first seed typed in, it is the first draw again.
       await e.page.mouse.click(...(await e.at(good.x, good.y)));
-      const field = e.page.locator('[aria-label="Seed of the fill"]');
+      const field = e.page.locator('[aria-label="Seed for filling"]');
       await field.fill(seed);
       await field.press('Enter');
       await e.settled();
@@ -204,9 +204,9 @@ journeys('filling', (stage) => {
     await e.letGo();
     await start(e);
     await draw(e, ARM);
-    await e.page.getByRole('switch', { name: 'Keep what is there' }).click();
+    await e.page.getByRole('switch', { name: 'Keep existing' }).click();
     await e.settled();
-    assert.match(await e.text('.filling .note'), new RegExp(`^${here.length - 1} make room`));
+    assert.match(await e.text('.filling .note'), new RegExp(`^${here.length - 1} removed`));
     const shown = await preview(e);
     await e.key('Enter');
     await e.settled();
@@ -262,7 +262,7 @@ journeys('filling', (stage) => {
       await e.page.locator('.nobody [data-action="tool-fill"]').click();
       await e.page.waitForSelector('.filling .arms');
       await e.key('PageDown');
-      await slide(e, 'How busy', 0);
+      await slide(e, 'Density', 0);
       assert.deepEqual(await preview(e), []);
       const said = await e.page.request.post(new URL('/v1/place', e.page.url()).href, {
         data: { scene_id: 'demo-crossing', density: { per_lane_km: 0 } },

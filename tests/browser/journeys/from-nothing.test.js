@@ -199,13 +199,13 @@ journeys('from nothing', (stage) => {
     const closest = e.page.locator('.closest');
     const words = await closest.innerText();
     const [, who, metres, seconds] =
-      /^(.+): ([\d.]+ m|they touch)\s+at ([\d.]+) s$/.exec(words.replace(/\s+/g, ' ')) ?? [];
+      /^(.+): ([\d.]+ m|in contact)\s+at ([\d.]+) s$/.exec(words.replace(/\s+/g, ' ')) ?? [];
     assert.match(who ?? words, /Cyclist/);
     await closest.click();
     await e.settled();
     assert.ok((await e.text('.tm')).startsWith(seconds), `${await e.text('.tm')}, ${words}`);
     await e.picture('closest');
-    assert.ok(metres === 'they touch' || parseFloat(metres) < 12, words);
+    assert.ok(metres === 'in contact' || parseFloat(metres) < 12, words);
     await e.key('Home');
     await saved(e);
     assert.equal((await stored(e)).agents.length, 21);

@@ -10,7 +10,7 @@ journeys('judging', (stage) => {
     await e.begin();
     const { car, obstacle } = await carBehindAnother(e);
     await e.page
-      .getByRole('group', { name: 'What the others do' })
+      .getByRole('group', { name: 'Behaviour of others' })
       .first()
       .getByRole('button', { name: 'Hold still' })
       .click();
@@ -26,7 +26,7 @@ journeys('judging', (stage) => {
     await badge.click();
     await e.page.waitForSelector('.evrow');
     assert.ok((await e.text('.tm')).startsWith(at), `the playhead stands at ${at} s`);
-    assert.match(await e.text('aside.insp'), /Collision at \d\.\d s[\s\S]*What you can do/);
+    assert.match(await e.text('aside.insp'), /Collision at \d\.\d s[\s\S]*Remedies/);
     await e.settled();
     await e.picture('events');
     // What counts is the scene's own: harder to be hard, and as usual again.
@@ -39,8 +39,8 @@ journeys('judging', (stage) => {
     await e.until(() =>
       /Hard braking/.test(document.querySelector('aside.insp').textContent.replace('Hard braking above', '')),
     );
-    await e.page.getByRole('button', { name: 'As usual again' }).click();
-    await e.until(() => /as usual/.test(document.querySelector('.counts').textContent));
+    await e.page.getByRole('button', { name: 'Reset to default' }).click();
+    await e.until(() => /default/.test(document.querySelector('.counts').textContent));
     await e.settled();
     await badge.click();
     await e.page.getByRole('button', { name: `Change ${car.name}`, exact: true }).click();

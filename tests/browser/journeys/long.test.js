@@ -11,11 +11,11 @@ journeys('long', (stage) => {
     const e = await stage.open();
     await e.begin();
     await e.page
-      .getByRole('group', { name: 'How often everybody plans anew' })
+      .getByRole('group', { name: 'Planning window of all road users' })
       .getByRole('button', { name: '6', exact: true })
       .click();
     await e.settled();
-    await e.page.getByRole('group', { name: 'How much is worked out' }).getByRole('button', { name: '20 s' }).click();
+    await e.page.getByRole('group', { name: 'Computed length' }).getByRole('button', { name: '20 s' }).click();
     await e.settled();
     assert.match(await e.text('.tm'), /0\.0 s\s+\/ 20\.0 s/);
     const { body } = e.wire.last();

@@ -121,9 +121,9 @@ journeys('new map', (stage) => {
     await drawn(e);
     assert.equal(await angle(e), 71);
 
-    await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Equal').click();
+    await e.page.getByRole('group', { name: 'Right of way' }).getByText('Equal').click();
     await drawn(e);
-    await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Signals').click();
+    await e.page.getByRole('group', { name: 'Right of way' }).getByText('Signals').click();
     await e.type('layout-kerb_radius_m', '10');
     await drawn(e);
     await e.page.click('[data-action="use-map"]');

@@ -101,11 +101,11 @@ journeys('rounds', (stage) => {
     await e.settled();
     assert.deepEqual(await drawn(e), second);
     // A wish is forgotten, another is said: both are plain steps.
-    await e.page.getByRole('button', { name: 'Forget: Smoother' }).first().click();
+    await e.page.getByRole('button', { name: 'Remove: Smoother' }).first().click();
     assert.ok(!(await learnt(e)).includes('Smoother'));
     await e.key('Control+z');
     assert.ok((await learnt(e)).includes('Smoother'));
-    await e.page.getByLabel('Add a wish').selectOption({ label: 'Waits longer' });
+    await e.page.getByLabel('Add a preference').selectOption({ label: 'Waits longer' });
     assert.ok((await learnt(e)).includes('Waits longer'));
     await e.key('2');
     await e.key('k');
@@ -235,7 +235,7 @@ journeys('rounds', (stage) => {
       const all = await cards(e);
       assert.equal(all.length, samples.length);
       assert.equal(new Set(all.map((c) => c.name)).size, all.length, 'names are told apart');
-      assert.match(await e.text('.rounds header'), /six ways the scene could go/);
+      assert.match(await e.text('.rounds header'), /six futures of the scene/);
       const pull = async (nth, by) => {
         const r = await e.page.locator('.rcard .face').nth(nth).boundingBox();
         const [x, y] = [r.x + r.width / 2, r.y + r.height / 2];

@@ -76,12 +76,12 @@ journeys('the speed curve', (stage) => {
       const longer = judged(e, car.id).mode;
       const stands = longer.x_m.filter((x, i) => i && x === longer.x_m[i - 1]).length;
       assert.ok(stands >= 29, `stands for ${stands} steps`);
-      assert.match(await e.text('.pointfields .brakes'), /brakes \d+\.\d m\/s² at most/);
+      assert.match(await e.text('.pointfields .brakes'), /brakes at up to \d+\.\d m\/s²/);
       await e.picture('speed-curve-three-seconds');
       // Where it brakes hard that is said; later it need not, and what it does is.
-      assert.match(await e.text('.insp .hint'), /Brakes \d\.\d m\/s² at/);
+      assert.match(await e.text('.insp .hint'), /Brakes at up to \d\.\d m\/s²/);
       await e.type('point-time', '5.3');
-      assert.match(await e.text('.insp .hint'), /^Stops for 3\.0 s, then goes on\s+Brakes 2\.\d m\/s² at most\.$/);
+      assert.match(await e.text('.insp .hint'), /^Stops for 3\.0 s, then continues\s+Brakes at up to 2\.\d m\/s²\.$/);
       await e.key('Escape');
       await e.key('Control+z');
       await e.settled();
@@ -114,7 +114,7 @@ journeys('the speed curve', (stage) => {
       await e.settled();
       assert.equal((await points(e)).length, 2);
       await e.page.locator('.plot .point').nth(1).focus();
-      await e.page.getByRole('button', { name: 'Clear the curve' }).click();
+      await e.page.getByRole('button', { name: 'Clear curve' }).click();
       await e.settled();
       assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
     },
@@ -141,9 +141,9 @@ journeys('the speed curve', (stage) => {
       await e.type('point-time', '0.4');
       const time = (said) => Number(/at ([\d.]+) s$/.exec(said)[1]);
       assert.equal(time((await points(e))[1]), 0.4);
-      assert.match(await e.text('.misfit p'), /^Cannot stop by 0\.4 s: still \d+ km\/h then\.$/);
+      assert.match(await e.text('.misfit p'), /^Cannot stop by 0\.4 s: still at \d+ km\/h\.$/);
       const later = e.page.locator('.misfit [data-way="later"]');
-      const more = Number(/^Give it ([\d.]+) s more$/.exec(await later.innerText())[1]);
+      const more = Number(/^Allow ([\d.]+) s more$/.exec(await later.innerText())[1]);
       const mark = e.wire.asked.length;
       await later.hover();
       await e.until(

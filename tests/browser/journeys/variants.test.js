@@ -70,7 +70,7 @@ const setTime = async (e, seconds) => {
 journeys('variants', (stage) => {
   it('makes ten ways of everybody, keeps the good ones and draws the others anew', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
-    const count = e.page.getByLabel('How many variants are made');
+    const count = e.page.getByLabel('Number of variants');
     await count.fill('10');
     await count.press('Enter');
     await leave(e);
@@ -171,7 +171,7 @@ journeys('variants', (stage) => {
     await make(e);
     const made = await cards(e);
     assert.equal(made.length, 6);
-    assert.match(await e.text('.strip header'), new RegExp(`ways of ${car.name}`));
+    assert.match(await e.text('.strip header'), new RegExp(`futures of ${car.name}`));
     for (const c of made)
       assert.ok(
         futures.some((f) => f.includes(c.name)),
@@ -209,7 +209,7 @@ journeys('variants', (stage) => {
     assert.ok(plotted.includes(`${car.name} in 4, dashed: in 1`), plotted);
     const eventful = (await e.page.locator('.compare td').allInnerTexts()).some((w) => /collision|near/.test(w));
     assert.ok(!eventful || /\b[14]: /.test(plotted), plotted);
-    const who = e.page.getByLabel('Whose speed');
+    const who = e.page.getByLabel('Speed of', { exact: true });
     const [, other] = await who.locator('option').allInnerTexts();
     if (other) {
       await who.selectOption({ label: other });
@@ -253,8 +253,8 @@ journeys('variants', (stage) => {
       const e = await begin(stage);
       const { id, name } = await carOnTheMove(e);
       await e.choose(id);
-      const by = e.page.getByLabel('What new variants differ by');
-      await by.selectOption('by speed at the start');
+      const by = e.page.getByLabel('New variants differ by');
+      await by.selectOption('by start speed');
       const range = e.page.getByRole('group', { name: 'Range of the new variants' });
       assert.match(await range.innerText(), new RegExp(`^${name} starts at`));
       const fill = async (which, text) => {
@@ -284,17 +284,17 @@ journeys('variants', (stage) => {
       assert.match(await range.innerText(), /31 values; there is room for 30/);
       assert.equal(await range.getByRole('button').count(), 0);
       // Of a goal that is not there no time can be asked.
-      await by.selectOption('by time at the goal');
+      await by.selectOption('by goal time');
       assert.match(await range.innerText(), /has no goal yet/);
       // Made again by chance, so many that there is time to stop; it waits, and goes on.
-      await by.selectOption('by chance');
-      const count = e.page.getByLabel('How many variants are made');
+      await by.selectOption('by seed');
+      const count = e.page.getByLabel('Number of variants');
       await count.fill('16');
       await count.press('Enter');
       await leave(e);
       await e.key('Control+Enter');
       await e.page.getByRole('button', { name: 'Pause', exact: true }).click();
-      await e.page.getByText('waiting').waitFor();
+      await e.page.getByText('paused').waitFor();
       const then = await e.page.locator('.vcard.waiting').count();
       await e.frames(40);
       assert.ok((await e.page.locator('.vcard.waiting').count()) >= then - 1, 'nothing is made while it waits');

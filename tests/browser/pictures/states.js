@@ -111,7 +111,7 @@ async function variants(e, count) {
   await selected(e);
   await e.key('Shift+V');
   await e.page.waitForSelector('.strip');
-  const field = e.page.getByLabel('How many variants are made');
+  const field = e.page.getByLabel('Number of variants');
   await field.fill(String(count));
   await field.press('Enter');
   await leave(e);
@@ -287,8 +287,8 @@ export const STATES = [
       await selected(e);
       await e.key('Shift+V');
       await e.page.waitForSelector('.strip');
-      await e.page.getByLabel('How many variants are made').fill('10');
-      await e.page.getByLabel('How many variants are made').press('Enter');
+      await e.page.getByLabel('Number of variants').fill('10');
+      await e.page.getByLabel('Number of variants').press('Enter');
       await leave(e);
       // The futures, and what the others do about four of them.
       door.lets = 5;

@@ -137,7 +137,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const [x, y] = await d.at(...(await d.goal()));
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
     await d.settled();
-    expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+if you let go now$/);
+    expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+on release$/);
     const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
     for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
     await d.key('h');
@@ -531,7 +531,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
     expect(await marks()).toEqual(['ok', 'ok', 'ok', 'rule', 'ok', 'short']);
     expect(await d.text('.leave')).toContain('May drive over this median');
-    await d.page.getByRole('button', { name: 'May drive over this median: take back' }).click();
+    await d.page.getByRole('button', { name: 'May drive over this median: undo' }).click();
     await d.settled();
     expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);

@@ -75,10 +75,10 @@ describe('ways out of an event', () => {
     t.answer(['1', '3']);
     expect(t.weighing.of(first)).toMatchObject({
       mark: 'collision',
-      words: expect.stringMatching(/^Then Car/) as unknown,
+      words: expect.stringMatching(/^New: Car/) as unknown,
     });
     t.answer(['1', '2']);
-    expect(t.weighing.of(second)?.words).toMatch(/^Then still: Collision/);
+    expect(t.weighing.of(second)?.words).toMatch(/^Still: Collision/);
     while (t.supposing.asking.peek()) t.answer();
     expect(t.line.asked).toHaveLength(t.ways.length);
     expect([t.editor.scene.peek(), t.editor.undoName.peek()]).toEqual([scene, null]);
@@ -87,7 +87,7 @@ describe('ways out of an event', () => {
   it('are good where nothing happens then', () => {
     const t = new Weighed();
     t.answer();
-    expect(t.weighing.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Then it does not happen' });
+    expect(t.weighing.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Event avoided' });
   });
 
   it('are weighed anew for another event; a late answer says nothing of it', () => {

@@ -13,5 +13,5 @@ export const TEXTS = table('parts', {
   holdStill: 'Hold still',
   everybodyYou: 'All road users react on release; goals are still met.',
   theyDoWhatWas: 'Recorded road users replay the log; placed ones continue unchanged.',
-  theyStayWhere: 'Others stay at their start; nobody else arrives.',
+  theyStayWhere: 'Others stay at their start; no others arrive.',
 });

@@ -1,14 +1,14 @@
 import { table } from '../table';
 
 export const TEXTS = table('point-fields', {
-  whyTheCurveCannot: 'Why the curve cannot be driven',
-  cannotMakeIt: (time: string, by: string) => `Cannot make it by ${time} s: ${by} short.`,
+  whyTheCurveCannot: 'Why the curve is not drivable',
+  cannotMakeIt: (time: string, by: string) => `Cannot reach the goal by ${time} s: ${by} short.`,
   cannotReachBy: (wanted: string, by: string, reached: string) =>
-    `Cannot reach ${wanted} by ${by}: ${reached} is the most by then.`,
+    `Cannot reach ${wanted} by ${by}: ${reached} at most.`,
   cannotBrakeTo: (wanted: string, by: string, reached: string) =>
-    `Cannot brake to ${wanted} by ${by}: still ${reached} then.`,
-  cannotStopBy: (by: string, reached: string) => `Cannot stop by ${by}: still ${reached} then.`,
-  giveItSMore: (by: string) => `Give it ${by} s more`,
+    `Cannot brake to ${wanted} by ${by}: still at ${reached}.`,
+  cannotStopBy: (by: string, reached: string) => `Cannot stop by ${by}: still at ${reached}.`,
+  giveItSMore: (by: string) => `Allow ${by} s more`,
   shorterStopS: (hold: string) => `Shorter stop, ${hold} s`,
   leaveAt: (toIt: string) => `Leave at ${toIt}`,
   onlyDownTo: (toIt: string) => `Only down to ${toIt}`,
@@ -16,10 +16,10 @@ export const TEXTS = table('point-fields', {
   pointOfTheSpeed: 'Point of the speed curve',
   speedAtThisPoint: 'Speed at this point',
   for: 'for',
-  secondsThatIt: 'Seconds that it is held',
+  secondsThatIt: 'Duration at this speed in seconds',
   at: 'at',
   timeOfThisPoint: 'Time of this point',
   removeThisPoint: 'Remove this point',
-  clearTheCurve: 'Clear the curve',
-  brakesAtMost: (braking: string) => `brakes ${braking} at most`,
+  clearTheCurve: 'Clear curve',
+  brakesAtMost: (braking: string) => `brakes at up to ${braking}`,
 });

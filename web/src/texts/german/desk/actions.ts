@@ -158,7 +158,7 @@ export const german: Said<typeof TEXTS> = {
   cardBefore: 'Voriger Vorschlag',
   cardAfter: 'Nächster Vorschlag',
   nextRound: 'Nächste Runde',
-  keepOrReject: 'Erst einen Vorschlag behalten oder verwerfen, oder eine Präferenz angeben.',
+  keepOrReject: 'Erst einen Vorschlag behalten oder verwerfen, oder einen Wunsch angeben.',
   takeThisCard: 'Diesen Vorschlag übernehmen',
   stopHere: 'Runden beenden',
   keepAsVariants: 'Als Varianten behalten',

@@ -97,7 +97,7 @@ export const german: Said<typeof HELPS> = {
   anotherSeed: 'Ein anderer Startwert; festgehaltene bleiben. Ein Klick in der Vorschau hält einen fest.',
   keysAreAbout: 'Tasten gelten diesem Vorschlag, und das Abspielen zeigt ihn',
   keepAndReject:
-    'Zukünfte eines Verkehrsteilnehmers oder der ganzen Szene behalten und verwerfen; die nächsten folgen den Präferenzen',
+    'Zukünfte eines Verkehrsteilnehmers oder der ganzen Szene behalten und verwerfen; die nächsten folgen den Antworten',
   itsOwnFutures: 'Zukünfte eines Verkehrsteilnehmers, ohne Reaktionen anderer',
   eachCardIs: 'Jeder Vorschlag ist eine gemeinsame Zukunft aller',
   theNextRound: 'Die nächste Runde baut darauf auf; noch einmal: offen',
