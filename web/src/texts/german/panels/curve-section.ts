@@ -8,7 +8,7 @@ export const german: Said<typeof TEXTS> = {
   at: (time) => `bei ${time}`,
   for: (time) => `, ${time} lang`,
   kinds: { start: 'Start', end: 'Ende', hold: 'Halten', stop: 'Halt' },
-  drives: (speed: string) => `Ist ${speed}`,
+  drives: (speed: string) => `Ist: ${speed}`,
   point: 'Punkt',
   stop: 'Halt',
   via: 'Ort',

@@ -72,7 +72,7 @@ export const german: Said<typeof TEXTS> = {
   merge: 'Einfädelung',
   straight: 'Gerade',
   curve: 'Kurve',
-  schoolStreet: 'Straße vor Schule',
+  schoolStreet: 'Schulstraße',
   carPark: 'Parkplatz',
   connections: 'Verbindungen',
   usualOnes: 'Zurücksetzen',
