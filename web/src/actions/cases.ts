@@ -33,7 +33,7 @@ export const cases = inGroup('variants', [
     id: 'case-search',
     label: TEXTS.search,
     icon: 'search',
-    help: 'goesOnUntil',
+    help: 'runsUntilEnough',
     when: (c) => {
       const open = c.searching.open.value;
       return open ? (open.obstacle.value ?? true) : TEXTS.sayFirstWhat;
@@ -44,8 +44,8 @@ export const cases = inGroup('variants', [
     id: 'case-stop',
     label: TEXTS.pause,
     icon: 'pause',
-    help: 'theSearchWaits',
-    when: (c) => (c.searching.open.value?.state.value === 'running' ? true : TEXTS.nothingIsLooked),
+    help: 'pausesTheSearch',
+    when: (c) => (c.searching.open.value?.state.value === 'running' ? true : TEXTS.noSearchIsRunning),
     run: (c) => c.searching.open.value?.stop(),
   },
   {
@@ -55,7 +55,7 @@ export const cases = inGroup('variants', [
     icon: 'star',
     help: 'starStays',
     onOffer: (c) => shown(c) !== null,
-    when: (c) => (shown(c) === null ? TEXTS.lookAtACase : true),
+    when: (c) => (shown(c) === null ? TEXTS.selectACaseFirst : true),
     run: (c) => c.searching.open.value?.toggleStar(shown(c)!),
   },
   {

@@ -13,7 +13,7 @@ type Plain = Omit<Action, 'group'>;
 
 const kinds = PLACED_KINDS.map((kind): Plain => ({
   id: `kind-${kind}`,
-  label: TEXTS.makeItA(KIND_WORDS[kind]),
+  label: TEXTS.changeTo(KIND_WORDS[kind]),
   icon: kind,
   help: 'inTheUsual' as const,
   checked: (c) => {
@@ -80,7 +80,7 @@ export const edit = inGroup('edit', [
     label: TEXTS.pasteHere,
     keys: ['Ctrl+V'],
     icon: 'paste',
-    help: 'whatWasCopied',
+    help: 'theCopiedRoadUsers',
     native: true,
     when: hasScene,
     run: (c) => c.clipboard.paste(),
@@ -90,7 +90,7 @@ export const edit = inGroup('edit', [
     label: TEXTS.duplicate,
     keys: ['Ctrl+D', 'Ctrl+J'],
     icon: 'plus',
-    help: 'theSameAgain',
+    help: 'aCopyNearby',
     when: hasSome,
     run: (c) => c.copying.duplicate(),
   },
@@ -104,16 +104,16 @@ export const edit = inGroup('edit', [
     when: (c) => {
       const [one, ...more] = c.editor.chosenOnes;
       return one && !more.length && !one.goal.pos && !one.goal.via.length
-        ? TEXTS.oneAloneIsMirrored
+        ? TEXTS.mirroringNeedsAGoal
         : mirroring.when!(c);
     },
   },
   {
     id: 'swap',
-    label: TEXTS.swapPlaces,
+    label: TEXTS.swapPositions,
     keys: ['Alt+X'],
     icon: 'swap',
-    help: 'eachOfTwo',
+    help: 'swapsStartPositions',
     ...swapping,
     when: (c) => (c.editor.chosenOnes.length === 2 ? swapping.when!(c) : TEXTS.selectTwo),
   },
@@ -122,7 +122,7 @@ export const edit = inGroup('edit', [
     label: TEXTS.delete,
     keys: ['Del', 'Backspace'],
     icon: 'trash',
-    help: 'takesTheSelected',
+    help: 'removesTheSelected',
     when: (c) => {
       const all = c.editor.chosenOnes;
       return !all.length ? TEXTS.selectRoadUsers : all.every((a) => a.locked) ? lockedWords(all.length) : true;
@@ -147,7 +147,7 @@ export const edit = inGroup('edit', [
     label: TEXTS.name,
     keys: ['F2'],
     icon: 'pencil',
-    help: 'giveTheSelected',
+    help: 'namesTheSelected',
     when: hasAgent,
     run: (c) => c.focusText('name'),
   },
@@ -155,17 +155,17 @@ export const edit = inGroup('edit', [
     id: 'note',
     label: TEXTS.note,
     icon: 'note',
-    help: 'writeDownWhat',
+    help: 'addsANote',
     when: hasAgent,
     run: (c) => c.focusText('note'),
   },
   ...kinds,
-  does('react', 'Shift+1', TEXTS.react, 'theSelectedOnes'),
-  does('log', 'Shift+2', TEXTS.replayLog, 'theSelectedOnesDo'),
-  does('still', 'Shift+3', TEXTS.holdStill, 'theSelectedOnesStay'),
+  does('react', 'Shift+1', TEXTS.react, 'theSelectedReact'),
+  does('log', 'Shift+2', TEXTS.replayLog, 'theSelectedReplay'),
+  does('still', 'Shift+3', TEXTS.holdStill, 'theSelectedHoldStill'),
   {
     id: 'menu',
-    label: TEXTS.menuOfWhatIs,
+    label: TEXTS.contextMenu,
     keys: ['Menu', 'Shift+F10'],
     icon: 'menu',
     help: 'theSameAsThe',

@@ -95,7 +95,7 @@ const asRecorded: Pick<Action, 'when' | 'run'> = {
     const a = c.editor.agent.value;
     if (!a || a.locked) return hasFree(c);
     if (!moves.goalFromLog(a)) return TEXTS.nothingOfThatTime;
-    return moves.isGoalOfLog(a) ? TEXTS.itsGoalIsThere : true;
+    return moves.isGoalOfLog(a) ? TEXTS.goalIsAsRecorded : true;
   },
 };
 
@@ -104,7 +104,7 @@ const resetting: Pick<Action, 'when' | 'run'> = {
   when: (c) => {
     const a = c.editor.agent.value;
     if (!a || a.locked) return hasFree(c);
-    return a.placed ? TEXTS.nothingOfItWas : changedByHand(a) ? true : TEXTS.itIsAsItWasRecorded;
+    return a.placed ? TEXTS.notRecorded : changedByHand(a) ? true : TEXTS.itIsAsItWasRecorded;
   },
 };
 
@@ -131,7 +131,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.setAGoal,
     keys: ['G'],
     icon: 'flag',
-    help: 'whereTheChosen',
+    help: 'endOfTheChosenFuture',
     ...onAgent((c, a) => {
       c.editor.activate('goal');
       return a.goal.pos ? null : moves.goalHere(c.editor, a);
@@ -142,7 +142,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.goalAsInTheLog,
     keys: ['Alt+G'],
     icon: 'flag',
-    help: 'whereItWasRecorded',
+    help: 'theRecordedPosition',
     ...asRecorded,
   },
   {
@@ -158,7 +158,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.addAVia,
     keys: ['I'],
     icon: 'via',
-    help: 'aPlaceToPass',
+    help: 'aPlaceOnThePath',
     when(c) {
       const a = c.editor.agent.value;
       const free = hasFree(c);
@@ -172,9 +172,9 @@ export const goal = inGroup('goal', [
     label: TEXTS.removeTheVia,
     keys: ['Del', 'Backspace'],
     icon: 'trash',
-    help: 'theOneTakenLast',
+    help: 'theViaPointSelectedLast',
     onOffer: (c) => viaInHand(c) !== null,
-    when: (c) => (viaInHand(c) === null ? TEXTS.takeAViaFirst : hasFree(c)),
+    when: (c) => (viaInHand(c) === null ? TEXTS.selectAViaPoint : hasFree(c)),
     run(c) {
       const found = viaInHand(c);
       const command = found && removeVia(found.a, found.i);
@@ -186,7 +186,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.fixedOrFree,
     keys: ['F'],
     icon: 'lock',
-    help: 'theFieldTouched',
+    help: 'theFieldEditedLast',
     ...onAgent(({ editor }, a) => {
       const { part, field } = editor.lastField.value;
       return moves.toggleField(editor, a, part, field);
@@ -197,7 +197,7 @@ export const goal = inGroup('goal', [
     label: TEXTS.fixOrFreeThe,
     keys: ['Shift+F'],
     icon: 'lock',
-    help: 'freeLetsThe',
+    help: 'ifFree',
     ...onAgent((c, a) => moves.toggleField(c.editor, a, 'goal', 'speed')),
   },
   {
@@ -226,7 +226,7 @@ export const goal = inGroup('goal', [
     id: 'future-play',
     label: TEXTS.chooseAndPlay,
     icon: 'play',
-    help: 'fromTheBeginning',
+    help: 'playsFromTheStart',
     ...onPointed((c, a, i) => {
       moves.takeFuture(c.editor, a, i);
       c.editor.setTime(0);
@@ -255,31 +255,31 @@ export const goal = inGroup('goal', [
     id: 'future-best',
     label: TEXTS.backToTheMost,
     keys: ['Alt+0'],
-    help: 'theGeneratorChooses',
+    help: 'undoesTheChoice',
     ...onAgent((c, a) => (a.chosen === null ? null : moves.pickFuture(c.editor, a, null))),
   },
   {
     id: 'by-road',
-    label: TEXTS.takeTheWayBy,
+    label: TEXTS.useTheRouteByRoad,
     keys: ['Enter'],
     icon: 'road',
     help: 'theNearest',
-    ...wayOut(roadWay, TEXTS.noWayByTheRoad),
+    ...wayOut(roadWay, TEXTS.noRouteByRoad),
   },
   {
     id: 'may-cross',
-    label: TEXTS.itMayGoOverWhat,
+    label: TEXTS.allowCrossing,
     keys: ['Alt+Enter'],
     icon: 'check',
-    help: 'overTheMedian',
-    ...wayOut(leaveToCross, TEXTS.nothingThatCould),
+    help: 'forThisGoalOnly',
+    ...wayOut(leaveToCross, TEXTS.noKerbOrMedian),
   },
   {
     id: 'generate',
     label: TEXTS.generate,
     keys: ['Ctrl+Enter'],
     icon: 'play',
-    help: 'everybodyWorked',
+    help: 'computesAll',
     context: 'always',
     when: hasScene,
     run: (c) => {

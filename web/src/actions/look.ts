@@ -94,7 +94,7 @@ function lanesOf(c: Context, a: Agent): string[] {
 function selectLane(c: Context): void {
   const lanes = new Set(c.editor.chosenOnes.flatMap((a) => lanesOf(c, a)));
   if (!lanes.size) {
-    c.editor.notices.show({ text: TEXTS.nobodyWhoIsSelected });
+    c.editor.notices.show({ text: TEXTS.noneIsOnALane });
     return;
   }
   selectWhere(c, (a) => lanesOf(c, a).some((id) => lanes.has(id)), '');
@@ -141,19 +141,19 @@ export const look = inGroup('look', [
   ...tools,
   {
     id: 'select-all',
-    label: TEXTS.selectEverybody,
+    label: TEXTS.selectAll,
     keys: ['Ctrl+A'],
     icon: 'select-all',
     help: 'allRoadUsers',
     when: hasScene,
-    run: (c) => selectWhere(c, () => true, TEXTS.nobodyIsHere),
+    run: (c) => selectWhere(c, () => true, TEXTS.noRoadUsersYet),
   },
   {
     id: 'select-kind',
     label: TEXTS.selectAllOfThis,
     keys: ['Shift+A'],
     icon: 'select-all',
-    help: 'allThatAre',
+    help: 'allOfTheTypes',
     when: hasSome,
     run(c) {
       const kinds = new Set(c.editor.chosenOnes.map((a) => a.kind));
@@ -171,7 +171,7 @@ export const look = inGroup('look', [
   },
   {
     id: 'select-conflicts',
-    label: TEXTS.selectWhoMeets,
+    label: TEXTS.selectConflicting,
     keys: ['Alt+Shift+A'],
     icon: 'warn',
     help: 'allThatCollide',
@@ -180,14 +180,14 @@ export const look = inGroup('look', [
   },
   {
     id: 'select-others',
-    label: TEXTS.selectTheOthers,
+    label: TEXTS.invertSelection,
     keys: ['Ctrl+Shift+A'],
     icon: 'invert',
-    help: 'everybodyWho',
+    help: 'allNotSelected',
     when: hasScene,
     run(c) {
       const now = new Set(c.editor.selected.value);
-      selectWhere(c, (a) => !now.has(a.id), TEXTS.everybodyIsSelected);
+      selectWhere(c, (a) => !now.has(a.id), TEXTS.allAreSelected);
     },
   },
   {
@@ -202,7 +202,7 @@ export const look = inGroup('look', [
     id: 'previous-agent',
     label: TEXTS.previousRoad,
     keys: ['Shift+Tab'],
-    help: 'theWayBack',
+    help: 'inReverseOrder',
     when: hasScene,
     run: (c) => walkTo(c, -1),
   },
@@ -219,7 +219,7 @@ export const look = inGroup('look', [
     id: 'back-to-scene',
     label: TEXTS.backToTheScene,
     icon: 'fit',
-    help: 'whereThings',
+    help: 'theAreaWithTraffic',
     when: hasScene,
     run: (c) => c.lookAtScene(),
   },
@@ -237,7 +237,7 @@ export const look = inGroup('look', [
     label: TEXTS.zoomIn,
     keys: ['PageUp'],
     icon: 'plus',
-    help: 'aThirdCloser',
+    help: 'byOneThird',
     run: (c) => zoom(c, 1.33),
   },
   {
@@ -254,26 +254,26 @@ export const look = inGroup('look', [
     label: TEXTS.keepInView,
     keys: ['K'],
     icon: 'eye',
-    help: 'thePicture',
+    help: 'theViewFollows',
     when: hasAgent,
     checked: (c) => c.editor.playhead.follow.value,
     run: (c) => c.editor.playhead.toggleFollow(),
   },
   {
     id: 'others-answers',
-    label: TEXTS.theOthersAnswers,
+    label: TEXTS.othersReactions,
     keys: ['H'],
-    help: 'whereTheOthers',
+    help: 'whereOthersWouldWait',
     whileDragging: true,
     checked: (c) => c.editor.showForeseen.value,
     run: (c) => c.editor.toggleForeseen(),
   },
-  layer('futures', TEXTS.futures, 'Shift+O', 'whereEverybody'),
-  layer('log', TEXTS.log, 'O', 'whatWasRecorded'),
+  layer('futures', TEXTS.futures, 'Shift+O', 'thePossiblePaths'),
+  layer('log', TEXTS.log, 'O', 'theRecordedTracks'),
   layer('lanes', TEXTS.lanes, 'Shift+W', 'centreLines'),
   layer('labels', TEXTS.labels, 'Shift+L', 'namesOfThe'),
-  layer('signals', TEXTS.signals, 'Shift+S', 'lightsAtThe'),
-  layer('limits', TEXTS.speedLimits, 'Shift+M', 'whatTheMap', (c) => {
+  layer('signals', TEXTS.signals, 'Shift+S', 'signalStates'),
+  layer('limits', TEXTS.speedLimits, 'Shift+M', 'speedLimitsOfTheLanes', (c) => {
     const scene = c.editor.scene.value;
     return !scene || knowsLimits(scene.map) ? hasScene(c) : TEXTS.thisMapKnows;
   }),

@@ -94,9 +94,9 @@ const nudges = DIRECTIONS.flatMap(([key, near, far, right, up]) => {
 const alongLane = (id: string, label: string, key: string, metres: number) =>
   move(id, label, key, 'followsThe', (e, a, p) => moves.nudgeAlong(e, a, p, metres));
 const nextLane = (id: string, label: string, key: string, side: 1 | -1) =>
-  move(id, label, key, 'keepsTheDistance', (e, a, p) => moves.toNextLane(e, a, p, side));
+  move(id, label, key, 'keepsThePosition', (e, a, p) => moves.toNextLane(e, a, p, side));
 const turn = (id: string, label: string, key: string, degrees: number) =>
-  move(id, label, key, 'headingOfThe', (e, a, p) => moves.turn(e, a, p, degrees), {
+  move(id, label, key, 'turnsTheActivePart', (e, a, p) => moves.turn(e, a, p, degrees), {
     all: (all) => several.turnAll(all, rad(degrees), several.middleOf(all), false, 'turn'),
     ghost: (e) => e.placement.turnBy(e.scene.peek()!, rad(degrees)),
   });

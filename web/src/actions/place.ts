@@ -55,7 +55,7 @@ export const place = inGroup('place', [
     label: TEXTS.placeHere,
     keys: ['Enter'],
     icon: 'check',
-    help: 'putsTheRoad',
+    help: 'placesAtTheGhost',
     onOffer: (c) => placedBy(c) !== null && c.editor.placement.ghosts.value !== null,
     when: (c) => (c.editor.placement.ghosts.value ? true : TEXTS.chooseWhatTo),
     run: (c) => placeGhost(c.editor),
@@ -82,7 +82,7 @@ export const place = inGroup('place', [
         ? TEXTS.fillAnAreaFirst
         : c.editor.filling.drawn.value || c.editor.filling.all.value.length
           ? true
-          : TEXTS.nobodyIsInThe,
+          : TEXTS.previewIsEmpty,
     run: (c) => addOrClose(c),
   },
   {

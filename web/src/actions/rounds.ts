@@ -13,7 +13,7 @@ const hasCards = (c: Context): true | string =>
 /** At least two can do something: else the scene is that one road user. */
 const hasSeveral = (c: Context): true | string => {
   const n = [...(c.editor.resting.value?.agents.values() ?? [])].filter(canChange).length;
-  return n > 1 ? true : TEXTS.thereAreNoTwo;
+  return n > 1 ? true : TEXTS.roundsNeedTwo;
 };
 
 /** One is selected, or there are several to do it all. */
@@ -39,7 +39,7 @@ const cards = [...LETTERS].map((letter, i) => ({
   id: `round-card-${letter.toLowerCase()}`,
   label: TEXTS.card(letter),
   keys: [`${i + 1}`],
-  help: 'keysAreAbout' as const,
+  help: 'keysActOnThisCard' as const,
   ...onCard((c) => c.editor.deck.point(i)),
 }));
 
@@ -60,7 +60,7 @@ export const rounds = inGroup('rounds', [
   {
     id: 'rounds-one',
     label: TEXTS.roundsOfThis,
-    help: 'itsOwnFutures',
+    help: 'withoutReactions',
     when: hasFree,
     checked: (c) => typeof c.editor.deck.of.value?.id === 'string',
     run: (c) => open(c, true),
@@ -88,22 +88,22 @@ export const rounds = inGroup('rounds', [
     label: TEXTS.rejectCard,
     keys: ['J'],
     icon: 'x',
-    help: 'nothingLike',
+    help: 'similarDoNotComeAgain',
     ...onCard((c, i) => c.rounds.say(i, 'reject')),
   },
   ...cards,
   {
     id: 'round-back',
-    label: TEXTS.cardBefore,
+    label: TEXTS.previousCard,
     keys: ['Left'],
-    help: 'keysAreAbout',
+    help: 'keysActOnThisCard',
     ...onCard((c, i) => c.editor.deck.point(i - 1)),
   },
   {
     id: 'round-on',
-    label: TEXTS.cardAfter,
+    label: TEXTS.nextCard,
     keys: ['Right'],
-    help: 'keysAreAbout',
+    help: 'keysActOnThisCard',
     ...onCard((c, i) => c.editor.deck.point(i + 1)),
   },
   {
@@ -111,7 +111,7 @@ export const rounds = inGroup('rounds', [
     label: TEXTS.nextRound,
     keys: ['Enter'],
     icon: 'next',
-    help: 'moreByWhat',
+    help: 'moreCards',
     onOffer: isOpen,
     when: (c) => {
       const can = hasCards(c);
@@ -123,13 +123,13 @@ export const rounds = inGroup('rounds', [
     id: 'round-take',
     label: TEXTS.takeThisCard,
     icon: 'flag',
-    help: 'itIsWhatHappens',
+    help: 'usesItInTheScene',
     when: hasCards,
     run: (c) => c.rounds.take(c.editor.deck.current.value),
   },
   {
     id: 'round-stop',
-    label: TEXTS.stopHere,
+    label: TEXTS.endRounds,
     help: 'closesTheRounds',
     when: (c) => (isOpen(c) ? true : TEXTS.openRoundsFirst),
     run: (c) => c.rounds.close(),
@@ -154,7 +154,7 @@ export const rounds = inGroup('rounds', [
     id: 'round-table',
     label: TEXTS.saveAsTable,
     icon: 'table',
-    help: 'whatWasSaid',
+    help: 'answersAsCsv',
     when: (c) => {
       const of = c.rounds.subject.value ?? c.editor.agent.value;
       return of?.feedback?.answers.length ? true : TEXTS.nothingWasKept;

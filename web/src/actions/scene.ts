@@ -21,7 +21,7 @@ const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? edit
 /** Own scenes alone can be changed on the server. */
 const own = (c: Context): true | string => {
   const id = meant(c);
-  return !id ? TEXTS.noSceneIsOpen : c.scenes.isOwn(id) ? true : TEXTS.examplesStay;
+  return !id ? TEXTS.noSceneIsOpen : c.scenes.isOwn(id) ? true : TEXTS.examplesAreReadOnly;
 };
 
 const making = (c: Context): boolean => c.editor.layouts.isOpen.value;
@@ -43,7 +43,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.roadUsers,
     keys: ['W'],
     icon: 'people',
-    help: 'whoIsInThe',
+    help: 'listsTheRoadUsers',
     when: hasScene,
     checked: (c) => c.ui.drawer.value === 'users',
     run: (c) => c.ui.toggleDrawer('users'),
@@ -53,7 +53,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.history,
     keys: ['Ctrl+H'],
     icon: 'clock',
-    help: 'whatWasDone',
+    help: 'listsAllSteps',
     when: hasScene,
     checked: (c) => c.ui.drawer.value === 'history',
     run: (c) => c.ui.toggleDrawer('history'),
@@ -88,7 +88,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.previousArm,
     keys: ['['],
     icon: 'prev',
-    help: 'theArmBefore',
+    help: 'selectsThePreviousArm',
     onOffer: making,
     when: isMaking,
     run: (c) => c.editor.layouts.step(-1),
@@ -98,7 +98,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.nextArm,
     keys: [']'],
     icon: 'next',
-    help: 'theArmAfter',
+    help: 'selectsTheNextArm',
     onOffer: making,
     when: isMaking,
     run: (c) => c.editor.layouts.step(1),
@@ -107,7 +107,7 @@ export const scene = inGroup('scene', [
     id: 'arm-remove',
     label: TEXTS.removeTheArm,
     keys: ['Del'],
-    help: 'threeStayAt',
+    help: 'keepsThreeArms',
     onOffer: (c) => making(c) && !c.editor.layouts.way.value,
     when: isMaking,
     run: (c) => c.editor.layouts.removeArm(c.editor.layouts.arm.peek()),
@@ -116,7 +116,7 @@ export const scene = inGroup('scene', [
     id: 'way-remove',
     label: TEXTS.removeTheConnection,
     keys: ['Del'],
-    help: 'thePickedWay',
+    help: 'removesTheConnection',
     onOffer: (c) => c.editor.layouts.way.value !== null,
     when: (c) => (c.editor.layouts.way.value ? true : TEXTS.noConnectionIs),
     run: (c) => c.editor.layouts.removeWay(c.editor.layouts.way.peek()!),
@@ -134,7 +134,7 @@ export const scene = inGroup('scene', [
     id: 'new-plain-scene',
     label: TEXTS.newSceneOnPlain,
     icon: 'plus',
-    help: 'nothingThere',
+    help: 'noMapNoRoadUsers',
     run: (c) => void c.care.newOnPlainGround(),
   },
   {
@@ -160,7 +160,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.saveACopy,
     keys: ['Ctrl+S'],
     icon: 'copy',
-    help: 'anOwnScene',
+    help: 'yourOwnCopy',
     context: 'always',
     when: hasScene,
     run: (c) => void c.care.saveCopy(),
@@ -179,7 +179,7 @@ export const scene = inGroup('scene', [
     id: 'duplicate-scene',
     label: TEXTS.duplicateScene,
     icon: 'copy',
-    help: 'aCopyBeside',
+    help: 'aCopyOfTheScene',
     when: (c) => (meant(c) ? true : TEXTS.noSceneIsOpen),
     run: (c) => void c.care.duplicate(meant(c)!),
   },
@@ -188,7 +188,7 @@ export const scene = inGroup('scene', [
     label: TEXTS.renameScene,
     keys: ['Shift+F2'],
     icon: 'pencil',
-    help: 'anotherName',
+    help: 'changesItsName',
     when: own,
     run(c) {
       const id = meant(c)!;
@@ -225,12 +225,12 @@ export const scene = inGroup('scene', [
       c.ui.openDialog('export');
     },
   },
-  others('react', TEXTS.othersReact, 'everybodyYou'),
-  others('log', TEXTS.othersReplay, 'theyDoWhat'),
-  others('still', TEXTS.othersHoldStill, 'theyStayWhere'),
+  others('react', TEXTS.othersReact, 'allReactOnRelease'),
+  others('log', TEXTS.othersReplay, 'othersReplayTheLog'),
+  others('still', TEXTS.othersHoldStill, 'othersHoldStill'),
   {
     id: 'reset-all',
-    label: TEXTS.everybodyBack,
+    label: TEXTS.resetAllToLog,
     icon: 'undo',
     help: 'dropsEvery',
     when: hasScene,

@@ -46,7 +46,7 @@ function nextEvent(c: Context): void {
 const lengths = LENGTHS.map((s) => ({
   id: `length-${s}`,
   label: TEXTS.lengthS(s),
-  help: s > 9 ? ('pastNineSeconds' as const) : ('workOutInOneGo' as const),
+  help: s > 9 ? ('replansAfterNineSeconds' as const) : ('oneWindowOfNineSeconds' as const),
   when: hasScene,
   checked: (c: Context) => c.editor.resting.value?.length === s,
   run(c: Context) {
@@ -57,8 +57,8 @@ const lengths = LENGTHS.map((s) => ({
 
 const replans = REPLANS.map((s) => ({
   id: `replan-${s}`,
-  label: TEXTS.planAnewEach(s),
-  help: 'looksAgain' as const,
+  label: TEXTS.replanEvery(s),
+  help: 'thePlanningWindow' as const,
   when: hasScene,
   checked: (c: Context) => c.editor.resting.value?.replan === s,
   run(c: Context) {
@@ -69,9 +69,9 @@ const replans = REPLANS.map((s) => ({
 export const time = inGroup('time', [
   {
     id: 'what-counts',
-    label: COUNTS.whatCountsAsEvent,
+    label: COUNTS.actionLabel,
     icon: 'warn',
-    help: 'howNearAndHard',
+    help: 'thresholdsOfTheScene',
     when: hasScene,
     run: ({ ui }) => ui.showEvents('counts'),
   },
@@ -80,7 +80,7 @@ export const time = inGroup('time', [
     label: TEXTS.playOrPause,
     keys: ['Space'],
     icon: 'play',
-    help: 'runsFromThe',
+    help: 'playsFromThePlayhead',
     when: hasScene,
     checked: (c) => c.editor.playing.value,
     run: (c) => c.playback.toggle(),
@@ -95,7 +95,7 @@ export const time = inGroup('time', [
   },
   {
     id: 'step-on',
-    label: TEXTS.at01SOn,
+    label: TEXTS.at01SForward,
     keys: ['.'],
     help: 'oneFrame',
     when: hasScene,
@@ -138,16 +138,16 @@ export const time = inGroup('time', [
     label: TEXTS.loop,
     keys: ['P'],
     icon: 'loop',
-    help: 'startAgain',
+    help: 'restartsAtTheEnd',
     checked: (c) => c.editor.playhead.loop.value,
     run: (c) => c.editor.playhead.toggleLoop(),
   },
   {
     id: 'tall-timeline',
-    label: TEXTS.highTimeline,
+    label: TEXTS.tallTimeline,
     keys: ['T'],
     icon: 'pencil',
-    help: 'roomForThe',
+    help: 'showsTheCurveLarger',
     checked: (c) => c.ui.tall.value,
     run: (c) => c.ui.toggleTall(),
   },
@@ -157,7 +157,7 @@ export const time = inGroup('time', [
     keys: ['E'],
     icon: 'warn',
     help: 'collisionNear',
-    when: (c) => (c.editor.events.value.length ? true : TEXTS.thereAreNoEvents),
+    when: (c) => (c.editor.events.value.length ? true : TEXTS.noEvents),
     run: nextEvent,
   },
   ...lengths,

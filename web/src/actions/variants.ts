@@ -7,7 +7,7 @@ import { TEXTS } from '../texts/desk/actions';
 const isOpen = (c: Context): boolean => c.variants.open.value;
 /** Text about a road user is meant while one is selected and no card has the focus. */
 const onCard = (c: Context): boolean => isOpen(c) && c.variants.current.value !== null;
-const hasCard = (c: Context): true | string => (onCard(c) ? true : TEXTS.chooseAVariant);
+const hasCard = (c: Context): true | string => (onCard(c) ? true : TEXTS.selectAVariantFirst);
 const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
 
 /** A moment nearer to the edge of the picture than this is brought to the middle, pixels. */
@@ -37,7 +37,7 @@ export const variants = inGroup('variants', [
     label: TEXTS.variants,
     keys: ['Shift+V'],
     icon: 'variants',
-    help: 'waysTheScene',
+    help: 'alternativeFutures',
     when: hasScene,
     checked: isOpen,
     run: (c) => c.variants.show(!c.variants.open.value),
@@ -55,7 +55,7 @@ export const variants = inGroup('variants', [
     label: TEXTS.keepVariant,
     keys: ['Ctrl+D'],
     icon: 'check',
-    help: 'itStaysWhen',
+    help: 'keepsTheVariant',
     onOffer: isOpen,
     when: hasScene,
     run: (c) => {
@@ -69,7 +69,7 @@ export const variants = inGroup('variants', [
     label: TEXTS.starVariant,
     keys: ['S'],
     icon: 'star',
-    help: 'starredOnes',
+    help: 'starredComeFirst',
     onOffer: onCard,
     when: hasCard,
     run: (c) => c.variants.toggleStar(c.variants.current.value!),
@@ -88,7 +88,7 @@ export const variants = inGroup('variants', [
     id: 'remove-variant',
     label: TEXTS.removeVariant,
     icon: 'trash',
-    help: 'takesItOut',
+    help: 'removesItFromTheStrip',
     when: hasCard,
     run: (c) => c.variants.remove(c.variants.current.value!),
   },
@@ -111,7 +111,7 @@ export const variants = inGroup('variants', [
     label: TEXTS.exportAllVariants,
     icon: 'export',
     help: 'aFileEachThose',
-    when: (c) => (c.variants.cards.value.length ? true : TEXTS.thereAreNoVariants),
+    when: (c) => (c.variants.cards.value.length ? true : TEXTS.noVariantsYet),
     run: (c) => {
       c.variants.aimExport();
       c.ui.openDialog('export');
@@ -122,17 +122,17 @@ export const variants = inGroup('variants', [
     label: TEXTS.swapTheTwoVariants,
     keys: ['X'],
     icon: 'swap',
-    help: 'theOtherOne',
+    help: 'movesTheRightToTheLeft',
     onOffer: isComparing,
     when: (c) => (isComparing(c) ? true : TEXTS.compareTwoVariants),
     run: (c) => c.variants.swapSides(),
   },
   {
     id: 'next-parting',
-    label: TEXTS.nextMomentAt,
+    label: TEXTS.nextDifference,
     keys: ['E'],
     icon: 'next',
-    help: 'fromOneOfThe',
+    help: 'goesThroughTheDifferences',
     onOffer: isComparing,
     when: (c) => (isComparing(c) ? true : TEXTS.compareTwoVariants),
     run: nextMoment,

@@ -14,7 +14,7 @@ function place({ gestures, stage, ui }: Context): Vec | null {
 
 function put(c: Context, text: string, at: Vec | null): void {
   if (c.copying.paste(text, at, c.stage.view.z)) c.reveal(c.editor.selected.peek());
-  else c.editor.notices.show({ text: TEXTS.thereAreNoRoad });
+  else c.editor.notices.show({ text: TEXTS.clipboardIsEmpty });
 }
 
 /** Menus: the page may be forbidden to use the clipboard; then what was copied here last is what there is. */

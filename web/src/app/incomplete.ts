@@ -14,7 +14,7 @@ export function sayIncomplete(over: HTMLElement): Promise<never> {
   const again = document.createElement('button');
   again.type = 'button';
   again.className = 'btn';
-  again.textContent = TEXTS.loadAgain;
+  again.textContent = TEXTS.reload;
   again.addEventListener('click', () => location.reload());
   toast.append(NOT_COMPLETE, again);
   over.append(toast);

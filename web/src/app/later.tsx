@@ -219,7 +219,7 @@ function NotLoaded({ again }: { again: () => void }) {
           {TEXTS.tryAgain}
         </button>
         <button type="button" class="btn" onClick={() => location.reload()}>
-          {TEXTS.loadThePageAnew}
+          {TEXTS.reloadThePage}
         </button>
       </div>
     </div>

@@ -42,7 +42,7 @@ export function RoadUsers() {
     <nav
       class={open ? 'drawer card users' : 'sr'}
       aria-label={label}
-      aria-description={open ? TEXTS.arrowsWalkThe : TEXTS.tabGoesToThe}
+      aria-description={open ? TEXTS.useTheArrowKeys : TEXTS.tabGoesToThe}
       data-group="users"
       onKeyDown={open ? walkList : undefined}
     >
@@ -83,8 +83,8 @@ function Head({ filter }: { filter: { value: Filter } }) {
         <span class="grow" />
         <IconButton id="users" icon="x" size={16} />
       </h2>
-      <div class="filters" role="group" aria-label={TEXTS.whoIsListed}>
-        <div class="seg wide" role="radiogroup" aria-label={TEXTS.kind}>
+      <div class="filters" role="group" aria-label={TEXTS.filters}>
+        <div class="seg wide" role="radiogroup" aria-label={TEXTS.type}>
           {KINDS.map(([id, words]) => (
             <button
               key={id}
@@ -132,7 +132,7 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const tabStop = useComputed(() => editor.selected.value[0] ?? editor.resting.value?.agents.keys().next().value);
   return (
     <>
-      {shown.length ? null : <p class="mut none">{TEXTS.nobodyIsLike}</p>}
+      {shown.length ? null : <p class="mut none">{TEXTS.noMatches}</p>}
       <ul>
         {shown.map((id) => (
           <li key={id}>
@@ -177,7 +177,7 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
 /** `16 km/h, westbound lane, goal set, near miss 4.7 s` */
 function wordsFor({ editor }: Context, a: Agent, event: string): string {
   const p = startPose(a);
-  if (!p) return TEXTS.notThereAtThe;
+  if (!p) return TEXTS.appearsLater;
   const place = a.parked ? TEXTS.parked : laneWords(editor.scene.peek()!.map, a, p.x, p.y, p.heading);
   const goal = hasGoal(a.goal) ? TEXTS.goalSet : '';
   return [speedLabel(p.speed, editor.unitOf(a)), place, goal, inSentence(event)].filter(Boolean).join(', ');

@@ -90,7 +90,7 @@ function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
   const freedom = (f: Field) => (agent.value[part][f] === null ? TEXTS.free : TEXTS.fixed);
   const place = () => {
     const p = pose();
-    if (!p) return TEXTS.notKnown;
+    if (!p) return TEXTS.unknown;
     const lane = laneWords(editor.scene.value!.map, agent.value, p.x, p.y, p.heading);
     return TEXTS.metres(num(p.x, 1), num(p.y, 1), lane, freedom('pos'));
   };

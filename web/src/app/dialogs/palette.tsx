@@ -37,7 +37,7 @@ export function Palette() {
         <input
           ref={input}
           type="text"
-          placeholder={TEXTS.doAnything}
+          placeholder={TEXTS.placeholder}
           aria-label={TEXTS.findAnAction}
           data-first=""
           spellcheck={false}
@@ -70,7 +70,7 @@ interface ResultsProps {
 function Results({ entries, query, at, point, go }: ResultsProps) {
   return (
     <div role="listbox" aria-label={TEXTS.actions}>
-      {entries.length ? null : <div class="g">{TEXTS.nothingOfThat}</div>}
+      {entries.length ? null : <div class="g">{TEXTS.noMatches}</div>}
       {entries.flatMap((e, i) => [
         e.group === entries[i - 1]?.group ? null : (
           <div key={`${i}:${e.group}`} class="g">
@@ -132,7 +132,7 @@ function Foot() {
       </span>
       <span>
         <kbd>↵</kbd>
-        {TEXTS.doIt}
+        {TEXTS.run}
       </span>
       <span>{TEXTS.typeANumberTo}</span>
     </div>

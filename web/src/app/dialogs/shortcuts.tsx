@@ -20,14 +20,14 @@ interface Line {
 const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
   look: [
     { label: TEXTS.addOneOrTake, keys: ['Shift'], how: TEXTS.click },
-    { label: TEXTS.allInAFrame, keys: [], how: TEXTS.dragOverTheGround },
-    { label: TEXTS.addAFrameTake, keys: ['Shift', 'Alt'], how: TEXTS.drag },
+    { label: TEXTS.marqueeSelect, keys: [], how: TEXTS.dragOverTheGround },
+    { label: TEXTS.addOrSubtractMarquee, keys: ['Shift', 'Alt'], how: TEXTS.drag },
     { label: TEXTS.pan, keys: ['Space'], how: TEXTS.drag },
     { label: TEXTS.zoom, keys: [], how: TEXTS.wheel },
     { label: TEXTS.panZoomTurn, keys: [], how: TEXTS.twoFingers },
   ],
   edit: [
-    { label: TEXTS.copyAway, keys: ['Alt'], how: TEXTS.dragFromARoad },
+    { label: TEXTS.dragACopy, keys: ['Alt'], how: TEXTS.dragFromARoad },
     { label: TEXTS.menu, keys: [], how: TEXTS.rightButtonOr },
   ],
   move: [
@@ -50,7 +50,7 @@ const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   { ids: /^(slower|faster)-far$/, label: TEXTS.muchSlowerFaster, keys: ['Shift+-', '+'] },
   { ids: /^goal-(earlier|later)$/, label: TEXTS.goalTime01S, keys: [';', "'"] },
   { ids: /^goal-(earlier|later)-far$/, label: TEXTS.goalTime1S, keys: ['Shift+;', "'"] },
-  { ids: /^step-(back|on)$/, label: TEXTS.at01SBackOn, keys: [',', '.'] },
+  { ids: /^step-(back|on)$/, label: TEXTS.at01SBackForward, keys: [',', '.'] },
   { ids: /^to-(start|end)$/, label: TEXTS.toStartToEnd, keys: ['Home', 'End'] },
   { ids: /^(slower|faster)-playback$/, label: TEXTS.slowerFasterPlayback, keys: ['Shift+,', '.'] },
   {
@@ -61,9 +61,9 @@ const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   { ids: /^(next|previous)-agent$/, label: TEXTS.nextPrevious, keys: ['Tab', 'Shift+Tab'] },
   { ids: /^(next|previous)-group$/, label: TEXTS.nextPartOfThe, keys: ['F6'] },
   { ids: /^round-card-/, label: TEXTS.chooseACard, keys: ['1', '6'] },
-  { ids: /^round-(back|on)$/, label: TEXTS.cardBeforeAfter, keys: ['Left', 'Right'] },
+  { ids: /^round-(back|on)$/, label: TEXTS.previousNextCard, keys: ['Left', 'Right'] },
   { ids: /^zoom-(in|out)$/, label: TEXTS.zoomInOut, keys: ['PageUp', 'PageDown'] },
-  { ids: /^turn-picture-/, label: TEXTS.turnThePicture, keys: ['Shift+PageUp', 'PageDown'] },
+  { ids: /^turn-picture-/, label: TEXTS.rotateView15, keys: ['Shift+PageUp', 'PageDown'] },
 ];
 
 export function Shortcuts() {
@@ -135,7 +135,7 @@ function lineOf(a: Action): Line {
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {
       label: a.label,
       keys: [a.keys![0]],
-      ...(a.whileDragging ? { how: TEXTS.whileDragging } : a.onOffer ? { how: TEXTS.whileItIsOffered } : {}),
+      ...(a.whileDragging ? { how: TEXTS.whileDragging } : a.onOffer ? { how: TEXTS.whenAvailable } : {}),
     }
   );
 }

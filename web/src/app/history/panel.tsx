@@ -54,7 +54,7 @@ export function HistoryPanel() {
     <section class="drawer card history" aria-label={TEXTS.history} data-group="history">
       <h2>
         {TEXTS.history}
-        <small class="mut">{line.length ? TEXTS.ofSteps(at, line.length) : TEXTS.nothingDoneYet}</small>
+        <small class="mut">{line.length ? TEXTS.ofSteps(at, line.length) : TEXTS.noStepsYet}</small>
         <span class="grow" />
         <IconButton id="history" icon="x" size={16} />
       </h2>
@@ -91,7 +91,7 @@ function First({ now }: { now: boolean }) {
     <li class={`step ${now ? 'now' : ''}`} aria-current={now ? 'step' : undefined}>
       <button type="button" class="go" data-step="first" onClick={() => editor.goTo(null)}>
         <i class="dot" />
-        <b>{TEXTS.howItWas}</b>
+        <b>{TEXTS.initialState}</b>
         <small>{now ? TEXTS.now : TEXTS.beforeTheFirst}</small>
       </button>
     </li>

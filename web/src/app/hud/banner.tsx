@@ -49,7 +49,7 @@ function Button({ label, run }: { label: string; run: () => void }) {
 
 function Crash({ details }: { details: string }) {
   return (
-    <Box icon="warn" title={TEXTS.somethingBroke} words={TEXTS.reloadThePage}>
+    <Box icon="warn" title={TEXTS.editorFailed} words={TEXTS.reloadThePage}>
       <Button label={TEXTS.reload} run={() => location.reload()} />
       <Button label={TEXTS.copyDetails} run={() => void navigator.clipboard?.writeText(details)} />
     </Box>
@@ -108,13 +108,13 @@ function Full() {
     await c.journal.retry();
     const full = c.journal.keeping.peek() === 'full';
     const done = n ? TEXTS.stepsOfOther(n) : '';
-    const now = full ? TEXTS.thereIsStill : TEXTS.thisOneIsKept;
+    const now = full ? TEXTS.stillNoSpace : TEXTS.savedAgain;
     c.editor.notices.show({ text: done + now });
   };
   return (
     <Box icon="warn" title={TEXTS.noRoomLeftOn} words={words}>
       <Button label={TEXTS.export} run={() => perform(c, 'export')} />
-      <Button label={TEXTS.makeRoom} run={() => void makeRoom()} />
+      <Button label={TEXTS.freeSpace} run={() => void makeRoom()} />
     </Box>
   );
 }
@@ -122,7 +122,7 @@ function Full() {
 function BrokenLink({ why }: { why: string }) {
   const { sharing } = useApp();
   return (
-    <Box icon="warn" title={TEXTS.theLinkCould} words={TEXTS.askForItOnce(why)}>
+    <Box icon="warn" title={TEXTS.theLinkCould} words={TEXTS.askTheSender(why)}>
       <Button label={TEXTS.close} run={() => sharing.dismiss()} />
     </Box>
   );

@@ -9,7 +9,7 @@ import { Icon } from '../parts/icons';
 import { viewTick } from './view-tick';
 import { TEXTS } from '../../texts/desk/hud';
 
-const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
+const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseOthersReact];
 /** How far the hint reaches to both sides of the middle, with all steps and with one, and up or down from its edge. */
 const HALF_WIDTH_PX = 340;
 const HALF_STEP_PX = 200;

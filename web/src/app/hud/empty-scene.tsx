@@ -30,12 +30,12 @@ export function EmptyScene() {
 function Card({ scene }: { scene: string }) {
   const c = useApp();
   return (
-    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label={TEXTS.nobodyIsHere}>
+    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label={TEXTS.noRoadUsersYet}>
       <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => c.ui.hideEmpty(scene)}>
         <Icon name="x" size={16} />
       </button>
-      <h2>{c.editor.scene.peek()!.map.lanes.size ? TEXTS.theMapIsInNobody : TEXTS.plainGroundNobody}</h2>
-      <p>{TEXTS.startWithOne}</p>
+      <h2>{c.editor.scene.peek()!.map.lanes.size ? TEXTS.mapAdded : TEXTS.emptyScene}</h2>
+      <p>{TEXTS.placeOrFill}</p>
       <div class="ways">
         {WAYS.map((id, i) => {
           const a = actionOf(id);
@@ -55,10 +55,10 @@ function Card({ scene }: { scene: string }) {
         <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
           {TEXTS.newMap}
         </button>{' '}
-        <KeyCaps of="Ctrl+N" /> {TEXTS.insteadOfThis}
+        <KeyCaps of="Ctrl+N" /> {TEXTS.toStartOver}
         <span class="everything">
           {' · '}
-          <KeyCaps of="Ctrl+K" /> {TEXTS.forEverything}
+          <KeyCaps of="Ctrl+K" /> {TEXTS.forAllActions}
         </span>
       </p>
     </section>

@@ -44,7 +44,7 @@ export default function FillPanel() {
       </h3>
       <div class="busy">
         <Share
-          label={TEXTS.howBusy}
+          label={TEXTS.density}
           value={wish.density}
           range={[LEAST_DENSITY, MOST_DENSITY]}
           step={0.5}
@@ -85,11 +85,11 @@ export default function FillPanel() {
         </span>
       </Line>
       <Arms />
-      <Line label={TEXTS.keepWhatIsThere}>
+      <Line label={TEXTS.keepExisting}>
         <Switch
-          label={TEXTS.keepWhatIsThere}
+          label={TEXTS.keepExisting}
           on={wish.keep}
-          title={wish.keep ? TEXTS.everybodyStays : TEXTS.thoseInTheArea}
+          title={wish.keep ? TEXTS.existingStay : TEXTS.unlockedAreRemoved}
           set={(keep) => filling.setKeep(keep)}
         />
       </Line>
@@ -119,7 +119,7 @@ function SpeedField({ end }: { end: 0 | 1 }) {
   const mps = (): number => (filling.wish.value?.speeds ?? ANY_SPEED)[end];
   return (
     <NumberField
-      label={end ? TEXTS.highestSpeed : TEXTS.lowestSpeed}
+      label={end ? TEXTS.maximumStartSpeed : TEXTS.minimumStartSpeed}
       field={end ? 'fill-fastest' : 'fill-slowest'}
       unit={() => (end ? speedUnit.value : '')}
       quantity={() => speedUnit.value}
@@ -145,7 +145,7 @@ function Arms() {
   if (!arms.length) return null;
   return (
     <fieldset class="arms">
-      <legend>{TEXTS.comingIn}</legend>
+      <legend>{TEXTS.arrivals}</legend>
       {arms.map((arm) => (
         <Line key={arm.id} label={armName(arm)}>
           <RateField arm={arm} />
@@ -197,7 +197,7 @@ function Preview() {
 }
 
 const what = (n: Newcomer): string =>
-  n.parked ? TEXTS.parked : comesLater(n) ? TEXTS.comesInAfter(seconds(n.motion!.first * STEP_S)) : '';
+  n.parked ? TEXTS.parked : comesLater(n) ? TEXTS.arrivesAt(seconds(n.motion!.first * STEP_S)) : '';
 
 /** What to do next, or why there are not more. */
 function Note() {
@@ -207,7 +207,7 @@ function Note() {
   const reason = filling.answer.value?.reason;
   const pinned = wish.pinned.length;
   const words = filling.drawn.value
-    ? TEXTS.clickFurther
+    ? TEXTS.clickMoreCorners
     : (reason ??
       (pinned
         ? TEXTS.pinnedShuffle(pinned)
@@ -218,7 +218,7 @@ function Note() {
             : TEXTS.theWholeMapDraw));
   return (
     <p class="note" aria-live="polite">
-      {gone ? TEXTS.makeRoom(gone) : ''}
+      {gone ? TEXTS.removed(gone) : ''}
       {words}
     </p>
   );

@@ -179,13 +179,13 @@ function DragHelp() {
           : several
             ? TEXTS.othersReactWhen
             : !react
-              ? TEXTS.letGoToWorkIt
+              ? TEXTS.releaseToCompute
               : shown
                 ? TEXTS.dashedBoxesWhere
                 : TEXTS.othersReactWhen}
       </span>
       <div class="sep" />
-      {[...tips, ['Esc', TEXTS.putBack]].map(([key, text]) => (
+      {[...tips, ['Esc', TEXTS.cancel]].map(([key, text]) => (
         <span key={key}>
           <KeyCaps of={key} />
           {text}

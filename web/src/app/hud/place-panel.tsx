@@ -11,8 +11,8 @@ import { NumberField } from '../parts/number-field';
 import { TEXTS } from '../../texts/panels/place-panel';
 
 const SPREADS: readonly (readonly [Spread, string, string])[] = [
-  ['one', TEXTS.one, TEXTS.clickWhereIt],
-  ['line', TEXTS.alongALine, TEXTS.dragALineThey],
+  ['one', TEXTS.one, TEXTS.clickTheStartPosition],
+  ['line', TEXTS.alongALine, TEXTS.dragALine],
   ['area', TEXTS.overAnArea, TEXTS.dragOverTheGround],
 ];
 
@@ -56,12 +56,12 @@ function Panel({ kind }: { kind: PlacedKind }) {
           </button>
         ))}
         <div class={`preset own ${preset ? '' : 'on'}`}>
-          {TEXTS.ownSize}
+          {TEXTS.customSize}
           <OwnSize kind={kind} name="length" set={(length) => own({ length })} />
           <OwnSize kind={kind} name="width" set={(width) => own({ width })} />
         </div>
       </div>
-      <div class="seg wide" role="radiogroup" aria-label={TEXTS.howMany}>
+      <div class="seg wide" role="radiogroup" aria-label={TEXTS.count}>
         {SPREADS.map(([id, text, help]) => (
           <button
             key={id}
@@ -78,9 +78,9 @@ function Panel({ kind }: { kind: PlacedKind }) {
       </div>
       {spread === 'one' ? null : (
         <div class="many">
-          <span>{TEXTS.howMany}</span>
+          <span>{TEXTS.count}</span>
           <NumberField
-            label={TEXTS.howManyRoadUsers}
+            label={TEXTS.numberOfRoadUsers}
             field="place-count"
             unit={() => ''}
             quantity={() => 'count'}
@@ -101,7 +101,7 @@ function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'widt
   const { placement } = useApp().editor;
   return (
     <NumberField
-      label={TEXTS.ownIn(TEXTS.sizes[name], lengthUnitWord())}
+      label={TEXTS.customIn(TEXTS.sizes[name], lengthUnitWord())}
       letter={TEXTS.letters[name]}
       unit={() => (lengthUnit() === 'ft' ? 'ft' : '')}
       quantity={() => 'length'}

@@ -94,7 +94,7 @@ function refining({ step, steps, ms, part }: RefiningStatus) {
       ? TEXTS.refiningStep(step, steps, after)
       : ms
         ? TEXTS.firstGuess(after)
-        : TEXTS.workingOutFutures;
+        : TEXTS.computingFutures;
   return (
     <div class="row">
       <span class="steps">
@@ -120,7 +120,7 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
       return { dot: 'collision', text: s.words };
     case 'away': {
       const n = editor.away.value?.waiting ?? 0;
-      return { dot: 'near', text: n ? TEXTS.generatorAway(n) : TEXTS.generatorAwayOnly };
+      return { dot: 'near', text: n ? TEXTS.generatorOfflineWaiting(n) : TEXTS.generatorOffline };
     }
     case 'settled':
       return settledLine(c, s.ms, s.adapted);
@@ -139,7 +139,7 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
   const parts = [
     TEXTS.futures(n === 6 ? TEXTS.six : n),
     ms ? TEXTS.ms(ms.toFixed(0)) : '',
-    adapted ? TEXTS.othersAdapted(adapted) : '',
+    adapted ? TEXTS.othersReact(adapted) : '',
   ];
   // Beside a collision nothing is green.
   return { dot: dotOf(editor.events.value), text: parts.filter(Boolean).join(' · ') };

@@ -153,7 +153,7 @@ function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChil
       {locked ? (
         <div class="sect lockline">
           <Icon name="lock" size={15} />
-          <span class="grow">{TEXTS.lockedItStays}</span>
+          <span class="grow">{TEXTS.lockedCannotBeChanged}</span>
           <ActionButton id="lock" class="line" icon="" size={15}>
             {TEXTS.unlock}
           </ActionButton>
@@ -198,10 +198,10 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
         <>
           <h3>
             {TEXTS.whileOthersChange}
-            <small>{TEXTS.thisOneAlone}</small>
+            <small>{TEXTS.thisRoadUserOnly}</small>
           </h3>
           <Segments
-            label={TEXTS.whatItDoesWhile}
+            label={TEXTS.behaviourWhenOthersChange}
             items={[
               ['does-react', TEXTS.reacts],
               ['does-log', TEXTS.replaysLog],
@@ -273,7 +273,7 @@ function Foot({ agent }: { agent: LiveAgent }) {
       )}
       {!goal && recorded && !changed ? (
         <ActionButton key="log" id="goal-from-log" class="line" icon="">
-          {TEXTS.asInTheLog}
+          {TEXTS.sameAsRecorded}
         </ActionButton>
       ) : null}
       {changed ? <ActionButton id="reset-agent" class="line" icon="" size={15} /> : null}

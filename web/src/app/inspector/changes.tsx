@@ -35,7 +35,7 @@ function Foreseen({ list }: { list: readonly Change[] }) {
     <section class="sect foreseen" aria-label={TEXTS.othersThatWould}>
       <h3>
         {TEXTS.wouldChange(others(list.length))}
-        <small>{TEXTS.ifYouLetGoNow}</small>
+        <small>{TEXTS.onRelease}</small>
       </h3>
       <Lines list={list} />
     </section>

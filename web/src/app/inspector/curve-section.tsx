@@ -34,7 +34,7 @@ export function CurveSection({ agent }: { agent: LiveAgent }) {
   /** What is driven instead where a point cannot be. */
   const missed = (p: SpeedPoint): string | null => {
     const now = curve.profile.value && driven && poseAt(driven, p.t);
-    return now && Math.abs(now.speed - p.v) > MISSED_MPS ? TEXTS.drives(speedLabel(now.speed, unit)) : null;
+    return now && Math.abs(now.speed - p.v) > MISSED_MPS ? TEXTS.actual(speedLabel(now.speed, unit)) : null;
   };
   return (
     <section class="sect curve" aria-label={TEXTS.speedOverTime}>
@@ -85,7 +85,7 @@ function Stops({ agent }: { agent: LiveAgent }) {
   if (!path || !stops.length) return null;
   const line = lineOf(path);
   return (
-    <dl class="wh figures" aria-label={TEXTS.whereItStops}>
+    <dl class="wh figures" aria-label={TEXTS.stopsTitle}>
       {stops.flatMap(({ pose, from, lasts }) => [
         <dt key={from}>{TEXTS.stops(editor.curve.placeOf(agent.value, pose))}</dt>,
         <dd key={`${from}:`}>{TEXTS.after(metres(project(line, pose.x, pose.y).s, 1), seconds(lasts))}</dd>,

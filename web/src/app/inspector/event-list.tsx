@@ -70,9 +70,9 @@ function NoEvents() {
   const away = useComputed(() => editor.away.value !== null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
   const close = useComputed(() => closeInTime(editor.motion.value)).value;
-  if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
-  const unknown = away ? TEXTS.notKnownWhile : TEXTS.notWorkedOut;
-  const none = close === null ? TEXTS.noCollisions : TEXTS.noneButClose(seconds(close));
+  if (nobody) return <p class="sec">{TEXTS.noneToCheck}</p>;
+  const unknown = away ? TEXTS.unknownWhileOffline : TEXTS.notComputedYet;
+  const none = close === null ? TEXTS.noCollisions : TEXTS.noneButSmallPet(seconds(close));
   return (
     <div class="kindrow">
       <span class={`dot ${!known ? 'busy' : close === null ? '' : 'near'}`} />

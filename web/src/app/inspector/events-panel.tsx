@@ -61,7 +61,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
   const weighing = useMemo(() => new Weighing(editor, supposing), [editor, supposing]);
   useEffect(() => weighing.begin(), [weighing]);
   const now = (name: ThresholdName): string => told(name, threshold(editor.scene.peek()!, name));
-  const counts = COUNTS.countsBelow(now('ttc_s'), now('gap_m'));
+  const counts = COUNTS.nearMissBelow(now('ttc_s'), now('gap_m'));
   const change = (id: string) => {
     editor.setTime(0);
     ui.showEvents(false);
@@ -79,7 +79,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
         {e.kind === 'near' ? <p class="note">{counts}</p> : null}
       </section>
       <section>
-        <h3>{TEXTS.whatYouCanDo}</h3>
+        <h3>{TEXTS.remedies}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (
             <RemedyButton key={r.label} remedy={r} outcome={weighing.of(r)} />

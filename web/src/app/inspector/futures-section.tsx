@@ -27,11 +27,11 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     if (!f) return editor.calm.read(() => editor.status.value).kind === 'refining' ? 'working' : '';
     if (f.sketch) return TEXTS.sketchGenerator;
     if (!isSettled(f)) return f.step ? TEXTS.stepOf(f.step, f.steps) : TEXTS.firstGuess;
-    if (editor.outdated.value) return TEXTS.fromBeforeThe;
+    if (editor.outdated.value) return TEXTS.beforeTheLastChange;
     if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
     const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
     if (hasGoal(a.goal)) return TEXTS.of(n);
-    return editor.replays.value ? TEXTS.nonePicked(n) : TEXTS.noGoalSet(n);
+    return editor.replays.value ? TEXTS.noneChosenYet(n) : TEXTS.noGoalSet(n);
   });
   return (
     <section class="sect last futsec" aria-label={TEXTS.futures}>
@@ -42,7 +42,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
       <FutureList agent={agent} />
       <Remark agent={agent} />
       <ActionButton id="rounds" class="line rounds" size={15} withKey>
-        {TEXTS.keepAndReject}
+        {TEXTS.compareInRounds}
       </ActionButton>
     </section>
   );
@@ -79,7 +79,7 @@ function Waiting() {
   const { editor } = useApp();
   const words = useComputed(() => {
     if (editor.away.value) return TEXTS.waitingForThe;
-    return editor.status.value.kind === 'refused' ? TEXTS.noneSeeBelow : TEXTS.workingThemOut;
+    return editor.status.value.kind === 'refused' ? TEXTS.noneSeeBelow : TEXTS.computing;
   });
   return <p class="mut">{words}</p>;
 }
@@ -101,7 +101,7 @@ function RecordedRow({ agent }: { agent: LiveAgent }) {
         class="fu recorded"
         role="radio"
         aria-checked={checked as never}
-        title={TEXTS.itDoesWhatTheLog}
+        title={TEXTS.followsTheLog}
         onClick={() => {
           if (!replays.peek()) perform(c, 'reset-agent');
         }}
@@ -219,7 +219,7 @@ function PinnedRow({ pin, why }: ShownPin) {
 
 const MARK_WORDS: Readonly<Record<Mark, string>> = {
   collision: TEXTS.collision,
-  rule: TEXTS.breaksARule,
+  rule: TEXTS.ruleViolation,
   near: TEXTS.nearMiss,
   short: TEXTS.goalNotReached,
   ok: TEXTS.reached,

@@ -32,12 +32,12 @@ export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) 
   }).value;
   return (
     <>
-      {closest ? <Moment time={closest.time} title={TEXTS.goThere} words={closestWords(closest)} /> : null}
+      {closest ? <Moment time={closest.time} title={TEXTS.goToThisMoment} words={closestWords(closest)} /> : null}
       {between ? (
         <Moment
           time={between.time}
-          title={TEXTS.timeGapIs}
-          words={TEXTS.timeGap(seconds(between.gap), between.first.name, between.second.name)}
+          title={TEXTS.whatPetIs}
+          words={TEXTS.pet(seconds(between.gap), between.first.name, between.second.name)}
         />
       ) : null}
     </>
@@ -45,7 +45,7 @@ export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) 
 }
 
 const closestWords = ({ a, b, gap }: Closest): string =>
-  gap > TOUCH_M ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name);
+  gap > TOUCH_M ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andInContact(a.name, b.name);
 
 /** What happens at a moment; a click goes there. */
 function Moment({ time, title, words }: { time: number; title: string; words: string }) {

@@ -52,7 +52,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     const a = agent.value;
     const drag = editor.calm.read(() => editor.drag.value);
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
-    if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asInLog;
+    if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asRecordedNote;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;
   });
@@ -95,7 +95,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   return (
     <p class="leave">
       {leave.words}
-      <button type="button" aria-label={TEXTS.takeBack(leave.words)} onClick={() => editor.run(leave.command)}>
+      <button type="button" aria-label={TEXTS.undo(leave.words)} onClick={() => editor.run(leave.command)}>
         <Icon name="x" size={12} />
       </button>
     </p>
@@ -313,7 +313,7 @@ function TypeRow({ agent }: { agent: LiveAgent }) {
       >
         {PLACED_KINDS.map((kind) => (
           <optgroup key={kind} label={KIND_NAMES[kind]}>
-            {own === kind ? <option value={`${kind}:own`}>{TEXTS.ownSize(KIND_NAMES[kind])}</option> : null}
+            {own === kind ? <option value={`${kind}:own`}>{TEXTS.customSize(KIND_NAMES[kind])}</option> : null}
             {PRESETS[kind].map((p, i) => (
               <option key={p.label} value={`${kind}:${i}`}>
                 {p.label}

@@ -41,7 +41,7 @@ function Nothing() {
     <>
       <Head note={TEXTS.opensWithThe} />
       <div class="sect last">
-        <p class="sec">{TEXTS.hereYouWillSee}</p>
+        <p class="sec">{TEXTS.whatThisPanelLists}</p>
       </div>
     </>
   );
@@ -54,7 +54,7 @@ function About({ scene }: { scene: Scene }) {
   const span = useComputed(() => TEXTS.nextS(num(editor.resting.value?.duration ?? 0, 0)));
   return (
     <>
-      <Head note={scene.agents.size ? TEXTS.nothingSelected : TEXTS.nobodyIsHere} />
+      <Head note={scene.agents.size ? TEXTS.nothingSelected : TEXTS.noRoadUsersYet} />
       <section class="sect">
         <h3>
           {TEXTS.inThisScene}
@@ -91,7 +91,7 @@ function About({ scene }: { scene: Scene }) {
       ) : null}
       <section class="sect">
         <h3>{TEXTS.othersTitle}</h3>
-        <Segments label={TEXTS.whatTheOthers} items={choices} />
+        <Segments label={TEXTS.behaviourOfOthers} items={choices} />
         <p class="note">{others}</p>
       </section>
       <section class="sect last lines">

@@ -37,9 +37,9 @@ function figures(e: Editor): (readonly [string, string])[] {
   const { minTtc, pet } = set.score;
   return [
     [TEXTS.collisionsPer, num(hits / Math.max(1, all.length), 2)],
-    [TEXTS.leastTimeToCollision, minTtc === null ? TEXTS.noneOnTheWay : `${num(minTtc, 1)} s`],
-    ...(pet == null ? [] : [[TEXTS.leastGapInTime, `${num(pet, 1)} s`] as const]),
+    [TEXTS.minimumTtc, minTtc === null ? TEXTS.none : `${num(minTtc, 1)} s`],
+    ...(pet == null ? [] : [[TEXTS.minimumPet, `${num(pet, 1)} s`] as const]),
     ...(goals.length ? [[TEXTS.goalsReached, TEXTS.countOf(reached, goals.length)] as const] : []),
-    ...(furthest > 0 ? [[TEXTS.furthestFrom, metres(furthest, 1)] as const] : []),
+    ...(furthest > 0 ? [[TEXTS.largestDistance, metres(furthest, 1)] as const] : []),
   ];
 }

@@ -40,11 +40,11 @@ export function SeveralPanel() {
       <Head all={all} />
       <section class="sect">
         <h3>
-          {TEXTS.allOfThem}
-          <small>{TEXTS.typingWrites}</small>
+          {TEXTS.allSelected}
+          <small>{TEXTS.editsApplyToAll}</small>
         </h3>
         <Filter all={all} only={only} />
-        {locked ? <p class="note">{TEXTS.lockedStayAs(locked)}</p> : null}
+        {locked ? <p class="note">{TEXTS.lockedAreNotChanged(locked)}</p> : null}
       </section>
       <Values those={those} />
       <Rule all={all} />
@@ -84,7 +84,7 @@ function Filter({ all, only }: { all: Live; only: { value: AgentType | null } })
   });
   if (rows.length < 2) return null;
   return (
-    <div class="seg wide" role="radiogroup" aria-label={TEXTS.whoIsChanged}>
+    <div class="seg wide" role="radiogroup" aria-label={TEXTS.applyChangesTo}>
       {[[null, TEXTS.all, all.value.length] as const, ...rows].map(([type, word, n]) => (
         <button
           key={word}
@@ -183,7 +183,7 @@ function Values({ those }: { those: Live }) {
             <Icon name="flag" size={15} />
           </span>
           {TEXTS.goal}
-          <small>{goals ? TEXTS.ofHaveOne(goals, those.value.length) : TEXTS.nobodyHasOne}</small>
+          <small>{goals ? TEXTS.setForOf(goals, those.value.length) : TEXTS.notSet}</small>
         </h3>
         <Row shared={fields.goalSpeed} those={those} fixes={['goal', 'speed']} />
         <Row shared={fields.time} those={those} />
@@ -210,8 +210,8 @@ function Kinds({ those }: { those: Live }) {
           key={kind}
           type="button"
           class={`btn i ${those.value.every((a) => a.kind === kind) ? 'on' : ''}`}
-          title={TEXTS.eachA(KIND_WORDS[kind])}
-          aria-label={TEXTS.eachA(KIND_WORDS[kind])}
+          title={TEXTS.changeAllTo(KIND_WORDS[kind])}
+          aria-label={TEXTS.changeAllTo(KIND_WORDS[kind])}
           aria-pressed={those.value.every((a) => a.kind === kind)}
           onClick={() => {
             const command = several.setKind(several.movable(those.peek()), kind);
@@ -255,10 +255,10 @@ function Rule({ all: chosen }: { all: Live }) {
   return (
     <section class="sect">
       <h3>
-        {TEXTS.othersRule}
+        {TEXTS.whenOthersChange}
         <small>{TEXTS.forThese(all.value.length)}</small>
       </h3>
-      <Segments label={TEXTS.whatTheyDoWhile} items={DOES} />
+      <Segments label={TEXTS.behaviour} items={DOES} />
       <p class="note">{words}</p>
     </section>
   );
@@ -281,14 +281,14 @@ function Who({ those }: { those: Live }) {
     const gap = gapNow(boxes);
     const left = boxes.length === 2 ? timeToCollision(boxes[0], boxes[1]) : null;
     if (gap === null) return '';
-    return left === null ? TEXTS.smallestGap(metres(gap, 1)) : TEXTS.gapAndTime(metres(gap, 1), seconds(left));
+    return left === null ? TEXTS.smallestGap(metres(gap, 1)) : TEXTS.gapAndTtc(metres(gap, 1), seconds(left));
   }).value;
   const shown = those.value.slice(0, LISTED);
   const more = those.value.length - shown.length;
   return (
     <section class="sect last">
       <h3>
-        {TEXTS.who}
+        {TEXTS.roadUsersTitle}
         <small>{now}</small>
       </h3>
       <Nearest those={those} />

@@ -40,18 +40,18 @@ export function ThresholdsSection({ last }: { last: boolean }) {
   const { editor } = useApp();
   const changed = useComputed(() => editor.resting.value !== null && !isUsual(editor.resting.value)).value;
   return (
-    <section class={`sect counts ${last ? 'last' : ''}`} aria-label={TEXTS.whatCounts}>
+    <section class={`sect counts ${last ? 'last' : ''}`} aria-label={TEXTS.thresholds}>
       <h3>
-        {TEXTS.whatCounts}
-        <small>{changed ? TEXTS.changedHere : TEXTS.asUsual}</small>
+        {TEXTS.thresholds}
+        <small>{changed ? TEXTS.changedHere : TEXTS.isDefault}</small>
       </h3>
       {OFFERED.map((name) => (
         <Line key={name} name={name} />
       ))}
-      <p class="note">{TEXTS.timeMeans}</p>
+      <p class="note">{TEXTS.whatANearMissIs}</p>
       {changed ? (
         <button type="button" class="btn line" onClick={() => editor.run(resetThresholds())}>
-          {TEXTS.resetAll}
+          {TEXTS.resetToDefault}
         </button>
       ) : null}
     </section>
@@ -80,7 +80,7 @@ function Line({ name }: { name: ThresholdName }) {
           if (s) editor.run(setThreshold(s, name, v));
         }}
       />
-      <small class={own ? 'own' : ''}>{TEXTS.usually(told(name, usual(name)))}</small>
+      <small class={own ? 'own' : ''}>{TEXTS.defaultIs(told(name, usual(name)))}</small>
     </div>
   );
 }

@@ -63,14 +63,14 @@ const OUTDATED: Verdict = {
   kind: 'near',
   icon: 'warn',
   title: TEXTS.futuresAreOut,
-  words: TEXTS.theyWillBeWorked,
+  words: TEXTS.computedAgainLater,
 };
 
 const NO_LANE: Verdict = {
   kind: 'plain',
   icon: 'warn',
   title: TEXTS.thereIsNoLane,
-  words: TEXTS.carsMayStill,
+  words: TEXTS.lessAccurateHere,
   snap: true,
 };
 
@@ -99,7 +99,7 @@ function wayUntil(m: Motion, time: number): number {
 const AS_RECORDED: Verdict = {
   kind: 'ok',
   icon: 'check',
-  title: TEXTS.goalTakenFromLog,
+  title: TEXTS.goalAsRecorded,
   words: TEXTS.dragTheFlag,
 };
 
@@ -145,8 +145,8 @@ function onCurve({ editor: e }: Context, a: Agent): Verdict | null {
     ? TEXTS.goesAtYourSpeed
     : goesOn
       ? TEXTS.stopsFor(seconds(stop.lasts))
-      : TEXTS.stopsAndStays(seconds(stop.from));
-  const words = [TEXTS.brakesAtMost(acceleration(hardestBraking(motion)))];
+      : TEXTS.stopsUntilTheEnd(seconds(stop.from));
+  const words = [TEXTS.brakesAtUpTo(acceleration(hardestBraking(motion)))];
   if (a.goal.pos) words.push(TEXTS.reachesTheGoal(seconds(a.goal.time)));
   return { kind: 'ok', icon: 'check', title, words: words.join(' '), at: stop?.from ?? null };
 }
@@ -161,7 +161,7 @@ function offLanes({ editor }: Context, a: Agent): boolean {
 function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
   const log = e.layers.value.log ? comparedWithLog(a, e.motionFor(a), e.scene.value!.duration) : null;
   if (!log) return null;
-  const words = TEXTS.furthestApart(log.words, metres(log.d, 1), seconds(log.t));
+  const words = TEXTS.largestDistance(log.words, metres(log.d, 1), seconds(log.t));
   return { kind: 'plain', icon: 'eye', title: TEXTS.comparedWith, words };
 }
 
@@ -173,9 +173,9 @@ function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
 }
 
 const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
-  collision: TEXTS.withACollision,
-  rule: TEXTS.againstTheRules,
-  near: TEXTS.withANearMiss,
+  collision: TEXTS.happenedCollision,
+  rule: TEXTS.happenedRule,
+  near: TEXTS.happenedNearMiss,
   short: TEXTS.shortOfIt,
 };
 

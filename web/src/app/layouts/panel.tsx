@@ -35,11 +35,11 @@ const LINES: Readonly<Record<string, Line>> = {
   ring_lanes: { label: TEXTS.ringLanes, unit: '', step: 1 },
   ring_lane_width_m: { label: TEXTS.ringLaneWidth, unit: 'm', step: 0.25 },
   ring_speed_limit_kmh: { label: TEXTS.ringSpeedLimit, unit: 'km/h', step: 5 },
-  parallel_m: { label: TEXTS.beside, unit: 'm', step: 10 },
+  parallel_m: { label: TEXTS.parallelLength, unit: 'm', step: 10 },
   ramp_angle_deg: { label: TEXTS.rampAngle, unit: '°', step: 1 },
   ramp_speed_limit_kmh: { label: TEXTS.rampSpeedLimit, unit: 'km/h', step: 10 },
   aisles: { label: TEXTS.aisles, unit: '', step: 1 },
-  bays: { label: TEXTS.baysOnASide, unit: '', step: 1 },
+  bays: { label: TEXTS.baysPerSide, unit: '', step: 1 },
   bay_width_m: { label: TEXTS.bayWidth, unit: 'm', step: 0.1 },
   bay_length_m: { label: TEXTS.bayLength, unit: 'm', step: 0.1 },
   aisle_m: { label: TEXTS.aisleWidth, unit: 'm', step: 0.25 },
@@ -234,8 +234,8 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
         ),
       )}
       {priority ? (
-        <Row label={TEXTS.goesFirst}>
-          <Switch label={TEXTS.goesFirst} on={arm.main} set={(main) => set({ main })} />
+        <Row label={TEXTS.hasPriority}>
+          <Switch label={TEXTS.hasPriority} on={arm.main} set={(main) => set({ main })} />
         </Row>
       ) : null}
       <div class="row">
@@ -263,7 +263,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
 function Count({ label, value, set }: { label: string; value: number; set: (v: number) => void }) {
   return (
     <span class="count" role="group" aria-label={label}>
-      <button type="button" aria-label={TEXTS.oneLess(label)} disabled={value <= 0} onClick={() => set(value - 1)}>
+      <button type="button" aria-label={TEXTS.oneFewer(label)} disabled={value <= 0} onClick={() => set(value - 1)}>
         −
       </button>
       <b>{value}</b>
@@ -401,7 +401,7 @@ function Connections({ arm }: { arm: number }) {
       ) : null}
       {changed ? (
         <button type="button" class="btn line" onClick={() => layouts.set(layouts.usualWays(arm))}>
-          {TEXTS.usualOnes}
+          {TEXTS.reset}
         </button>
       ) : null}
     </details>
@@ -456,7 +456,7 @@ function Whole({ parameters }: { parameters: Parameters }) {
       <h3>{parameters.arms ? TEXTS.junction : TEXTS.road}</h3>
       {parameters.control ? (
         <Choice
-          label={TEXTS.whoGoesFirst}
+          label={TEXTS.rightOfWay}
           items={CONTROLS}
           value={parameters.control}
           set={(control) => layouts.set({ control })}

@@ -12,7 +12,7 @@ const choices = (log: string): Choices => [
   ['others-still', TEXTS.holdStill],
 ];
 const RECORDED = choices(TEXTS.replayLog);
-const PLACED = choices(TEXTS.goOn);
+const PLACED = choices(TEXTS.continueAsNow);
 
 /** What the others may do, as pairs of action and word. Where everybody was put here there is no log to be replayed. */
 export function useOthers(): Choices {
@@ -25,7 +25,7 @@ export function useOthers(): Choices {
 
 /** What that means. */
 export const OTHERS_DO: Readonly<Record<Others, string>> = {
-  react: TEXTS.everybodyYou,
-  log: TEXTS.theyDoWhatWas,
-  still: TEXTS.theyStayWhere,
+  react: TEXTS.allReactOnRelease,
+  log: TEXTS.recordedReplay,
+  still: TEXTS.othersHoldStill,
 };

@@ -95,8 +95,8 @@ export function CardView({ hand, index, picture, album }: Props) {
           type="button"
           class="btn i"
           data-take={letter}
-          aria-label={TEXTS.take(letter)}
-          title={TEXTS.takeThisOneThe(index + 1)}
+          aria-label={TEXTS.use(letter)}
+          title={TEXTS.useThisCard(index + 1)}
           onClick={() => rounds.take(index)}
         >
           <Icon name="flag" size={14} />
@@ -164,7 +164,7 @@ function Why({ hand, index }: { hand: Hand; index: number }) {
         e.currentTarget.blur();
       }}
     >
-      <option value="">{said?.verdict === 'keep' ? TEXTS.whyAllInAll : TEXTS.whyAsked}</option>
+      <option value="">{said?.verdict === 'keep' ? TEXTS.whyOverall : TEXTS.whyAsked}</option>
       {all.map((w) => (
         <option key={w.key} value={w.key}>
           {w.words}

@@ -24,7 +24,7 @@ export default function RoundsPanel() {
           <Icon name="star" size={20} />
         </div>
         <div class="grow">
-          <h2>{TEXTS.whatYouLike}</h2>
+          <h2>{TEXTS.preferences}</h2>
           <p>
             {upper(a.name)}, {TEXTS.answers(answers.length)}
           </p>
@@ -40,7 +40,7 @@ export default function RoundsPanel() {
       <footer class="sect foot">
         <ActionButton id="round-table" class="line" icon="" />
         <button type="button" class="btn line" onClick={() => rounds.forgetAll()}>
-          {TEXTS.forgetAll}
+          {TEXTS.removeAll}
         </button>
       </footer>
     </>
@@ -89,7 +89,7 @@ function RoundList({ subject }: Of) {
 
 function countWords(of: readonly Answer[]): string {
   const kept = of.filter((x) => x.verdict === 'keep').length;
-  return of.length ? TEXTS.keptRejected(kept, of.length - kept) : TEXTS.nothingSaidYet;
+  return of.length ? TEXTS.keptRejected(kept, of.length - kept) : TEXTS.noAnswersYet;
 }
 
 function Wishes({ subject }: Of) {
@@ -98,7 +98,7 @@ function Wishes({ subject }: Of) {
   return (
     <section class="sect wishes">
       <h3>
-        {TEXTS.learntWishes}
+        {TEXTS.learnedPreferences}
         {all.some((w) => w.learned) ? <small>{TEXTS.strength}</small> : null}
       </h3>
       {all.map((w) => (
@@ -118,12 +118,12 @@ function WishRow({ wished, subject }: Of & { wished: Wished }) {
   const answers = hand ? earlierAnswers(subject.feedback, hand.asked) : [];
   const rests = learned
     ? restsOn(learned, answers, { nameOf: nameIn(scene), unit: unitFor(editor, subject) })
-    : TEXTS.youSaidSoItCounts;
+    : TEXTS.addedByYou;
   return (
     <div class="wishrow" data-wish={words}>
       <b>{words}</b>
       {learned ? <em>{percent(learned.strength)}</em> : null}
-      <button type="button" class="btn i" aria-label={TEXTS.forget(words)} onClick={() => rounds.forget(wished)}>
+      <button type="button" class="btn i" aria-label={TEXTS.removeOne(words)} onClick={() => rounds.forget(wished)}>
         <Icon name="x" size={13} />
       </button>
       {learned ? (
@@ -147,7 +147,7 @@ function AddWish() {
   return (
     <select
       class="field pick"
-      aria-label={TEXTS.addAWish}
+      aria-label={TEXTS.addAPreference}
       value=""
       onChange={(e) => {
         const wish = all.find((w) => w.key === e.currentTarget.value)?.wish;
@@ -156,7 +156,7 @@ function AddWish() {
         if (wish) rounds.wish(wish);
       }}
     >
-      <option value="">{TEXTS.addAWish}</option>
+      <option value="">{TEXTS.addAPreference}</option>
       {all.map((w) => (
         <option key={w.key} value={w.key}>
           {w.words}
@@ -181,7 +181,7 @@ function Apart({ subject }: Of) {
   if (!torn.length) return null;
   return (
     <section class="sect apart">
-      <h3>{TEXTS.whereTheyPull}</h3>
+      <h3>{TEXTS.conflicts}</h3>
       {torn.map(({ w, against }) => (
         <p key={w.words}>
           <b>{w.words}:</b> {against.slice(0, MOST_NAMED).map(againstWords).join(' ')}

@@ -49,7 +49,7 @@ export default function RoundStrip() {
       {hand ? (
         <Cards hand={hand} />
       ) : (
-        <div class="cards">{problem ? null : <p class="none">{TEXTS.drawingSix}</p>}</div>
+        <div class="cards">{problem ? null : <p class="none">{TEXTS.generatingSix}</p>}</div>
       )}
       {problem ? (
         <p class="problem" role="alert">
@@ -74,17 +74,17 @@ function Title() {
   const all = Math.max(USUAL_ROUNDS, round);
   const n = editor.deck.hand.value?.names.length;
   const many = n === 6 || !n ? TEXTS.six : n;
-  const what = subject?.id === null ? TEXTS.waysTheScene(many) : TEXTS.futuresOf(many, subject?.name ?? '');
+  const what = subject?.id === null ? TEXTS.futuresOfTheScene(many) : TEXTS.futuresOf(many, subject?.name ?? '');
   return (
     <>
       <h2>{TEXTS.roundOpened(round)}</h2>
-      <Segments label={TEXTS.whoseRounds} items={WHOSE} />
+      <Segments label={TEXTS.roundsFor} items={WHOSE} />
       <span class="dots" role="img" aria-label={TEXTS.roundOpened(round)}>
         {Array.from({ length: all }, (_, i) => (
           <i key={i} class={i + 1 < round ? 'done' : i + 1 === round ? 'now' : ''} />
         ))}
       </span>
-      <small role="status">{asking ? TEXTS.drawing : round === 1 ? what : TEXTS.drawnAnewFrom(what)}</small>
+      <small role="status">{asking ? TEXTS.generating : round === 1 ? what : TEXTS.basedOnYourAnswers(what)}</small>
     </>
   );
 }
@@ -157,15 +157,15 @@ function Learnt() {
             {w.words}
             <button
               type="button"
-              aria-label={TEXTS.forget(w.words)}
-              title={TEXTS.forgetTitle}
+              aria-label={TEXTS.removeOne(w.words)}
+              title={TEXTS.removeTitle}
               onClick={() => rounds.forget(w)}
             >
               <Icon name="x" size={11} />
             </button>
           </span>
         ))}
-        {all.length ? null : <small>{TEXTS.nothingYetIt}</small>}
+        {all.length ? null : <small>{TEXTS.threeMustAgree}</small>}
       </span>
       <span class="hints" aria-hidden="true">
         <KeyCaps of="K" /> {TEXTS.orPullUpKeep} <KeyCaps of="J" /> {TEXTS.orDownReject} <KeyCaps of="Right" />{' '}

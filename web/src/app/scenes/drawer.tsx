@@ -68,7 +68,7 @@ export function ChooseFiles() {
       </button>
       {' · '}
       <button type="button" data-action="choose-files" onClick={() => perform(c, 'choose-files')}>
-        {TEXTS.whatCanBeRead}
+        {TEXTS.supportedFormats}
       </button>
     </>
   );
@@ -185,5 +185,5 @@ function NewName({ item }: { item: SceneListItem }) {
 export function about(s: SceneListItem): string {
   const n = countAll(s.counts);
   const kind = s.source && isRecorded(s.source) ? TEXTS.recordedWithin : s.readonly ? TEXTS.example : TEXTS.own;
-  return [n ? TEXTS.roadUsers(n) : TEXTS.nobodyYet, kind].join(' · ');
+  return [n ? TEXTS.roadUsers(n) : TEXTS.noRoadUsers, kind].join(' · ');
 }

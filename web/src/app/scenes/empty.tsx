@@ -15,7 +15,7 @@ export function Empty() {
   return (
     <div class="empty">
       <div class="in">
-        <h1>{cards.length ? TEXTS.startWithACrossing : TEXTS.bringAScene}</h1>
+        <h1>{cards.length ? TEXTS.startWithACrossing : TEXTS.importAScene}</h1>
         <Words some={cards.length > 0} />
         {cards.length ? (
           <div class="cards">
@@ -47,6 +47,6 @@ export function Empty() {
 function Words({ some }: { some: boolean }) {
   const { editor } = useApp();
   const away = useComputed(() => editor.away.value !== null).value;
-  const none = away ? TEXTS.theServerIsNot : TEXTS.thereAreNoExamples;
+  const none = away ? TEXTS.theServerIsNot : TEXTS.noExamplesFound;
   return <p>{some ? TEXTS.openAnExample : none}</p>;
 }

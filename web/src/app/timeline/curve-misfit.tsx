@@ -53,7 +53,7 @@ export function CurveMisfit() {
 }
 
 function wordsOf(m: Misfit, unit: SpeedUnit): string {
-  if (m.what === 'short') return TEXTS.cannotMakeIt(num(m.time, 1), metres(m.by, 0));
+  if (m.what === 'short') return TEXTS.cannotReachTheGoal(num(m.time, 1), metres(m.by, 0));
   const [wanted, reached] = [speedLabel(m.point.v, unit), speedLabel(m.reached, unit)];
   const by = `${num(m.point.t, 1)} s`;
   if (m.what === 'gathering') return TEXTS.cannotReachBy(wanted, by, reached);
@@ -61,7 +61,7 @@ function wordsOf(m: Misfit, unit: SpeedUnit): string {
 }
 
 function labelOf(w: Way, { what }: Misfit, unit: SpeedUnit): string {
-  if (w.kind === 'later') return TEXTS.giveItSMore(num(w.by, 1));
+  if (w.kind === 'later') return TEXTS.allowSMore(num(w.by, 1));
   if (w.kind === 'shorter') return TEXTS.shorterStopS(num(w.hold, 1));
   const to = speedLabel(w.v, unit);
   if (what === 'short') return TEXTS.leaveAt(to);

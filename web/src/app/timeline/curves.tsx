@@ -98,7 +98,7 @@ function whatIsMissing({ layouts, resting }: Editor): string {
   if (layouts.isNew.peek()) return TEXTS.nobodyOnThisMap;
   const scene = resting.peek();
   if (!scene) return TEXTS.nothingToPlay;
-  return scene.agents.size ? TEXTS.selectARoadUser : TEXTS.placeSomebody;
+  return scene.agents.size ? TEXTS.selectARoadUser : TEXTS.placeARoadUser;
 }
 
 function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {

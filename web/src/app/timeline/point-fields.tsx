@@ -50,7 +50,7 @@ export function PointFields() {
         />
         <span>{TEXTS.for}</span>
         <NumberField
-          label={TEXTS.secondsThatIt}
+          label={TEXTS.durationAtThisSpeed}
           field="point-hold"
           unit={() => 's'}
           quantity={() => 'time'}
@@ -85,7 +85,7 @@ export function PointFields() {
           {TEXTS.clearTheCurve}
         </button>
         <span class={`brakes ${braking > TOO_HARD_MPS2 ? 'toohard' : braking > HARD_MPS2 ? 'hard' : ''}`}>
-          {TEXTS.brakesAtMost(acceleration(braking))}
+          {TEXTS.brakesAtUpTo(acceleration(braking))}
         </span>
       </div>
     </div>

@@ -25,9 +25,9 @@ export function Timeline() {
         <IconButton id="next-event" />
         <IconButton id="tall-timeline" />
         <span class="grow" />
-        <Choice name={TEXTS.length} label={TEXTS.howMuchIsWorked} items={seconds('length', LENGTHS)} />
-        <Choice name={TEXTS.planAnew} label={TEXTS.howOftenEverybody} items={seconds('replan', REPLANS)} />
-        <Choice name={TEXTS.others} label={TEXTS.whatTheOthers} items={others} />
+        <Choice name={TEXTS.length} label={TEXTS.computedLength} items={seconds('length', LENGTHS)} />
+        <Choice name={TEXTS.replan} label={TEXTS.planningWindow} items={seconds('replan', REPLANS)} />
+        <Choice name={TEXTS.others} label={TEXTS.behaviourOfOthers} items={others} />
       </div>
       <Plot />
     </footer>

@@ -23,7 +23,7 @@ export function verdictOf({ set, events }: Pictured): { colour: string; word: st
   if (!set) return { colour: '', word: '…', fact: '' };
   if (!worst) {
     const pet = set.score?.pet;
-    const fact = pet == null ? '' : TEXTS.gapS(num(pet, 1));
+    const fact = pet == null ? '' : TEXTS.petS(num(pet, 1));
     const close = closeInTime(set) !== null;
     return { colour: close ? 'near' : 'ok', word: close ? TEXTS.close : TEXTS.noConflict, fact };
   }
@@ -78,7 +78,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
         {card.set ? (
           <LivePicture card={card} album={album} />
         ) : (
-          <span class="blank">{card.scene ? TEXTS.workingItOut : TEXTS.otherRoadUsers}</span>
+          <span class="blank">{card.scene ? TEXTS.computing : TEXTS.otherRoadUsers}</span>
         )}
       </button>
       {side ? <em class="badge-side">{SIDES[side]}</em> : null}
@@ -122,7 +122,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
 function Name({ card }: { card: Card }) {
   const { variants } = useApp();
   return (
-    <b title={TEXTS.ndoubleClick(card.name)} onDblClick={() => variants.startRenaming(card.id)}>
+    <b title={TEXTS.doubleClickToRename(card.name)} onDblClick={() => variants.startRenaming(card.id)}>
       <i>{card.id}</i> {card.name}
     </b>
   );

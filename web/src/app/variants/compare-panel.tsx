@@ -55,10 +55,10 @@ export default function ComparePanel() {
       <WhoseSpeed now={now} />
       <section class="sect">
         <h3>
-          {TEXTS.whenTheyPart}
+          {TEXTS.differences}
           <small>{TEXTS.clickToGoThere}</small>
         </h3>
-        {parting.moments.length ? null : <p class="sec">{TEXTS.theyAreTheSame}</p>}
+        {parting.moments.length ? null : <p class="sec">{TEXTS.noDifferences}</p>}
         {parting.moments.map((m) => (
           <MomentRow key={`${m.time} ${m.words}`} moment={m} />
         ))}

@@ -12,7 +12,7 @@ const BY: readonly (readonly [Over, string])[] = [
   ['time', TEXTS.byTimeAtTheGoal],
 ];
 
-const SAID: Record<Over, string> = { start: TEXTS.startsAt, goal: TEXTS.arrivesAt, time: TEXTS.isThereAfter };
+const SAID: Record<Over, string> = { start: TEXTS.startsAt, goal: TEXTS.arrivesAt, time: TEXTS.reachesTheGoalAfter };
 
 /** What new ones differ by: chance, or a number of the one road user that they are about. */
 export function RangePick() {
@@ -26,7 +26,7 @@ export function RangePick() {
       value={sweep?.over ?? ''}
       onChange={(e) => variants.sweepOver((e.currentTarget.value || null) as Over | null)}
     >
-      <option value="">{TEXTS.byChance}</option>
+      <option value="">{TEXTS.bySeed}</option>
       {BY.map(([over, words]) => (
         <option key={over} value={over}>
           {words}

@@ -86,7 +86,7 @@ export default function Strip() {
   function Nobody({ any }: { any: boolean }) {
     return (
       <p class="none">
-        {any ? TEXTS.noneOfThemIs : TEXTS.noVariantsYet}{' '}
+        {any ? TEXTS.noMatches : TEXTS.noVariantsYet}{' '}
         {any || variants.sweep.value ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
             {TEXTS.make(variants.count.value)}
@@ -124,14 +124,14 @@ function About() {
   const words = useComputed(() => {
     if (editor.playing.value) return TEXTS.allRunOnOneClock;
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
-    if (!last) return TEXTS.waysTheScene;
+    if (!last) return TEXTS.futuresOfTheScene;
     const who = last.state.subject === null ? null : editor.scene.value?.agents.get(last.state.subject)?.name;
     const seed = Math.min(
       ...variants.cards.value.filter((v) => !v.variant.kept && !v.variant.starred).map((v) => v.state.seed),
       last.state.seed,
     );
     const from = TEXTS.seedDiversity(seed, Math.round(last.state.diversity * 100));
-    return who ? TEXTS.waysOfFrom(who, from) : TEXTS.everybodyAnew(from);
+    return who ? TEXTS.futuresOf(who, from) : TEXTS.allRoadUsers(from);
   });
   if (making) return <Progress of={making} />;
   return (
@@ -143,7 +143,7 @@ function About() {
             type="number"
             min={1}
             max={MOST_NEW}
-            aria-label={TEXTS.howManyVariants}
+            aria-label={TEXTS.numberOfVariants}
             value={variants.count.value}
             onChange={(e) => variants.setCount(Number(e.currentTarget.value) || 1)}
           />
@@ -159,13 +159,13 @@ function About() {
 function Progress({ of: m }: { of: Making }) {
   const { variants } = useApp();
   const paused = variants.paused.value;
-  const left = paused ? TEXTS.waiting : m.left ? leftWords(m.left) : '';
+  const left = paused ? TEXTS.paused : m.left ? leftWords(m.left) : '';
   return (
     <>
       {/* They come first: what is behind them grows, and they stay under the pointer. */}
       <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
         <Icon name={paused ? 'play' : 'pause'} size={14} />
-        {paused ? TEXTS.goOn : TEXTS.pause}
+        {paused ? TEXTS.resume : TEXTS.pause}
       </button>
       <button type="button" class="btn line" onClick={() => variants.stop()}>
         {m.made.length ? TEXTS.stopKeep(m.made.length) : TEXTS.stop}
@@ -177,14 +177,14 @@ function Progress({ of: m }: { of: Making }) {
       <span
         class="progress"
         role="progressbar"
-        aria-label={TEXTS.made}
+        aria-label={TEXTS.progress}
         aria-valuemax={m.of}
         aria-valuenow={m.made.length}
       >
         <i style={{ width: `${(100 * m.made.length) / m.of}%` }} />
       </span>
       <span class="tally">
-        {m.clear ? <em class="tag ok">{TEXTS.clear(m.clear)}</em> : null}
+        {m.clear ? <em class="tag ok">{TEXTS.withoutConflict(m.clear)}</em> : null}
         {m.near ? <em class="tag near">{TEXTS.withAnEvent(m.near)}</em> : null}
         {m.hit ? <em class="tag collision">{TEXTS.withACollision(m.hit)}</em> : null}
       </span>

@@ -15,7 +15,7 @@ export function WhoseSpeed({ now }: { now: Compared }) {
       </h3>
       <select
         class="field pick"
-        aria-label={TEXTS.whoseSpeed}
+        aria-label={TEXTS.speedOf}
         value={variants.followed.value?.agent.id}
         onChange={(e) => variants.follow(e.currentTarget.value)}
       >

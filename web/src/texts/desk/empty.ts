@@ -1,20 +1,20 @@
 import { table } from '../table';
 
 export const TEXTS = table('empty', {
-  nobodyIsHere: 'No road users yet',
+  noRoadUsersYet: 'No road users yet',
   close: 'Close',
-  theMapIsInNobody: 'Map added. No road users yet.',
-  plainGroundNobody: 'Empty scene. No map, no road users yet.',
-  startWithOne: 'Place one car, or fill the map with traffic. Every step can be undone.',
-  insteadOfThis: 'to start over',
-  forEverything: 'for all actions',
+  mapAdded: 'Map added. No road users yet.',
+  emptyScene: 'Empty scene. No map, no road users yet.',
+  placeOrFill: 'Place one car, or fill the map with traffic. Every step can be undone.',
+  toStartOver: 'to start over',
+  forAllActions: 'for all actions',
   newMap: 'New map',
   startWithACrossing: 'Start with a crossing',
-  bringAScene: 'Import a scene',
+  importAScene: 'Import a scene',
   dropSceneFiles: 'Drop scene files anywhere',
   scenarioRecords: 'Scenario records, lane maps or saved scenes · or ',
   theServerIsNot: 'The server is not answering. Scenes appear here once it does.',
-  thereAreNoExamples: 'No examples found. Drop a scenario record or a saved scene.',
+  noExamplesFound: 'No examples found. Drop a scenario record or a saved scene.',
   openAnExample: 'Open an example and drag a car, or import your own scene.',
   startFromANewMap: 'start from a new map',
 });

@@ -3,11 +3,11 @@ import { plural, table } from '../table';
 export const TEXTS = table('history', {
   history: 'History',
   ofSteps: (at: number, count: number) => `${at} of ${count} steps`,
-  nothingDoneYet: 'no steps yet',
+  noStepsYet: 'no steps yet',
   olderSteps: (count: number) => plural(count, { one: `${count} older step`, other: `${count} older steps` }),
   oneBack: 'one step back',
   keptOnThisComputer: 'Stored on this computer',
-  howItWas: 'Initial state',
+  initialState: 'Initial state',
   beforeTheFirst: 'before the first step',
   goBackToThis: 'go back to this step',
   branch: 'branch',

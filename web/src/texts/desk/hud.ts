@@ -1,7 +1,7 @@
 import { plural, table } from '../table';
 
 export const TEXTS = table('hud', {
-  somethingBroke: 'The editor ran into an error. The scene is safe.',
+  editorFailed: 'The editor ran into an error. The scene is safe.',
   reloadThePage: 'Reload the page to continue.',
   reload: 'Reload',
   copyDetails: 'Copy details',
@@ -24,13 +24,13 @@ export const TEXTS = table('hud', {
   exportTheScene: 'Export the scene, or delete the steps of other saved scenes.',
   stepsOfOther: (n: number) =>
     plural(n, { one: `Steps of ${n} other scene deleted. `, other: `Steps of ${n} other scenes deleted. ` }),
-  thereIsStill: 'Still no space: export this scene.',
-  thisOneIsKept: 'This scene is saved again.',
+  stillNoSpace: 'Still no space: export this scene.',
+  savedAgain: 'This scene is saved again.',
   noRoomLeftOn: 'No space left on this computer for saving.',
   export: 'Export',
-  makeRoom: 'Free space',
+  freeSpace: 'Free space',
   theLinkCould: 'The link could not be opened.',
-  askForItOnce: (why: string) => `${why} Ask the sender for the link again, or for the file.`,
+  askTheSender: (why: string) => `${why} Ask the sender for the link again, or for the file.`,
   close: 'Close',
   theSceneCould: 'The scene could not be opened.',
   layers: 'Layers',
@@ -53,14 +53,14 @@ export const TEXTS = table('hud', {
   showTheOthers: 'show others’ reactions',
   theFlagLagsBehind: 'The flag lags behind while a kerb is in the way',
   othersReactWhen: 'Others react on release',
-  letGoToWorkIt: 'Release to compute',
+  releaseToCompute: 'Release to compute',
   dashedBoxesWhere: 'Dashed boxes: where others would wait',
-  putBack: 'cancel',
+  cancel: 'cancel',
   goToTheFirst: 'Go to the first one',
   clickACar: 'Click a car',
   add: 'Add',
   dragItsFlagTo: 'Drag its flag to where it should be in 9 s',
-  letGoTheOthers: 'Release: the others react',
+  releaseOthersReact: 'Release: the others react',
   closeTheHint: 'Close the hint',
   undo: 'Undo',
   previewNothing: 'Preview: nothing added yet',
@@ -73,17 +73,17 @@ export const TEXTS = table('hud', {
   refining: (part: string, after: string) => `Refining ${part} · ${after}`,
   refiningStep: (step: number, steps: number, after: string) => `Refining, step ${step} of ${steps} · ${after}`,
   firstGuess: (after: string) => `First guess · ${after}`,
-  workingOutFutures: 'Computing futures …',
+  computingFutures: 'Computing futures …',
   loadingTheScene: 'Loading the scene …',
   youCanKeepDragging: ' You can keep dragging.',
   thisTakesLonger: (ms: string, keep: string) => `This takes longer than usual (${ms} s).${keep}`,
-  generatorAway: (n: number) =>
+  generatorOfflineWaiting: (n: number) =>
     plural(n, { one: `Generator offline · ${n} change waiting`, other: `Generator offline · ${n} changes waiting` }),
-  generatorAwayOnly: 'Generator offline',
+  generatorOffline: 'Generator offline',
   showingFutures: 'Showing futures to the nearest reachable point',
   six: 'Six',
   futures: (it: number | string) => (it === 1 ? 'One future' : `${it} futures`),
-  othersAdapted: (adapted: number) =>
+  othersReact: (adapted: number) =>
     plural(adapted, { one: `${adapted} other reacts`, other: `${adapted} others react` }),
   ready: 'Ready',
   mapReadyLanes: (count: number) =>

@@ -1,12 +1,12 @@
 import { table } from '../table';
 
 export const TEXTS = table('page', {
-  thereAreNoRoad: 'No road users on the clipboard.',
+  clipboardIsEmpty: 'No road users on the clipboard.',
   thisPartOfThe: 'This part of the editor did not load. Nothing is lost.',
   theEditorDid: 'The editor did not load completely. Your scenes are safe.',
-  loadAgain: 'Reload',
+  reload: 'Reload',
   tryAgain: 'Try again',
-  loadThePageAnew: 'Reload the page',
+  reloadThePage: 'Reload the page',
   roadUser: 'road user',
   dropToImport: 'Drop to import',
   nearlyClosed: 'nearly closed',

@@ -9,9 +9,9 @@ export const TEXTS = table('parts', {
   howFarTheSix: 'How much the six futures may differ',
   react: 'React',
   replayLog: 'Replay log',
-  goOn: 'Continue',
+  continueAsNow: 'Continue',
   holdStill: 'Hold still',
-  everybodyYou: 'All road users react on release; goals are still met.',
-  theyDoWhatWas: 'Recorded road users replay the log; placed ones continue unchanged.',
-  theyStayWhere: 'Others stay at their start; no others arrive.',
+  allReactOnRelease: 'All road users react on release; goals are still met.',
+  recordedReplay: 'Recorded road users replay the log; placed ones continue unchanged.',
+  othersHoldStill: 'Others stay at their start; no others arrive.',
 });

@@ -6,11 +6,11 @@ export const TEXTS = table('curve-section', {
   at: (time: string) => `at ${time}`,
   for: (time: string) => `, for ${time}`,
   kinds: { start: 'start', end: 'end', hold: 'hold', stop: 'stop' },
-  drives: (speed: string) => `actual ${speed}`,
+  actual: (speed: string) => `actual ${speed}`,
   point: 'Point',
   stop: 'Stop',
   via: 'Via',
-  whereItStops: 'Stops',
+  stopsTitle: 'Stops',
   stops: (place: string | null) => `Stops ${place ?? 'here'}`,
   after: (way: string, lasts: string) => `after ${way}, for ${lasts}`,
 });

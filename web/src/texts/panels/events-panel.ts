@@ -5,7 +5,7 @@ export const TEXTS = table('events-panel', {
   events: 'Events',
   inTheLog: (inLog: number) => ` · ${inLog} in the log`,
   where: 'Where',
-  whatYouCanDo: 'Remedies',
+  remedies: 'Remedies',
   change: (name: string) => `Change ${name}`,
   keepAsAVariant: 'Keep as a variant',
   thenNothing: 'Event avoided',

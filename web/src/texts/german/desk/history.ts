@@ -5,11 +5,11 @@ import type { Said } from '../../table';
 export const german: Said<typeof TEXTS> = {
   history: 'Verlauf',
   ofSteps: (at: number, all: number) => `${at} von ${all} Schritten`,
-  nothingDoneYet: 'noch keine Schritte',
+  noStepsYet: 'noch keine Schritte',
   olderSteps: (count) => plural(count, { one: `${count} älterer Schritt`, other: `${count} ältere Schritte` }),
   oneBack: 'einen Schritt zurück',
   keptOnThisComputer: 'Auf diesem Rechner gesichert',
-  howItWas: 'Anfangszustand',
+  initialState: 'Anfangszustand',
   beforeTheFirst: 'vor dem ersten Schritt',
   goBackToThis: 'zurück zu diesem Schritt',
   branch: 'Zweig',

@@ -2,12 +2,12 @@ import type { TEXTS } from '../../desk/page';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  thereAreNoRoad: 'Keine Verkehrsteilnehmer in der Zwischenablage.',
+  clipboardIsEmpty: 'Keine Verkehrsteilnehmer in der Zwischenablage.',
   thisPartOfThe: 'Dieser Teil des Editors wurde nicht geladen. Nichts ist verloren.',
   theEditorDid: 'Der Editor wurde nicht vollständig geladen. Die Szenen sind sicher.',
-  loadAgain: 'Neu laden',
+  reload: 'Neu laden',
   tryAgain: 'Noch einmal versuchen',
-  loadThePageAnew: 'Seite neu laden',
+  reloadThePage: 'Seite neu laden',
   roadUser: 'Verkehrsteilnehmer',
   dropToImport: 'Zum Importieren loslassen',
   nearlyClosed: 'fast geschlossen',

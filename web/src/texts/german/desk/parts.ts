@@ -10,9 +10,9 @@ export const german: Said<typeof TEXTS> = {
   howFarTheSix: 'Wie verschieden die sechs Zukünfte sein dürfen',
   react: 'Reagieren',
   replayLog: 'Wiedergabe',
-  goOn: 'Weiter',
+  continueAsNow: 'Weiter',
   holdStill: 'Stehen',
-  everybodyYou: 'Alle reagieren beim Loslassen; gesetzte Ziele werden weiterhin erreicht.',
-  theyDoWhatWas: 'Aufgezeichnete fahren wie aufgezeichnet; eingesetzte fahren unverändert weiter.',
-  theyStayWhere: 'Andere bleiben am Start stehen; niemand kommt hinzu.',
+  allReactOnRelease: 'Alle reagieren beim Loslassen; gesetzte Ziele werden weiterhin erreicht.',
+  recordedReplay: 'Aufgezeichnete fahren wie aufgezeichnet; eingesetzte fahren unverändert weiter.',
+  othersHoldStill: 'Andere bleiben am Start stehen; niemand kommt hinzu.',
 };

@@ -8,11 +8,11 @@ export const german: Said<typeof TEXTS> = {
   at: (time) => `bei ${time}`,
   for: (time) => `, ${time} lang`,
   kinds: { start: 'Start', end: 'Ende', hold: 'Halten', stop: 'Halt' },
-  drives: (speed: string) => `Ist: ${speed}`,
+  actual: (speed: string) => `Ist: ${speed}`,
   point: 'Punkt',
   stop: 'Halt',
   via: 'Ort',
-  whereItStops: 'Halte',
+  stopsTitle: 'Halte',
   stops: (place) => `Hält ${place ?? 'hier'}`,
   after: (way, lasts) => `nach ${way}, ${lasts} lang`,
 };

@@ -6,7 +6,7 @@ export const german: Said<typeof TEXTS> = {
   events: 'Ereignisse',
   inTheLog: (inLog) => ` · ${inLog} in der Aufzeichnung`,
   where: 'Wo',
-  whatYouCanDo: 'Abhilfe',
+  remedies: 'Abhilfe',
   change: (name) => `${name} ändern`,
   keepAsAVariant: 'Als Variante behalten',
   thenNothing: 'Ereignis vermieden',

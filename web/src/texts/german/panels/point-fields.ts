@@ -3,11 +3,11 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   whyTheCurveCannot: 'Warum die Kurve nicht fahrbar ist',
-  cannotMakeIt: (time, by) => `Ziel bis ${time} s nicht erreichbar: es fehlen ${by}.`,
+  cannotReachTheGoal: (time, by) => `Ziel bis ${time} s nicht erreichbar: es fehlen ${by}.`,
   cannotReachBy: (wanted, by, reached) => `${wanted} sind bis ${by} nicht erreichbar: höchstens ${reached}.`,
   cannotBrakeTo: (wanted, by, reached) => `Bremsen auf ${wanted} bis ${by} nicht möglich: dann noch ${reached}.`,
   cannotStopBy: (by, reached) => `Anhalten bis ${by} nicht möglich: dann noch ${reached}.`,
-  giveItSMore: (by) => `${by} s mehr Zeit`,
+  allowSMore: (by) => `${by} s mehr Zeit`,
   shorterStopS: (hold) => `Kürzer halten, ${hold} s`,
   leaveAt: (toIt) => `Mit ${toIt} weiter`,
   onlyDownTo: (toIt) => `Nur bis auf ${toIt}`,
@@ -15,10 +15,10 @@ export const german: Said<typeof TEXTS> = {
   pointOfTheSpeed: 'Punkt der Tempokurve',
   speedAtThisPoint: 'Tempo an diesem Punkt',
   for: 'für',
-  secondsThatIt: 'Dauer mit diesem Tempo in Sekunden',
+  durationAtThisSpeed: 'Dauer mit diesem Tempo in Sekunden',
   at: 'bei',
   timeOfThisPoint: 'Zeit dieses Punkts',
   removeThisPoint: 'Diesen Punkt entfernen',
   clearTheCurve: 'Kurve entfernen',
-  brakesAtMost: (braking) => `bremst mit bis zu ${braking}`,
+  brakesAtUpTo: (braking) => `bremst mit bis zu ${braking}`,
 };

@@ -2,22 +2,22 @@ import type { TEXTS } from '../../panels/thresholds';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  whatCounts: 'Schwellwerte',
-  whatCountsAsEvent: 'Schwellwerte',
-  asUsual: 'Standard',
+  thresholds: 'Schwellwerte',
+  actionLabel: 'Schwellwerte',
+  isDefault: 'Standard',
   changedHere: 'in dieser Szene geändert',
   gap: 'Beinahe-Unfall: Abstand unter',
   time: 'Beinahe-Unfall: TTC unter',
   braking: 'Starkes Bremsen über',
   steering: 'Starkes Lenken über',
-  usually: (value) => `Standard ${value}`,
-  timeMeans:
+  defaultIs: (value) => `Standard ${value}`,
+  whatANearMissIs:
     'Ein Beinahe-Unfall braucht zwei Verkehrsteilnehmer, die sich nähern und bei gleichem Tempo und gleicher Drehrate zusammenstießen. Zwei Fußgänger zählen nie.',
-  resetAll: 'Auf Standard setzen',
+  resetToDefault: 'Auf Standard setzen',
   reset: 'Schwellwerte auf Standard gesetzt',
   gapNow: (value) => `Abstand für Beinahe-Unfälle auf ${value} m gesetzt`,
   timeNow: (value) => `TTC für Beinahe-Unfälle auf ${value} s gesetzt`,
   brakingNow: (value) => `Starkes Bremsen auf ${value} m/s² gesetzt`,
   steeringNow: (value) => `Starkes Lenken auf ${value} m/s² gesetzt`,
-  countsBelow: (time, gap) => `Beinahe-Unfall: TTC unter ${time} oder Abstand unter ${gap}, auf Kollisionskurs.`,
+  nearMissBelow: (time, gap) => `Beinahe-Unfall: TTC unter ${time} oder Abstand unter ${gap}, auf Kollisionskurs.`,
 };
