@@ -7,7 +7,7 @@ export const german: Said<typeof TEXTS> = {
   cycling: 'Mit Rad',
   driving: 'Kfz',
   allSelected: 'Alle ausgewählten',
-  editsApplyToAll: 'Eingabe gilt für alle, +5 addiert 5',
+  editsApplyToAll: 'gilt für alle, +5 addiert 5',
   lockedAreNotChanged: (locked) =>
     plural(locked, {
       one: `${locked} gesperrter wird nicht geändert.`,

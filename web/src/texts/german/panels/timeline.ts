@@ -27,7 +27,7 @@ export const german: Said<typeof TEXTS> = {
   timeline: 'Zeitleiste',
   length: 'Dauer',
   computedLength: 'Berechnete Dauer',
-  replan: 'Neu planen',
+  replan: 'Planung',
   planningWindow: 'Planungsfenster aller Verkehrsteilnehmer',
   others: 'Andere',
   behaviourOfOthers: 'Verhalten der anderen',
