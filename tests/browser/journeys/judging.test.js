@@ -40,7 +40,7 @@ journeys('judging', (stage) => {
       /Hard braking/.test(document.querySelector('aside.insp').textContent.replace('Hard braking above', '')),
     );
     await e.page.getByRole('button', { name: 'Reset to default' }).click();
-    await e.until(() => /default/.test(document.querySelector('.counts').textContent));
+    await e.until(() => /^Thresholds\s*default/.test(document.querySelector('.counts').textContent));
     await e.settled();
     await badge.click();
     await e.page.getByRole('button', { name: `Change ${car.name}`, exact: true }).click();
