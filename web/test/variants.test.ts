@@ -184,7 +184,7 @@ describe('what tells variants apart', () => {
     expect(p.parted.map((x) => x.agent.id)).toEqual([a.id]);
     expect(p.same).toBe(p.all - 1);
     expect(p.moments).toHaveLength(1);
-    expect(p.moments[0].words).toBe(`${a.name} stops, only in 4`);
+    expect(p.moments[0].words).toBe(`${a.name} stops only in 4`);
     expect(p.moments[0].time).toBeGreaterThan(1);
     expect(p.moments[0].time).toBeLessThan(2.2);
     expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });

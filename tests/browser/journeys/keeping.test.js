@@ -67,11 +67,13 @@ journeys('keeping', (stage) => {
       assert.equal(await again.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled'), 'true');
       // Generate is a step like any other.
       await again.page.locator('[data-action="generate"]').click();
-      await again.until(() => /Everybody worked out anew/.test(document.querySelector('.toast')?.textContent));
+      await again.until(() => /All road users generated again/.test(document.querySelector('.toast')?.textContent));
       await again.settled();
       assert.equal(again.wire.last().body.agents, 'all');
       await again.page.locator('.toast [data-action="undo"]').click();
-      await again.until(() => /Undone: Everybody worked out anew/.test(document.querySelector('.toast')?.textContent));
+      await again.until(() =>
+        /Undone: All road users generated again/.test(document.querySelector('.toast')?.textContent),
+      );
       const mark = again.wire.asked.length;
       await again.page.locator('[data-action="redo"]').first().click();
       await again.settled();

@@ -76,5 +76,5 @@ export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
   if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
   const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.beforeIt : TEXTS.besideIt;
-  return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byTheRoad(metres(distance, 0), where) };
+  return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byRoad(metres(distance, 0), where) };
 }

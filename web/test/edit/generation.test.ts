@@ -575,6 +575,6 @@ describe('what is shown of a drag', () => {
     editor.endDrag(goal(10));
     rest();
     expect(anchors()).toEqual([5, 1, 0, 2, 3, 4]);
-    expect(editor.answers.remark.peek()?.words).toBe('C is shown; it was B in the drag.');
+    expect(editor.answers.remark.peek()?.words).toBe('C is shown; B was shown in the drag.');
   });
 });

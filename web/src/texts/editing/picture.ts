@@ -5,8 +5,7 @@ export const TEXTS = table('picture', {
   furtherOn: 'further on',
   beforeIt: 'before it',
   besideIt: 'beside it',
-  byTheRoad: (distance: string, where: string) => `By the road: ${distance} ${where}`,
-  byRoad: 'by road',
+  byRoad: (distance: string, where: string) => `By road: ${distance} ${where}`,
   armComes: (arm: string, rate: number, now: number, later: number) =>
     `${arm} ${rate}/h · ${now} now${later ? `, ${later} later` : ''}`,
   thePreviewDid: 'The preview did not load. Try again when the network is back.',
