@@ -169,7 +169,7 @@ describe('what tells variants apart', () => {
       const scene = withValue(there, a.id, 'time', t);
       return { id: i + 1, scene, state: stateOfVariant(scene, a.id), set: null };
     });
-    expect(named(timed)).toEqual(['There after 4 s', 'There after 4.5 s']);
+    expect(named(timed)).toEqual(['Arrives after 4 s', 'Arrives after 4.5 s']);
     // Of two with the same number the number tells nothing.
     expect(named([asks(1, 'goal', 5), asks(2, 'goal', 5), asks(3, 'goal', 7)])).toEqual([
       'Variant 1',

@@ -55,7 +55,7 @@ journeys('looking for a case', (stage) => {
     );
     assert.equal(await undoes(e), false, 'a search changes nothing');
     if (!(await found(e)).length) {
-      assert.match(await e.text('.seeking'), /Nearest to it was/);
+      assert.match(await e.text('.seeking'), /Closest: /);
       await e.page.getByRole('button', { name: 'Take the nearest' }).click();
     } else {
       // It may end by itself at any moment.

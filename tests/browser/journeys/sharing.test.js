@@ -20,7 +20,7 @@ journeys('sharing', (stage) => {
     const link = await e.page.inputValue('.share input');
     await e.key('Escape');
     const other = await stage.visit(link);
-    await other.until(() => /This scene came with a link/.test(document.querySelector('.banner')?.textContent));
+    await other.until(() => /This scene was opened from a link/.test(document.querySelector('.banner')?.textContent));
     await other.settled();
     await other.choose(car.id);
     assert.equal(await other.value('goal-time'), 6.5);

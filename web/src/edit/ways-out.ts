@@ -42,7 +42,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   if (to) {
     const heading = a.goal.heading === null ? null : to.heading;
     const goal: GoalSpec = { ...a.goal, pos: Object.freeze([to.x, to.y] as const), heading };
-    const command = goalStep(a, goal, TEXTS.goalOfMovedToWhere(a.name));
+    const command = goalStep(a, goal, TEXTS.goalOfMovedOntoRoad(a.name));
     return { words: to.words, note: '', to, path: pathBy(e, a, modes, to), command };
   }
   // A pick is one of the futures at rest; those of a drag are gone when it ends.

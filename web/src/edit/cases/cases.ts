@@ -148,8 +148,8 @@ export class Cases {
     const scene = this.editor.scene.value;
     const who = s && scene?.agents.get(s.who);
     if (!s || !who) return TEXTS.selectOneOrTwo;
-    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.canBeLookedAt}.`;
-    if (KINDS[s.what].two && s.other === null) return TEXTS.thisIsBetween;
+    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.isNotEditable}.`;
+    if (KINDS[s.what].two && s.other === null) return TEXTS.needsTwo;
     if (s.what === 'red' && !scene?.signals.length) return TEXTS.noSignalsHere;
     if (s.what === 'goal' && !who.goal.pos) return TEXTS.hasNoGoalYet(who.name);
     return null;

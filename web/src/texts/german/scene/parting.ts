@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   turnsRight: 'biegt rechts ab',
   unknown: 'unbekannt',
   goalOf: (name) => `Ziel von ${name}`,
-  hits: (name, name2) => `${name} kollidiert mit ${name2}`,
+  hits: (name, name2) => `${name} trifft ${name2}`,
   keepsFurther: (right) => `hält sich in ${right} weiter links`,
   keepsFurtherRight: (right) => `hält sich in ${right} weiter rechts`,
   stopsOnlyIn: (slow) => `hält nur in ${slow}`,
