@@ -152,7 +152,7 @@ describe('what tells variants apart', () => {
     expect(named([card(1, on)])).toEqual(['Variant 1']);
     const meets = { kind: 'collision', what: 'collision', a, b: walker(s), inLog: false } as TrafficEvent;
     const eventful = named([card(1, on), { ...card(2, on), events: [meets] }, card(3, stops)]);
-    expect(eventful[1]).toBe(`${a.name} meets ${walker(s).name}`);
+    expect(eventful[1]).toBe(`${a.name} hits ${walker(s).name}`);
   });
 
   it('is the number that was asked, where each has another', () => {

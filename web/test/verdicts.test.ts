@@ -154,7 +154,9 @@ describe('verdicts', () => {
   it('keep their sentence beside a collision', () => {
     const set: MotionSet = { ...emptyMotion(''), futures: new Map([['1', six(true)]]), driving: new Set(['1']) };
     const step = { name: 'Goal of Car 1 moved', agent: '1', undo: false };
-    expect(outcome(step, scene, [], readEvents(scene, set))).toBe('Goal of Car 1 moved. Collision with Car 2 at 5.4 s.');
+    expect(outcome(step, scene, [], readEvents(scene, set))).toBe(
+      'Goal of Car 1 moved. Collision with Car 2 at 5.4 s.',
+    );
     expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. No other road user is affected.');
   });
 

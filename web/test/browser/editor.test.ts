@@ -386,7 +386,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') },
     ]);
     await d.page.waitForSelector('.dlg.import');
-    expect(await d.text('.dlg.import')).toMatch(/2 files: 1 in, 1 cannot be read/);
+    expect(await d.text('.dlg.import')).toMatch(/2 files: 1 imported, 1 not readable/);
     expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene: it is a PDF.');
     await d.key('Escape');
     expect(await d.page.inputValue('.title input')).toBe('Mine');
@@ -447,7 +447,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     await d.page.reload();
     await d.ready();
-    expect(await d.text('.toast')).toContain('back');
+    expect(await d.text('.toast')).toContain('Restored');
   });
 
   it('can be driven by keys alone', async () => {
