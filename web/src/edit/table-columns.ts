@@ -92,7 +92,7 @@ export const ASKED: readonly Asked[] = [
   },
   {
     field: 'type',
-    label: TEXTS.kind,
+    label: TEXTS.type,
     says: TEXTS.carTruckPedestrian,
     needed: false,
     names: /^(agent|object|vehicle|veh|v|track)?[ _]?(type|class|category|kind)$/i,

@@ -237,7 +237,7 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
         )}
         {nearest ? (
           <button type="button" class="opt" onClick={() => cases.take(nearest)}>
-            {TEXTS.takeTheNearest}
+            {TEXTS.useTheClosest}
           </button>
         ) : null}
       </div>
@@ -294,11 +294,11 @@ function Found({ cases, sought }: Of) {
               <button
                 type="button"
                 class="btn line"
-                aria-label={TEXTS.takeCase(c.id)}
+                aria-label={TEXTS.useCase(c.id)}
                 title={TEXTS.replacesTheScene}
                 onClick={() => cases.take(c)}
               >
-                {TEXTS.take}
+                {TEXTS.use}
               </button>
             </span>
           </article>

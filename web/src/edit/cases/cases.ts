@@ -353,7 +353,7 @@ export class Cases {
     }
     this.show(null);
     editor.answers.know(c.take.set);
-    const name = TEXTS.caseTaken(momentWords(sought, c.moment));
+    const name = TEXTS.caseUsed(momentWords(sought, c.moment));
     editor.run({ ...takeVariant(now, stateOfVariant(c.take.scene, sought.who), name), fold: undefined });
     editor.setTime(c.moment.time);
     editor.notices.show({ text: `${name}.`, undo: true });

@@ -11,7 +11,7 @@ export const TEXTS = table('pins', {
   pinned: (letter: string, name: string) => `Future ${letter} of ${name} pinned`,
   unpinned: (future: string, name: string) => `Future of ${name} unpinned: ${future}`,
   taken: (future: string, name: string) => `Pinned future of ${name} chosen: ${future}`,
-  anotherKind: 'for another kind',
+  anotherType: 'for another type',
   startsAway: (distance: string) => `starts ${distance} away`,
   startsTurned: 'starts with another heading',
   startsAt: (speed: string) => `starts at ${speed}`,

@@ -70,7 +70,7 @@ export const TEXTS = table('imports', {
   speed: 'Speed',
   ifThereIsOne: 'if there is one',
   ftS: 'ft/s',
-  kind: 'Kind',
+  type: 'Type',
   carTruckPedestrian: 'car, truck, pedestrian …',
   length: 'Length',
   alongItsHeading: 'along the heading',

@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   pinned: (letter, name) => `Zukunft ${letter} von ${name} angeheftet`,
   unpinned: (future, name) => `Angeheftete Zukunft von ${name} gelöst: ${future}`,
   taken: (future, name) => `Angeheftete Zukunft von ${name} gewählt: ${future}`,
-  anotherKind: 'für eine andere Art',
+  anotherType: 'für eine andere Art',
   startsAway: (distance) => `beginnt ${distance} entfernt`,
   startsTurned: 'beginnt mit anderer Richtung',
   startsAt: (speed) => `beginnt mit ${speed}`,

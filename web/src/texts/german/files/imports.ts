@@ -73,7 +73,7 @@ export const german: Said<typeof TEXTS> = {
   speed: 'Tempo',
   ifThereIsOne: 'falls vorhanden',
   ftS: 'ft/s',
-  kind: 'Art',
+  type: 'Art',
   carTruckPedestrian: 'Pkw, Lkw, Fußgänger …',
   length: 'Länge',
   alongItsHeading: 'in Fahrtrichtung',

@@ -10,7 +10,7 @@ export const german: Said<typeof TEXTS> = {
   noneSet: 'keine gesetzt',
   collisions: 'Zusammenstöße',
   nearMisses: 'Beinahe-Unfälle',
-  minTtc: 'Minimale TTC',
+  minTtc: 'Kleinste TTC',
   none: 'keine',
   seedDiversity: 'Startwert, Vielfalt',
   others: 'Andere',

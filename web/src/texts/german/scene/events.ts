@@ -6,7 +6,7 @@ export const german: Said<typeof TEXTS> = {
   collision: 'Zusammenstoß',
   redLight: 'Rotlichtverstoß',
   wrongWay: 'Falsche Fahrtrichtung',
-  overTheMedian: 'Über die Mittelinsel',
+  overTheMedian: 'Über den Mittelstreifen',
   offTheRoad: 'Neben der Straße',
   hardBraking: 'Starkes Bremsen',
   hardSteering: 'Starkes Lenken',

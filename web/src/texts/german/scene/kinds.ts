@@ -43,5 +43,5 @@ export const german: Said<typeof TEXTS> = {
     pedestrian: (n: number) => `${n} Fußgänger`,
     other: (n: number) => plural(n, { one: `${n} Objekt`, other: `${n} Objekte` }),
   },
-  andKindsMore: (rows: string, n: number) => `${rows} und ${n} weitere Arten`,
+  andMoreTypes: (rows: string, n: number) => `${rows} und ${n} weitere Arten`,
 };

@@ -3,8 +3,8 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   events: 'Ereignisse',
-  minPet: 'Minimale PET',
-  minTtc: 'Minimale TTC',
+  minPet: 'Kleinste PET',
+  minTtc: 'Kleinste TTC',
   goes: (way) => `kommt ${way} weit`,
   stoppedS: (waits) => `steht ${waits} s`,
   waitsS: (waits) => `wartet ${waits} s`,
