@@ -140,7 +140,7 @@ describe('words', () => {
     expect(kindsWords(['car'])).toBe('1 car');
     expect(kindsWords(['pedestrian', 'cyclist', 'pedestrian'])).toBe('2 pedestrians, 1 cyclist');
     expect(kindsWords(['bus', 'bus'])).toBe('2 buses');
-    expect(kindsWords(Object.keys(KIND_NAMES) as 'car'[])).toBe('1 car, 1 truck and 5 kinds more');
+    expect(kindsWords(Object.keys(KIND_NAMES) as 'car'[])).toBe('1 car, 1 truck and 5 more types');
   });
 });
 

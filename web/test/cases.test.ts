@@ -292,7 +292,7 @@ describe('a search', () => {
     const { cases } = begin();
     expect(cases.obstacle.peek()).toBeNull();
     cases.open('near', [ME]);
-    expect(cases.obstacle.peek()).toMatch(/second road user/);
+    expect(cases.obstacle.peek()).toMatch(/two road users/);
     cases.open('goal', [ME]);
     expect(cases.obstacle.peek()).toMatch(/no goal/);
   });

@@ -180,22 +180,20 @@ describe('words of rounds', () => {
     expect(wishWords({ trait: 'harshness', wants: 'less' }, nameOf)).toBe('Smoother');
     expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'less' }, nameOf)).toBe('Car 12 first');
     expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'more' }, nameOf)).toBe('Car 7 first');
-    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.04, 4])).toBe('Keeps 2 s gap');
-    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.46, 4])).toBe('Keeps 2.4 s gap');
+    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.04, 4])).toBe('Keeps a 2 s gap');
+    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.46, 4])).toBe('Keeps a 2.4 s gap');
     expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [0.3, 4])).toBe('Wider gap');
     expect(wishWords({ trait: 'does', who: '7', manoeuvre: 'left', wants: 'less' }, nameOf)).toBe('Not: turns left');
   });
 
   it('say what it rests on', () => {
     const smooth = learned({ trait: 'harshness', wants: 'less', kept: [1, 2.1], rejected: [2.8, 3.6] });
-    expect(restsOn(smooth, [], speaking)).toBe(
-      'Kept ones brake, speed up or swerve with at most 2.1, rejected ones 3.6 m/s².',
-    );
+    expect(restsOn(smooth, [], speaking)).toBe('Highest acceleration: kept 2.1, rejected 3.6 m/s².');
     const gap = learned({ trait: 'gap', kept: [2.4, 5], rejected: [0.9, 1.8] });
-    expect(restsOn(gap, [], speaking)).toBe('Kept ones leave at least 2.4, rejected ones 0.9 s.');
+    expect(restsOn(gap, [], speaking)).toBe('Smallest gap: kept 2.4, rejected 0.9 s.');
     const said = learned({ trait: 'pace', said: true, kept: null, rejected: [5, 10] });
-    expect(restsOn(said, [], speaking)).toBe('You said so. Rejected ones drive 18 to 36 km/h on average.');
-    expect(restsOn(learned({ trait: 'standing', said: true }), [], speaking)).toBe('You said so.');
+    expect(restsOn(said, [], speaking)).toBe('Set by you. Mean speed: rejected 18 to 36 km/h.');
+    expect(restsOn(learned({ trait: 'standing', said: true }), [], speaking)).toBe('Set by you.');
     let s = crossing();
     const { id } = car(s);
     const goes = (first: boolean, n: number, verdict: Verdict) =>
@@ -205,7 +203,7 @@ describe('words of rounds', () => {
     s = goes(true, 2, 'reject');
     const order = learned({ trait: 'first', who: id, with: '12', wants: 'less' } as never);
     const { answers } = car(s).feedback!;
-    expect(restsOn(order, answers, speaking)).toBe('So it is in 1 of 2 kept ones and in 0 of 1 rejected ones.');
+    expect(restsOn(order, answers, speaking)).toBe('True of 1 of 2 kept and 0 of 1 rejected.');
     expect(againstWords(answers[1])).toBe('B of round 1, “Way 1”, was kept.');
   });
 
@@ -214,9 +212,9 @@ describe('words of rounds', () => {
     const first = (yes: boolean) => like(1, { first: { 7: { 12: yes } } });
     expect(words(first(true), 'reject')).toContain('should go after Car 12');
     expect(words(first(false), 'reject')).toContain('should go before Car 12');
-    expect(words(first(false), 'keep')).toContain('lets Car 12 go first');
-    expect(words(like(1), 'reject')).not.toContain('too far from the recording');
-    expect(words(like(1, { from_log_m: 3 }), 'reject')).toContain('too far from the recording');
+    expect(words(first(false), 'keep')).toContain('yields to Car 12');
+    expect(words(like(1), 'reject')).not.toContain('too unlike the log');
+    expect(words(like(1, { from_log_m: 3 }), 'reject')).toContain('too unlike the log');
     const [wish] = reasons('7', first(true), 'reject', nameOf).slice(-1);
     expect(wish.wish).toEqual({ trait: 'first', who: '7', with: '12', wants: 'less' });
     const liked = reasons('7', first(true), 'keep', nameOf).at(-1)!;

@@ -42,8 +42,8 @@ describe('losses', () => {
     const losses = lossesOf('no-notes, no-conditions,no-road-users', changed);
     expect(losses.map((l) => l.what)).toEqual(['Road users', 'Goals', 'Names and notes']);
     expect(losses[0].how).toContain(`all ${scene.agents.size}`);
-    expect(losses[1].how).toMatch(/^1 flag that you set/);
-    expect(lossesOf('no-conditions', scene)[0].how).not.toContain('flag that');
+    expect(losses[1].how).toMatch(/^1 goal: /);
+    expect(lossesOf('no-conditions', scene)[0].how).not.toMatch(/^\d/);
   });
 
   it('keeps a code that it does not know', () => {
@@ -97,8 +97,8 @@ describe('formats', () => {
   it('says by kind what can be brought in', () => {
     const kinds = inKinds([format('csv'), format('html', { import: false }), format('osm'), format('newest')]);
     expect(kinds.map((k) => [k.label, k.files.map((f) => f.id)])).toEqual([
-      ['Tables of motion', ['csv']],
-      ['Maps alone', ['osm']],
+      ['Trajectory tables', ['csv']],
+      ['Maps only', ['osm']],
       ['More', ['newest']],
     ]);
   });

@@ -435,7 +435,7 @@ describe('lanes and reach', () => {
     const a = { ...car(s), goal: { ...freeGoal(4), pos: [1.75, 90] as const, heading: Math.PI / 2 } };
     const r = localReach(s.map, a, startPose(a)!, a.goal, 'km/h')!;
     expect(r.kind).toBe('far');
-    expect(r.words).toMatch(/along the lane\. In 4\.0 s from 32 km\/h this car gets \d+ m at most\./);
+    expect(r.words).toMatch(/along the lane\. Starting at 32 km\/h, this car covers at most \d+ m in 4\.0 s\./);
     expect(r.time).toBeGreaterThan(4);
     expect(r.nearest).not.toBeNull();
     const near = localReach(
@@ -525,7 +525,7 @@ describe('futures', () => {
       ['near', true],
       ['collision', true],
     ]);
-    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed', 'Where from']);
+    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed', 'Source']);
     const said = (unit: 'km/h' | 'mph') => readEvents(s, set, unit)[1].facts.map(([, v]) => v);
     expect(said('km/h')[2]).toMatch(/^\d+ km\/h$/);
     expect(said('mph').join()).not.toMatch(/km\/h/);

@@ -262,7 +262,7 @@ describe('names of what can hardly be told apart', () => {
     });
     const called = (kind: FaultKind | null) =>
       names({ ...drives(9), about: about('off_road') }, { ...drives(7), about: about(kind) })[1];
-    expect([called(null), called('near_miss')]).toEqual(['By the road', 'By the road']);
+    expect([called(null), called('near_miss')]).toEqual(['By road', 'By road']);
     for (const kind of ['collision', 'red_light', 'harsh_steering', 'goal_missed'] as const)
       expect(called(kind)).toBe('Straight on, slower');
     expect(names({ ...rolls, about: about(null, 'lane_left') }, drives(9))[0]).toBe('To the left lane');
@@ -275,7 +275,7 @@ describe('names of what can hardly be told apart', () => {
       'Stops, sooner',
       'Straight on',
     ]);
-    expect(names(drives(0), drives(0.1), drives(9))).toEqual(['Stands still', 'Creeps on', 'Straight on']);
+    expect(names(drives(0), drives(0.1), drives(9))).toEqual(['Stands still', 'Rolls forward', 'Straight on']);
   });
 
   it('have a scale as long as there are levels of pace to be seen', () => {

@@ -79,12 +79,12 @@ describe('a change', () => {
     expect(changes(waits)[0].at).toBeCloseTo(1.9, 1);
     const slows = along((t) => (t > 2 && t < 4 ? 3 : 10));
     expect(changes(slows)[0].words).toMatch(/^slows to 11 km\/h (behind|for) Car 1$/);
-    expect(changes(along(() => 14))[0].words).toBe('makes way for Car 1');
+    expect(changes(along(() => 14))[0].words).toBe('speeds up for Car 1');
   });
 
   it('names nobody when nobody was asked anything', () => {
     const all = findChanges(scene, following({ '2': steady }), following({ '2': asked }), new Set());
-    expect(all.map((c) => [c.words, c.reaction])).toEqual([['worked out anew', null]]);
+    expect(all.map((c) => [c.words, c.reaction])).toEqual([['replanned', null]]);
   });
 });
 
@@ -107,8 +107,8 @@ describe('words', () => {
     expect(said({ kind: 'slows', ahead: true })).toBe('slows to 8 km/h behind Car 7');
     expect(said({ kind: 'slows' }, walker(scene))).toBe('slows to 2.2 m/s for Car 7');
     expect(said({ kind: 'slows', place: { x: 0, y: 0, heading: 0, speed: 0.1 } })).toBe('stops briefly for Car 7');
-    expect(said({ kind: 'speeds_up' })).toBe('makes way for Car 7');
-    expect(said({ kind: 'keeps_clear' })).toBe('takes another line for Car 7');
+    expect(said({ kind: 'speeds_up' })).toBe('speeds up for Car 7');
+    expect(said({ kind: 'keeps_clear' })).toBe('keeps clear of Car 7');
   });
 
   it('tell one ahead on the same way from one that crosses', () => {

@@ -152,7 +152,7 @@ describe('what tells variants apart', () => {
     expect(named([card(1, on)])).toEqual(['Variant 1']);
     const meets = { kind: 'collision', what: 'collision', a, b: walker(s), inLog: false } as TrafficEvent;
     const eventful = named([card(1, on), { ...card(2, on), events: [meets] }, card(3, stops)]);
-    expect(eventful[1]).toBe(`${a.name} meets ${walker(s).name}`);
+    expect(eventful[1]).toBe(`${a.name} hits ${walker(s).name}`);
   });
 
   it('is the number that was asked, where each has another', () => {
@@ -169,7 +169,7 @@ describe('what tells variants apart', () => {
       const scene = withValue(there, a.id, 'time', t);
       return { id: i + 1, scene, state: stateOfVariant(scene, a.id), set: null };
     });
-    expect(named(timed)).toEqual(['There after 4 s', 'There after 4.5 s']);
+    expect(named(timed)).toEqual(['Arrives after 4 s', 'Arrives after 4.5 s']);
     // Of two with the same number the number tells nothing.
     expect(named([asks(1, 'goal', 5), asks(2, 'goal', 5), asks(3, 'goal', 7)])).toEqual([
       'Variant 1',
@@ -184,7 +184,7 @@ describe('what tells variants apart', () => {
     expect(p.parted.map((x) => x.agent.id)).toEqual([a.id]);
     expect(p.same).toBe(p.all - 1);
     expect(p.moments).toHaveLength(1);
-    expect(p.moments[0].words).toBe(`${a.name} stops, only in 4`);
+    expect(p.moments[0].words).toBe(`${a.name} stops only in 4`);
     expect(p.moments[0].time).toBeGreaterThan(1);
     expect(p.moments[0].time).toBeLessThan(2.2);
     expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });

@@ -81,7 +81,7 @@ describe('verdicts', () => {
     const word = (f: FaultJson) => placeWord(readAbout({ faults: [f] })!.faults[0], nameOf);
     expect(word(fault('collision', { with: '2' }))).toBe('hits Car 2');
     expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
-    expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('close call with Cyclist 14');
+    expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('near miss with Cyclist 14');
     expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
     expect(word(fault('goal_missed', { extent: 14.2 }))).toBe('14 m short');
     expect(['over_median', 'off_road', 'wrong_way', 'red_light'].map((k) => word(fault(k as never)))).toEqual([
@@ -107,13 +107,13 @@ describe('verdicts', () => {
     expect(headline(six(), 0, 8, who)).toEqual({
       mark: 'rule',
       title: 'Reached, over the median at 3.2 s',
-      words: 'A, B, C and D drive over it. E gets there by the road. F does not get there.',
+      words: 'A, B, C and D cross the median. E reaches the goal by road. F misses the goal.',
       at: 3.2,
     });
     expect(headline(six(true), 0, 8, who)).toMatchObject({
       mark: 'collision',
       title: 'Reached, hits Car 2 at 5.4 s',
-      words: 'A hits Car 2. B, C and D drive over the median. E gets there by the road. F does not get there.',
+      words: 'A hits Car 2. B, C and D cross the median. E reaches the goal by road. F misses the goal.',
     });
     expect(headline(six(), 4, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
     expect(headline(six(), 5, 8, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
@@ -129,7 +129,7 @@ describe('verdicts', () => {
     ]);
     expect(headline(stops, 0, 8, who)).toMatchObject({
       title: 'Reached in A, B',
-      words: 'C stops.',
+      words: 'C stops short.',
     });
     // Nothing is said of futures that nobody has judged.
     expect(headline(futures([mode()]), 0, 8, who)).toBeNull();
@@ -146,16 +146,18 @@ describe('verdicts', () => {
   it('say "only" where all six break the rule', () => {
     const all = futures([1, 2, 3].map(() => mode({ faults: [fault('over_median')] })));
     expect(headline(all, 0, 8, who)).toMatchObject({
-      title: 'Only over the median at 3.2 s',
-      words: 'All three drive over it.',
+      title: 'Not reachable without crossing the median (3.2 s)',
+      words: 'All three cross the median.',
     });
   });
 
   it('keep their sentence beside a collision', () => {
     const set: MotionSet = { ...emptyMotion(''), futures: new Map([['1', six(true)]]), driving: new Set(['1']) };
     const step = { name: 'Goal of Car 1 moved', agent: '1', undo: false };
-    expect(outcome(step, scene, [], readEvents(scene, set))).toBe('Goal of Car 1 moved. It hits Car 2 at 5.4 s.');
-    expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. Nobody else had to change.');
+    expect(outcome(step, scene, [], readEvents(scene, set))).toBe(
+      'Goal of Car 1 moved. Collision with Car 2 at 5.4 s.',
+    );
+    expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. No other road user is affected.');
   });
 
   it('are kept with the scene', () => {
@@ -212,7 +214,7 @@ describe('names', () => {
       'After Car 2',
       'Slows for Pedestrian 17',
       expect.stringMatching(/^After Car 2, /),
-      'By the road',
+      'By road',
       'Straight on',
     ]);
     expect(
@@ -269,7 +271,7 @@ describe('names', () => {
       m.heading_rad[i] = i < 60 ? 0.1 : Math.min(1.57, 0.1 + (i - 60) * 0.08);
       m.y_m[i] = start.y + Math.min(3.4, i * 0.1);
     });
-    expect(names(m, mode({ manoeuvre: 'straight' }))[0]).toBe('Other lane, then left');
+    expect(names(m, mode({ manoeuvre: 'straight' }))[0]).toBe('Lane change, then left');
   });
 });
 
@@ -353,9 +355,9 @@ describe('letters and shares', () => {
     const f = six(true);
     expect([whyNot(f, 0, 2, nameOf), whyNot(f, 1, 2, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
     expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
-    expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B goes over the median');
-    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: it is likelier than C');
-    expect(whyAnother(f, -1, 0, nameOf)).toBe('A is shown: the one before is not among these');
+    expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B crosses the median');
+    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: more likely than C');
+    expect(whyAnother(f, -1, 0, nameOf)).toBe('A is shown: the previous future is gone');
     expect(whyAnother(f, 3, 3, nameOf)).toBeNull();
   });
 });
@@ -487,7 +489,7 @@ describe('close in time', () => {
     const asked = setGoal(one, { ...one.goal, pos: [10, 10] }).apply(s);
     const set: MotionSet = { ...emptyMotion(''), futures: own, driving: new Set([one.id]), score: only };
     const near = readEvents(asked, set).filter((e) => e.kind === 'near');
-    expect(near.map((e) => e.facts.find(([what]) => what === 'Time to collision')?.[1])).toEqual(['0.8 s']);
+    expect(near.map((e) => e.facts.find(([what]) => what === 'TTC')?.[1])).toEqual(['0.8 s']);
   });
 
   it('of a near miss by time is no gap', () => {

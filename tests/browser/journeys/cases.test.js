@@ -55,8 +55,8 @@ journeys('looking for a case', (stage) => {
     );
     assert.equal(await undoes(e), false, 'a search changes nothing');
     if (!(await found(e)).length) {
-      assert.match(await e.text('.seeking'), /Nearest to it was/);
-      await e.page.getByRole('button', { name: 'Take the nearest' }).click();
+      assert.match(await e.text('.seeking'), /Closest: /);
+      await e.page.getByRole('button', { name: 'Use the closest' }).click();
     } else {
       // It may end by itself at any moment.
       await e.page.evaluate(() => document.querySelector('[data-action="case-stop"]')?.click());
@@ -66,13 +66,13 @@ journeys('looking for a case', (stage) => {
       await e.settled();
       await e.picture('case-shown');
       await e.page
-        .getByRole('button', { name: /^Take case/ })
+        .getByRole('button', { name: /^Use case/ })
         .first()
         .click();
     }
     await e.settled();
     assert.equal(await undoes(e), true);
-    assert.match(await e.text('.toast'), /Case taken/);
+    assert.match(await e.text('.toast'), /Case used/);
     await e.key('Control+z');
     await e.settled();
     assert.equal(await undoes(e), false, 'one step, taken back');

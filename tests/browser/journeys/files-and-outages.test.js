@@ -77,7 +77,7 @@ journeys('files and outages', (stage) => {
     await stage.program.run();
     await e.page.waitForSelector('.banner', { state: 'detached' });
     await e.until(() =>
-      /The generator is back\. 2 changes worked out/.test(document.querySelector('.toast')?.textContent ?? ''),
+      /The generator is back\. 2 changes computed/.test(document.querySelector('.toast')?.textContent ?? ''),
     );
     await e.settled();
     const last = e.wire.last();

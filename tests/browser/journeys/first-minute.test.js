@@ -124,7 +124,9 @@ journeys('the first minute', (stage) => {
     await e.page.waitForSelector('.toast');
     assert.match(
       await e.text('.toast'),
-      new RegExp(`^Goal of ${car.name} moved\\. (Nobody else had to change|It hits|\\d+ others? changed)\\.`),
+      new RegExp(
+        `^Goal of ${car.name} moved\\. (No other road user is affected|Collision with|\\d+ others? changed)\\.`,
+      ),
     );
     await e.settled();
     assert.deepEqual(

@@ -63,7 +63,7 @@ journeys('goals and values', (stage) => {
       if (reloaded) await e.page.reload();
       await e.ready();
       await e.choose(car.id);
-      assert.equal(await e.text('.ih h2'), car.name.replace('Car', 'Auto'));
+      assert.equal(await e.text('.ih h2'), car.name.replace('Car', 'Pkw'));
       const { x, y } = await e.goal();
       const flag = await e.at(x, y);
       await e.drag([flag[0] + 9, flag[1] - 26], [flag[0] + 12, flag[1] - 26]);

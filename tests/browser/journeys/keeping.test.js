@@ -4,7 +4,7 @@ import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-const READ_ONLY = /This scene is open in another tab\. Here it is read-only\./;
+const READ_ONLY = /This scene is open in another tab and read-only here\./;
 
 const undo = async (e) => {
   await e.page.locator('[data-action="undo"]').first().click();
@@ -53,7 +53,7 @@ journeys('keeping', (stage) => {
       await e.until(() => /^Saved on this computer/.test(document.querySelector('.title small').textContent));
       const again = await e.killed();
       await again.until(() =>
-        /Your changes from last time are back/.test(document.querySelector('.toast')?.textContent),
+        /Restored the changes of your last session/.test(document.querySelector('.toast')?.textContent),
       );
       await again.settled();
       await again.choose(car.id);
@@ -67,11 +67,13 @@ journeys('keeping', (stage) => {
       assert.equal(await again.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled'), 'true');
       // Generate is a step like any other.
       await again.page.locator('[data-action="generate"]').click();
-      await again.until(() => /Everybody worked out anew/.test(document.querySelector('.toast')?.textContent));
+      await again.until(() => /All road users generated again/.test(document.querySelector('.toast')?.textContent));
       await again.settled();
       assert.equal(again.wire.last().body.agents, 'all');
       await again.page.locator('.toast [data-action="undo"]').click();
-      await again.until(() => /Undone: Everybody worked out anew/.test(document.querySelector('.toast')?.textContent));
+      await again.until(() =>
+        /Undone: All road users generated again/.test(document.querySelector('.toast')?.textContent),
+      );
       const mark = again.wire.asked.length;
       await again.page.locator('[data-action="redo"]').first().click();
       await again.settled();

@@ -46,7 +46,7 @@ journeys('kerbs', (stage) => {
     const road = answer.resolved[car.id].by_road;
     assert.ok(road, JSON.stringify(answer.resolved[car.id]));
     const place = { x: road.x_m, y: road.y_m };
-    const offer = e.page.getByRole('button', { name: /^By the road: \d+ m / });
+    const offer = e.page.getByRole('button', { name: /^By road: \d+ m / });
     const ways = [
       async () => offer.click(),
       async () => e.key('Enter'),
@@ -67,13 +67,13 @@ journeys('kerbs', (stage) => {
     // Leave is offered where the answer names the edges that are gone over, and only there.
     const { modes, chosen } = answer.samples[0].agents[car.id];
     const edges = [...new Set(modes[chosen].faults.flatMap((f) => f.edge ?? []))];
-    const leave = e.page.getByRole('button', { name: /^It may drive over this/ });
+    const leave = e.page.getByRole('button', { name: /^Allow crossing this/ });
     assert.equal(await leave.count(), edges.length ? 1 : 0);
     if (!edges.length) return;
     await e.key('Alt+Enter');
     await e.settled();
     assert.deepEqual(e.wire.last().body.conditions[car.id].goal.may_cross, edges);
-    await e.page.getByRole('button', { name: /: undo$/ }).click();
+    await e.page.getByRole('button', { name: /^May cross this .*: undo$/ }).click();
     await e.settled();
     assert.equal(await e.page.locator('.leave').count(), 0);
     await leave.waitFor();
@@ -89,7 +89,7 @@ journeys('kerbs', (stage) => {
       return [x + 9, y - 26];
     };
     await e.drag(await at(car.end), await at(across));
-    await e.page.getByRole('button', { name: /^By the road: \d+ m / }).waitFor();
+    await e.page.getByRole('button', { name: /^By road: \d+ m / }).waitFor();
     await e.key('Enter');
     await e.settled();
     const goal = await e.goal();

@@ -108,7 +108,7 @@ journeys('new map', (stage) => {
     // Esc lets go of the field, of the way that is picked, and of the map; a press brings that back.
     for (let presses = 0; presses < 3; presses++) await e.key('Escape');
     await e.page.waitForSelector('.templates', { state: 'detached' });
-    await e.page.getByRole('button', { name: 'Go on with it' }).click();
+    await e.page.getByRole('button', { name: 'Keep editing' }).click();
     await drawn(e);
     assert.equal(await e.page.locator('.ways li').count(), ways + 1);
     assert.equal(await angle(e), 71);
@@ -117,7 +117,7 @@ journeys('new map', (stage) => {
     await e.key('Control+k');
     await e.page.keyboard.type('School street');
     await e.page.keyboard.press('Enter');
-    await e.page.getByRole('button', { name: 'Go on with it' }).click();
+    await e.page.getByRole('button', { name: 'Keep editing' }).click();
     await drawn(e);
     assert.equal(await angle(e), 71);
 

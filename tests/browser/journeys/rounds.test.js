@@ -90,7 +90,7 @@ journeys('rounds', (stage) => {
     const wishes = await learnt(e);
     assert.ok(wishes.length >= 1, 'something is learnt');
     assert.ok(wishes.includes('Smoother'), `${wishes}`);
-    assert.match(await e.text('[data-wish="Smoother"] p'), /at most [\d.]+, rejected ones [\d.]+ m\/s²/);
+    assert.match(await e.text('[data-wish="Smoother"] p'), /kept [\d.]+, rejected [\d.]+ m\/s²/);
     await e.picture('rounds-second');
     // One step back shows the first six again, with what was said of them.
     await e.key('Control+z');

@@ -20,7 +20,7 @@ journeys('sharing', (stage) => {
     const link = await e.page.inputValue('.share input');
     await e.key('Escape');
     const other = await stage.visit(link);
-    await other.until(() => /This scene came with a link/.test(document.querySelector('.banner')?.textContent));
+    await other.until(() => /This scene was opened from a link/.test(document.querySelector('.banner')?.textContent));
     await other.settled();
     await other.choose(car.id);
     assert.equal(await other.value('goal-time'), 6.5);
@@ -39,7 +39,7 @@ journeys('sharing', (stage) => {
   it('says when a link is not whole', { timeout: 60_000 }, async () => {
     const e = await stage.visit(`${stage.program.url}/#s1=q1ZKzs8tKEotLgYA`);
     await e.until(() => /The link could not be opened/.test(document.querySelector('.banner')?.textContent));
-    assert.match(await e.text('.banner'), /It may have been cut on its way/);
+    assert.match(await e.text('.banner'), /It may have been cut off/);
     await e.page.getByRole('button', { name: 'Close', exact: true }).click();
     await e.page.waitForSelector('.banner', { state: 'detached' });
   });
@@ -59,9 +59,9 @@ journeys('sharing', (stage) => {
       return { words, name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
     };
     const saved = await save('dragtraffic');
-    assert.equal(saved.words, 'nothing lost');
+    assert.equal(saved.words, 'lossless');
     const record = await save('womd');
-    assert.match(record.words, /^\d+ things? lost$/);
+    assert.match(record.words, /^\d+ loss(es)?$/);
     assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
     const drawing = (await save('svg')).bytes.toString();
     assert.match(drawing, /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
@@ -85,7 +85,7 @@ journeys('sharing', (stage) => {
     await e.begin();
     await e.key('Control+o');
     await e.page.waitForSelector('.inkinds li');
-    assert.match(await e.text('.inkinds'), /Recorded traffic.*Tables of motion.*\.csv.*Maps alone.*\.xodr/s);
+    assert.match(await e.text('.inkinds'), /Recorded traffic.*Trajectory tables.*\.csv.*Maps only.*\.xodr/s);
     await e.picture('import-kinds');
     const rows = Array.from({ length: 120 }, (_, i) => [i % 3, i - (i % 3), (i - (i % 3)) * 30, (i % 3) * 400, 'car']);
     const table = ['who,frame,xCm,yCm,class', ...rows.map((r) => r.join(','))].join('\n');
@@ -99,7 +99,7 @@ journeys('sharing', (stage) => {
       await e.page.locator(`[data-column="${field}"]`).selectOption(column);
       await e.page.locator(`[data-unit="${field}"]`).selectOption({ label: 'centimetres' });
     }
-    await e.page.locator('[data-unit="time_s"]').selectOption({ label: 'pictures, 30 a second' });
+    await e.page.locator('[data-unit="time_s"]').selectOption({ label: 'frames, 30 per second' });
     await e.picture('import-columns');
     await e.page.locator('.columns [type="submit"]').click();
     await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
@@ -116,7 +116,7 @@ journeys('sharing', (stage) => {
     await e.begin();
     await e.drop('junction.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
     await e.page.waitForSelector('.dlg.import');
-    assert.match(await e.text('.dlg.import'), /Lane “E2”: it has only one point.*Where\s+junction\.json, line \d+/s);
+    assert.match(await e.text('.dlg.import'), /Lane “E2”: only one point.*Where\s+junction\.json, line \d+/s);
     assert.match(await e.text('.dlg pre .here'), /points_m/);
     await e.picture('import-in-part');
     await e.page.getByRole('button', { name: 'Import without lane “E2”' }).click();

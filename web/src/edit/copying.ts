@@ -84,7 +84,7 @@ export function removeSelected(editor: Editor): void {
     const command = removeThem(scene, free);
     editor.run(command);
     editor.notices.show({
-      text: `${command.name}.${stay ? TEXTS.lockedStay(stay) : ''}`,
+      text: `${command.name}.${stay ? TEXTS.lockedUnchanged(stay) : ''}`,
       undo: true,
     });
     editor.notices.say(`${command.name}.`);
@@ -100,7 +100,7 @@ export function sayLocked(editor: Editor): void {
   const locked = all.filter((a) => a.locked).length;
   if (!locked) return;
   const some = locked < all.length;
-  editor.notices.show({ text: some ? TEXTS.onlyLockedStay(locked) : lockedWords(locked) });
+  editor.notices.show({ text: some ? TEXTS.onlyLocked(locked) : lockedWords(locked) });
 }
 
 /** Those of the selected that may be moved; says so where some of them are locked. */

@@ -350,7 +350,7 @@ export class Editor {
     const travel = this.#commit(way, move);
     if (!travel) return;
     this.onTravel?.(travel.step, way);
-    const word = way === 'back' ? TEXTS.undone : TEXTS.doneAgain;
+    const word = way === 'back' ? TEXTS.undone : TEXTS.redone;
     this.notices.show({ text: `${word}: ${travel.name}.` });
     this.notices.say(`${word}: ${travel.name}.`);
   }
@@ -450,7 +450,7 @@ export class Editor {
       this.document.cancel();
       this.answers.dragPutBack();
     });
-    this.notices.say(TEXTS.putBack);
+    this.notices.say(TEXTS.restored);
     this.document.settle();
   }
 

@@ -49,7 +49,7 @@ function slowerStart(e: Editor, a: Agent, ev: TrafficEvent): Remedy | null {
   if (v < LEAST_MPS || ev.time < SOON_S) return null;
   const speed = (v * ev.time) / (ev.time + LATER_S);
   return {
-    label: TEXTS.letStartSlower(a.name),
+    label: TEXTS.startOneSlower(a.name),
     note: speedLabel(speed, e.unitOf(a)),
     icon: 'clock',
     primary: false,

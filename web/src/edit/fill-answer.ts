@@ -61,7 +61,7 @@ export class Answers {
     const all = recast(withoutThoseOf(wish.pinned, drawn), wish.mix, taken);
     const most = MOST_AT_ONCE - wish.pinned.length;
     if (all.length <= most) return { ...more, all, reason };
-    const why = TEXTS.theGeneratorWorks(MOST_AT_ONCE);
+    const why = TEXTS.generatorComputes(MOST_AT_ONCE);
     return { ...more, all: thinned(all, most), reason: why };
   }
 

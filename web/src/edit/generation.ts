@@ -330,7 +330,7 @@ export class Generation implements Previews {
   #back(waiting: number): void {
     const { editor } = this;
     this.saving.retry();
-    const done = waiting ? TEXTS.changesWorked(waiting) : '';
+    const done = waiting ? TEXTS.changesComputed(waiting) : '';
     editor.notices.show({ text: TEXTS.theGenerator(done) });
     const agent = editor.selection.peek();
     if (editor.motion.peek().stale) this.#workOut({ name: TEXTS.waitingChanges, agent, undo: true });

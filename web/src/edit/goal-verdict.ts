@@ -75,6 +75,6 @@ export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
   // That near it is the goal itself.
   if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
-  const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.beforeIt : TEXTS.besideIt;
-  return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byTheRoad(metres(distance, 0), where) };
+  const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.short : TEXTS.aside;
+  return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byRoad(metres(distance, 0), where) };
 }

@@ -93,7 +93,7 @@ export class Importing {
     const run = (): void => {
       this.#verdicts.value = all;
     };
-    const action = n ? { label: TEXTS.thingsAssumed(n), run } : undefined;
+    const action = n ? { label: TEXTS.assumptions(n), run } : undefined;
     this.editor.notices.show({ text, action });
   }
 
@@ -151,8 +151,8 @@ export class Importing {
     const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
     const columns = columnsIn(p);
     if (columns) {
-      const wrong = TEXTS.thisTableNames;
-      const verdict: FileVerdict = { ...plain, columns, wrong, todo: TEXTS.sayWhatTheyAre };
+      const wrong = TEXTS.unknownColumns;
+      const verdict: FileVerdict = { ...plain, columns, wrong, todo: TEXTS.assignColumns };
       this.#tables.set(verdict, file);
       return verdict;
     }
@@ -264,17 +264,17 @@ function wrongWith(file: string, p: Problem): string {
   // A file of a kind that is known is called what it is.
   if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return TEXTS.isNotAScene(file);
   const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
-  if (points) return points[1] === '1' ? TEXTS.itHasOnlyOne(points[2]) : TEXTS.itHasPointsAnd(points[1], points[2]);
+  if (points) return points[1] === '1' ? TEXTS.onlyOnePoint(points[2]) : TEXTS.tooFewPoints(points[1], points[2]);
   const many = /^\d+ agents; at most (\d+)$/.exec(said);
-  if (many) return TEXTS.thisSceneHas(many[1]);
+  if (many) return TEXTS.tooManyRoadUsers(many[1]);
   const fault = p.code === 'malformed-json' && JSON_FAULTS.find(([sentence]) => sentence.test(said));
-  if (fault) return TEXTS.isNoJson(TEXTS.jsonFaults[fault[1]]);
+  if (fault) return TEXTS.notValidJson(TEXTS.jsonFaults[fault[1]]);
   return inWords(p);
 }
 
 function whatToDo(code: Problem['code']): string {
   if (code === 'format-unknown') return TEXTS.chooseAnotherFile(READABLE);
-  if (code.includes('too-large')) return TEXTS.theFileIsLarger;
+  if (code.includes('too-large')) return TEXTS.fileTooLarge;
   if (code === 'unsupported-version') return TEXTS.updateThisProgram;
-  return TEXTS.mendTheFileAnd;
+  return TEXTS.fixTheFile;
 }

@@ -88,7 +88,7 @@ export class LayoutMaker {
       this.#open();
       reopen();
     };
-    notices.show({ text: TEXTS.theMapIsPutAway, action: { label: TEXTS.goOnWithIt, run } });
+    notices.show({ text: TEXTS.mapClosed, action: { label: TEXTS.keepEditing, run } });
   }
 
   #open(): void {
@@ -162,7 +162,7 @@ export class LayoutMaker {
     const body: SceneJson = { ...base, map: made.json.map, signals: made.json.signals, agents, generated: null };
     Object.assign(body, { x_layout: made.layout });
     const lost = offTheLanes(body);
-    const said = lost.length ? TEXTS.noLongerStand(lost.length, lost.slice(0, 5).join(', ')) : '';
+    const said = lost.length ? TEXTS.noLongerOnALane(lost.length, lost.slice(0, 5).join(', ')) : '';
     return this.care.newOnMap(body, TEXTS.otherMap(base.name), said);
   }
 }

@@ -226,7 +226,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     });
   if (local?.time && local.time > a.goal.time)
     out.push({
-      label: TEXTS.giveItMoreTime,
+      label: TEXTS.allowMoreTime,
       note: seconds(local.time),
       icon: 'clock',
       primary: false,

@@ -112,7 +112,7 @@ export class ArmsOverlay {
       g.stroke();
       g.setLineDash([]);
     }
-    const words = drawn.to ? TEXTS.toExit(layouts.exitName(drawn.to)) : TEXTS.dropItOnAnExit;
+    const words = drawn.to ? TEXTS.toExit(layouts.exitName(drawn.to)) : TEXTS.dropOnAnExit;
     pill(g, this.labels, x, y, words, { tries: [[14, 10]], ...(drawn.to ? { bg: c.ok, fg: c.surface } : {}) });
   }
 

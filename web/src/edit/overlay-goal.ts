@@ -180,7 +180,7 @@ export class GoalOverlay {
       [20, 12],
       [-100, -10],
     ] as const;
-    tag(g, this.labels, hand, touch ? TEXTS.holdToPass : TEXTS.altPasses, { tries });
+    tag(g, this.labels, hand, touch ? TEXTS.holdToCross : TEXTS.altToCross, { tries });
   }
 
   dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null): void {
@@ -203,7 +203,7 @@ export class GoalOverlay {
         fg: d.grip.part === 'goal' ? c.surface : c.halo,
       });
     if (d.grip.part === 'goal' && r)
-      tag(g, this.labels, [x, y], TEXTS.atAlongTheWay(seconds(a.goal.time), metres(r.along, 0)), {
+      tag(g, this.labels, [x, y], TEXTS.atAhead(seconds(a.goal.time), metres(r.along, 0)), {
         weight: 500,
         tries: [
           [34, -22],

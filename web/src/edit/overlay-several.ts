@@ -195,7 +195,7 @@ export class SeveralOverlay {
     const half = sizeOnScreen(boxOfNewcomer(last), v.z)[0] / 2;
     const [x, y] = v.to(last.pose.x, last.pose.y);
     const blocked = all.some((n) => !n.fits);
-    tag(g, this.labels, [x, y], one && blocked ? TEXTS.somebodyStands : words, {
+    tag(g, this.labels, [x, y], one && blocked ? TEXTS.occupied : words, {
       tries: [
         [-60, 26],
         [-60, -half - 40],

@@ -263,7 +263,7 @@ export class Picture {
     const next = e.events.value.find((v) => (v.a.id === a.id || v.b?.id === a.id) && v.time >= e.time.value);
     const todo =
       a.type === 'other'
-        ? TEXTS.shownOnly
+        ? TEXTS.notEditable
         : a.logStart
           ? e.time.value < 0.05
             ? TEXTS.clickToEditDrag

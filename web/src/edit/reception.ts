@@ -326,10 +326,9 @@ export class Reception {
     if (agent && curve) this.#curveOff = null;
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();
-    const keep =
-      agent && curve ? { label: TEXTS.keepItsCurve, run: () => void editor.curve.takeUp(agent, false) } : null;
+    const keep = agent && curve ? { label: TEXTS.keepCurve, run: () => void editor.curve.takeUp(agent, false) } : null;
     editor.notices.show({
-      text: `${outcome(step, scene, changes, events)}${keep ? ` ${TEXTS.itsCurveIsOff}` : ''}`,
+      text: `${outcome(step, scene, changes, events)}${keep ? ` ${TEXTS.curveIsOff}` : ''}`,
       undo: true,
       ...(keep ? { action: keep } : {}),
     });

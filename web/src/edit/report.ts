@@ -20,11 +20,11 @@ export function outcome(
   const hits = counted(events).filter((e) => e.kind === 'collision');
   const own = hits.find((e) => e.a.id === step.agent || e.b?.id === step.agent);
   const other = own?.a.id === step.agent ? own?.b : own?.a;
-  const hit = own && other ? TEXTS.itHitsAt(other.name, seconds(own.time)) : '';
+  const hit = own && other ? TEXTS.collisionWith(other.name, seconds(own.time)) : '';
   if (step.several && n > 0) return TEXTS.othersChanged(n, step.name);
   if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
   const alone = scene.agents.size < 2;
-  if (n === 0) return `${step.name}.${hit || (hits.length || alone ? '' : TEXTS.nobodyElseHad)}`;
+  if (n === 0) return `${step.name}.${hit || (hits.length || alone ? '' : TEXTS.noOtherAffected)}`;
   return TEXTS.othersChangedAndHit(n, step.name, hit);
 }
 

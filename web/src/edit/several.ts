@@ -269,7 +269,7 @@ export const noteOn = (a: Agent, note: string): Command =>
 export function setKind(all: readonly Agent[], kind: PlacedKind, size: Preset = PRESETS[kind][0]): Command | null {
   const type = typeOfKind(kind);
   const { label, subtype, length, width } = size;
-  return changeAll(all, TEXTS.madeEachA(all.length, whoWords(all), inSentence(label)), (a) => {
+  return changeAll(all, TEXTS.kindChanged(whoWords(all), inSentence(label)), (a) => {
     if (a.kind === kind && a.length === length && a.width === width && a.subtype === subtype) return null;
     const top = topSpeed({ type, subtype });
     const start = a.start.speed !== null && a.start.speed > top ? started(a, { speed: top }) : { chosen: null };

@@ -154,7 +154,7 @@ function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, hea
       : hit.lane.kind === 'walk'
         ? TEXTS.pavement
         : junction
-          ? TEXTS.insideTheCrossing
+          ? TEXTS.insideTheJunction
           : hit.lane.type === 'freeway'
             ? TEXTS.motorwayLane
             : hit.lane.type === 'bus_lane'

@@ -83,7 +83,7 @@ export class SpeedCurve {
   get why(): string | null {
     const a = this.editor.agent.peek();
     if (!a || !canMove(a)) return TEXTS.selectARoadUser;
-    return this.#begun() ? null : TEXTS.waitForItsFutures;
+    return this.#begun() ? null : TEXTS.futuresComing;
   }
 
   /** A curve with the points of the future in force. */

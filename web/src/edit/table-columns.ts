@@ -31,7 +31,7 @@ const LENGTHS: readonly Unit[] = [
 export const ASKED: readonly Asked[] = [
   {
     field: 'agent_id',
-    label: TEXTS.who,
+    label: TEXTS.roadUserColumn,
     says: TEXTS.numberOrName,
     needed: true,
     names: /^(track|agent|object|obj|vehicle|veh|actor|user|person|ped)?[ _]?(id|name|number|no)$/i,
@@ -39,8 +39,8 @@ export const ASKED: readonly Asked[] = [
   },
   {
     field: 'time_s',
-    label: TEXTS.when,
-    says: TEXTS.theMomentOfA,
+    label: TEXTS.time,
+    says: TEXTS.timeOfTheRow,
     needed: true,
     names: /^(time|t|ts|timestamp|frame|frame[ _]?id|seconds?|global[ _]?time)([ _]?(s|ms|us|ns))?$/i,
     units: [
@@ -48,14 +48,14 @@ export const ASKED: readonly Asked[] = [
       { label: TEXTS.milliseconds, unit: 'ms' },
       { label: TEXTS.microseconds, unit: 'us' },
       { label: TEXTS.nanoseconds, unit: 'ns' },
-      { label: TEXTS.pictures10ASecond, field: 'step' },
-      { label: TEXTS.pictures25ASecond, factor: 1 / 25 },
-      { label: TEXTS.pictures30ASecond, factor: 1 / 30 },
+      { label: TEXTS.frames10, field: 'step' },
+      { label: TEXTS.frames25, factor: 1 / 25 },
+      { label: TEXTS.frames30, factor: 1 / 30 },
     ],
   },
   {
     field: 'x_m',
-    label: TEXTS.whereX,
+    label: TEXTS.positionX,
     says: TEXTS.toTheEast,
     needed: true,
     names: /^(pos(ition)?[ _]?x|x|(local|center|centre|global|utm)[ _]?x|x[ _]?(center|centre|pos|m|utm)|easting)$/i,
@@ -63,7 +63,7 @@ export const ASKED: readonly Asked[] = [
   },
   {
     field: 'y_m',
-    label: TEXTS.whereY,
+    label: TEXTS.positionY,
     says: TEXTS.toTheNorth,
     needed: true,
     names: /^(pos(ition)?[ _]?y|y|(local|center|centre|global|utm)[ _]?y|y[ _]?(center|centre|pos|m|utm)|northing)$/i,
@@ -72,7 +72,7 @@ export const ASKED: readonly Asked[] = [
   {
     field: 'heading_rad',
     label: TEXTS.heading,
-    says: TEXTS.fromTheEastTo,
+    says: TEXTS.fromEast,
     needed: false,
     names: /^(heading|yaw|psi|psi[ _]?rad|orientation|theta|angle)([ _]?(rad|deg))?$/i,
     units: [{ label: TEXTS.degrees, unit: 'deg' }, { label: TEXTS.radians }],
@@ -80,7 +80,7 @@ export const ASKED: readonly Asked[] = [
   {
     field: 'speed_mps',
     label: TEXTS.speed,
-    says: TEXTS.whereThereIs,
+    says: TEXTS.ifThereIsOne,
     needed: false,
     names: /^(speed|velocity|v|v[ _]?vel)([ _]?(m[ _]?s|mps|kmh))?$/i,
     units: [
@@ -92,7 +92,7 @@ export const ASKED: readonly Asked[] = [
   },
   {
     field: 'type',
-    label: TEXTS.kind,
+    label: TEXTS.type,
     says: TEXTS.carTruckPedestrian,
     needed: false,
     names: /^(agent|object|vehicle|veh|v|track)?[ _]?(type|class|category|kind)$/i,
@@ -154,7 +154,7 @@ function unitIn(column: string, units: readonly Unit[]): number {
   if (/^frame/.test(name))
     return Math.max(
       0,
-      units.findIndex((u) => u.label === TEXTS.pictures25ASecond),
+      units.findIndex((u) => u.label === TEXTS.frames25),
     );
   const words = ENDINGS[/[ _]([a-z]+)$/.exec(name)?.[1] ?? ''] ?? [];
   return Math.max(

@@ -19,7 +19,7 @@ export const viaName = (a: Agent, i: number): string =>
   a.goal.via.length > 1 ? TEXTS.viaPointOf(i + 1) : TEXTS.viaPoint;
 
 /** Why no more can be added; true where one can. */
-export const roomForVia = (a: Agent): true | string => a.goal.via.length < MOST_VIAS || TEXTS.asManyAsCanBe(MOST_VIAS);
+export const roomForVia = (a: Agent): true | string => a.goal.via.length < MOST_VIAS || TEXTS.atMost(MOST_VIAS);
 
 export interface Added {
   readonly command: Command;

@@ -6,7 +6,7 @@ import type { OnLine, Vec } from '../model/base/geometry';
 import type { Motion } from '../model/base/motion';
 import { pathTo } from '../model/physics/reach';
 import { startPose, type Agent, type GoalSpec } from '../model/document/scene';
-import { goes, mayCrossWords } from '../model/words/verdict-words';
+import { crossingWords } from '../model/words/verdict-words';
 import type { Editor } from './editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
@@ -42,7 +42,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   if (to) {
     const heading = a.goal.heading === null ? null : to.heading;
     const goal: GoalSpec = { ...a.goal, pos: Object.freeze([to.x, to.y] as const), heading };
-    const command = goalStep(a, goal, TEXTS.goalOfMovedToWhere(a.name));
+    const command = goalStep(a, goal, TEXTS.goalOfMovedOntoRoad(a.name));
     return { words: to.words, note: '', to, path: pathBy(e, a, modes, to), command };
   }
   // A pick is one of the futures at rest; those of a drag are gone when it ends.
@@ -50,7 +50,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   const command = good >= 0 ? pickFuture(e, a, good) : null;
   if (!command) return null;
   const { motion, name } = modes[good];
-  return { words: TEXTS.byTheRoad(LETTERS[good]), note: name, to: null, path: pointsOf(motion.x, motion.y), command };
+  return { words: TEXTS.byRoad(LETTERS[good]), note: name, to: null, path: pointsOf(motion.x, motion.y), command };
 }
 
 /** Along the future that gets there without leaving the road, else along the lanes, else as far as a future leads. */
@@ -91,17 +91,16 @@ export function edgesInTheWay(e: Editor, a: Agent): readonly string[] {
 export function leaveToCross(e: Editor, a: Agent): Leave | null {
   const edges = edgesInTheWay(e, a);
   if (!edges.length) return null;
-  const words = mayCrossWords(goes(a.type), e.scene.value!.map, edges);
+  const words = crossingWords(e.scene.value!.map, edges);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([...a.goal.mayCross, ...edges]) };
-  return { words: TEXTS.it(words), command: goalStep(a, goal, `${a.name} ${words}`) };
+  return { words: words.allow, command: goalStep(a, goal, `${a.name} ${words.may}`) };
 }
 
 /** What it may go over, and the command that takes this back; null where there is nothing. */
 export function leaveGiven(e: Editor, a: Agent): Leave | null {
   if (!a.goal.mayCross.length) return null;
-  const words = mayCrossWords(goes(a.type), e.scene.value!.map, a.goal.mayCross);
+  const { may, mayNot } = crossingWords(e.scene.value!.map, a.goal.mayCross);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([]) };
-  const not = mayCrossWords(goes(a.type), e.scene.value!.map, a.goal.mayCross, false);
-  const command = goalStep(a, goal, `${a.name} ${not}`);
-  return { words: words.charAt(0).toUpperCase() + words.slice(1), command };
+  const command = goalStep(a, goal, `${a.name} ${mayNot}`);
+  return { words: may.charAt(0).toUpperCase() + may.slice(1), command };
 }

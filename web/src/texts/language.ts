@@ -87,5 +87,5 @@ export function speak(name: LanguageName): void {
   location.reload();
 }
 
-/** Places that say themselves where they are: `off the lanes`, `in the crossing`. */
+/** Places that say themselves where they are: `off the lanes`, `in the junction`. */
 export const SAYS_WHERE = /^(on|off|inside|beside|in) /;

@@ -392,7 +392,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') },
     ]);
     await d.page.waitForSelector('.dlg.import');
-    expect(await d.text('.dlg.import')).toMatch(/2 files: 1 in, 1 cannot be read/);
+    expect(await d.text('.dlg.import')).toMatch(/2 files: 1 imported, 1 not readable/);
     expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene: it is a PDF.');
     await d.key('Escape');
     expect(await d.page.inputValue('.title input')).toBe('Mine');
@@ -453,7 +453,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     await d.page.reload();
     await d.ready();
-    expect(await d.text('.toast')).toContain('back');
+    expect(await d.text('.toast')).toContain('Restored');
   });
 
   it('can be driven by keys alone', async () => {
@@ -505,14 +505,15 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 40, y - 60]);
     await d.page.waitForSelector('.hint.near');
     expect(await d.text('.hint')).toBe(
-      'Reached, over the median at 3.2 s\nA, B, C and D drive over it. E gets there by the road. F does not get there.',
+      'Reached, over the median at 3.2 s\n' +
+        'A, B, C and D cross the median. E reaches the goal by road. F misses the goal.',
     );
     const marks = () =>
       d.page.locator('.fu .mk').evaluateAll((all) => all.map((e) => e.className.replace('mk', '').trim()));
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);
     await d.page.waitForSelector('.badge[aria-label^="Over the median 3.2 s"]');
     await d.release();
-    expect(await d.text('.fu[data-future="E"] .nm')).toBe('By the road');
+    expect(await d.text('.fu[data-future="E"] .nm')).toBe('By road');
     await d.page.locator('.hint .to').click();
     expect(await d.text('.tm')).toContain('3.2 s');
     const goal = await d.goal();
@@ -532,12 +533,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await byRoad(() => d.page.mouse.click(hollowX + 8, hollowY - 26));
 
     // Leave to go over the median travels with the goal, is one step, and can be taken back.
-    await d.page.getByRole('button', { name: 'It may drive over this median' }).click();
+    await d.page.getByRole('button', { name: 'Allow crossing this median' }).click();
     await d.settled();
     expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
     expect(await marks()).toEqual(['ok', 'ok', 'ok', 'rule', 'ok', 'short']);
-    expect(await d.text('.leave')).toContain('May drive over this median');
-    await d.page.getByRole('button', { name: 'May drive over this median: undo' }).click();
+    expect(await d.text('.leave')).toContain('May cross this median');
+    await d.page.getByRole('button', { name: 'May cross this median: undo' }).click();
     await d.settled();
     expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);

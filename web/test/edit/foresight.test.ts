@@ -259,7 +259,7 @@ describe('whether somebody is in the way', () => {
     s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
     expect(s.editor.liveReach.peek()).toBeNull();
     s.others.last.on.final(about(answered('1', {}), BLOCKED), 30);
-    expect(said()).toMatchObject({ title: 'Car 2 is in the way', words: 'Halts 3 m short.' });
+    expect(said()).toMatchObject({ title: 'Car 2 is in the way', words: 'Stops 3 m short.' });
     await frame(20);
     vi.advanceTimersByTime(150);
     s.others.last.on.final(about(answered('1', {}), REACHED), 30);

@@ -161,7 +161,7 @@ describe('a speed curve', () => {
     answered();
     expect(speeds()).toBeUndefined();
     const { text, action } = editor.notices.toast.peek()!;
-    expect(text).toMatch(/Its speed curve is off\.$/);
+    expect(text).toMatch(/The speed curve no longer applies\.$/);
     action!.run();
     expect(speeds()).toHaveLength(3);
   });
@@ -204,7 +204,7 @@ describe('a speed curve whose change is answered while a hand drags', () => {
     rest();
     generator.last.on.final(finalOf('1'), 5);
     expect(curved()).toBe(false);
-    expect(editor.notices.toast.peek()!.text).toMatch(/Its speed curve is off\.$/);
+    expect(editor.notices.toast.peek()!.text).toMatch(/The speed curve no longer applies\.$/);
     editor.notices.toast.peek()!.action!.run();
     expect(curved()).toBe(true);
   });
@@ -448,7 +448,7 @@ describe('a generator that goes away', () => {
     await generation.tryNow();
     expect(editor.away.peek()).toBeNull();
     expect(generator.asked.length).toBe(asked + 1);
-    expect(editor.notices.toast.peek()?.text).toBe('The generator is back. 2 changes worked out.');
+    expect(editor.notices.toast.peek()?.text).toBe('The generator is back. 2 changes computed.');
   });
 });
 
@@ -575,6 +575,6 @@ describe('what is shown of a drag', () => {
     editor.endDrag(goal(10));
     rest();
     expect(anchors()).toEqual([5, 1, 0, 2, 3, 4]);
-    expect(editor.answers.remark.peek()?.words).toBe('C is shown; it was B in the drag.');
+    expect(editor.answers.remark.peek()?.words).toBe('C is shown; B was shown in the drag.');
   });
 });

@@ -52,7 +52,7 @@ describe('a pinned future', () => {
   it('carries a mark, is one step, and no more than three are pinned', () => {
     const t = new Pinning();
     for (let i = 0; i < MOST_PINS; i++) expect(t.toggle(i)).toBeUndefined();
-    expect(t.toggle(MOST_PINS)).toMatch(/as many as there can be/);
+    expect(t.toggle(MOST_PINS)).toMatch(/the maximum/);
     expect(pinnedAt(t.editor, 1)).toBe(t.agent.pins[1]);
     expect(pinsApart(t.editor)).toEqual([]);
     t.toggle(1);

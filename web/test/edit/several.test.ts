@@ -131,7 +131,7 @@ describe('several in hand', () => {
     p.move({ x: from.x + 50, y: from.y });
     p.up({ x: from.x + 50, y: from.y });
     expect(place('1')).toEqual(was);
-    expect(p.editor.notices.toast.peek()?.text).toBe('1 locked stays.');
+    expect(p.editor.notices.toast.peek()?.text).toBe('1 locked, not changed.');
     removeSelected(p.editor);
     expect(all().map((a) => a.id)).toContain('1');
     expect(all().map((a) => a.id)).not.toContain('2');

@@ -42,7 +42,7 @@ describe('the way by the road', () => {
     answer();
     reach(ROAD);
     const way = roadWay(e, agent())!;
-    expect(way.words).toBe('By the road: 14 m further on');
+    expect(way.words).toBe('By road: 14 m further on');
     expect(way.to).toMatchObject({ x: ROAD.x, y: ROAD.y });
     e.run(way.command);
     expect(agent().goal.pos).toEqual([ROAD.x, ROAD.y]);
@@ -88,7 +88,7 @@ describe('the way by the road', () => {
     answer();
     reach(null);
     const way = roadWay(e, agent())!;
-    expect([way.words, way.note, way.to]).toEqual(['By the road: E', 'By the road', null]);
+    expect([way.words, way.note, way.to]).toEqual(['By road: E', 'By road', null]);
     e.run(way.command);
     expect(agent().chosen).toBe(4);
   });
@@ -105,7 +105,7 @@ describe('the way by the road', () => {
     reach(ROAD);
     e.previewDrag(setGoal(agent(), { ...agent().goal, pos: [GOAL[0], GOAL[1] + 4] }));
     answer();
-    expect(roadWay(e, agent())!.words).toBe('By the road: 10 m further on');
+    expect(roadWay(e, agent())!.words).toBe('By road: 10 m further on');
     e.cancelDrag();
     expect(roadWay(e, agent())).toBeNull();
   });
@@ -115,18 +115,12 @@ describe('leave to go over an edge', () => {
   it('is stored with the goal as one step, and can be taken back', () => {
     answer();
     const leave = leaveToCross(e, agent())!;
-    expect([leave.words, leave.command.name]).toEqual([
-      'It may drive over this median',
-      'Car 1 may drive over this median',
-    ]);
+    expect([leave.words, leave.command.name]).toEqual(['Allow crossing this median', 'Car 1 may cross this median']);
     expect(leaveGiven(e, agent())).toBeNull();
     e.run(leave.command);
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: ['m0'] });
     const given = leaveGiven(e, agent())!;
-    expect([given.words, given.command.name]).toEqual([
-      'May drive over this median',
-      'Car 1 may not drive over this median',
-    ]);
+    expect([given.words, given.command.name]).toEqual(['May cross this median', 'Car 1 may not cross this median']);
     e.run(given.command);
     expect(agent().goal.mayCross).toEqual([]);
     e.undo();
@@ -136,7 +130,7 @@ describe('leave to go over an edge', () => {
 
   it('names a kerb what is no median', () => {
     answer({ change: (modes) => modes.map((m) => ({ ...m, faults: m.faults?.map((f) => ({ ...f, edge: 'e1' })) })) });
-    expect(leaveToCross(e, agent())!.words).toBe('It may drive over this kerb');
+    expect(leaveToCross(e, agent())!.words).toBe('Allow crossing this kerb');
   });
 
   it('is offered for edges that the answer names and that it has no leave for', () => {

@@ -57,7 +57,7 @@ type NameOf = (id: string | null) => string;
 function useName(): NameOf {
   const { editor } = useApp();
   const agents = editor.scene.peek()?.agents;
-  return (id) => (id === null ? TEXTS.anybody : (agents?.get(id)?.name ?? TEXTS.somebody));
+  return (id) => (id === null ? TEXTS.anyRoadUser : (agents?.get(id)?.name ?? TEXTS.aRoadUser));
 }
 
 const about = ({ what, who, other }: Sought, nameOf: NameOf): string =>
@@ -68,11 +68,11 @@ function Sentence({ cases, sought }: Of) {
   const { two, unit, step, range } = KINDS[sought.what];
   const may = cases.may.value;
   return (
-    <section class="sect seek" aria-label={TEXTS.whatIsLooked}>
+    <section class="sect seek" aria-label={TEXTS.searchFor}>
       <p>
         <select
           class="field pick"
-          aria-label={TEXTS.whatIsLooked}
+          aria-label={TEXTS.searchFor}
           value={sought.what}
           onChange={(e) => cases.setKind(e.currentTarget.value as What)}
         >
@@ -96,8 +96,8 @@ function Sentence({ cases, sought }: Of) {
           <button
             type="button"
             class="btn i"
-            aria-label={TEXTS.tryInPlaceOf(nameOf(sought.other), nameOf(sought.who))}
-            title={TEXTS.theOtherOneIs}
+            aria-label={TEXTS.varyInsteadOf(nameOf(sought.other), nameOf(sought.who))}
+            title={TEXTS.varyTheOther}
             onClick={() => cases.swap()}
           >
             <Icon name="swap" size={15} />
@@ -121,14 +121,14 @@ function Sentence({ cases, sought }: Of) {
           />
         </p>
       ) : null}
-      <p role="group" aria-label={TEXTS.whatOfMayChange(nameOf(sought.who))}>
-        <span>{TEXTS.mayChange}</span>
+      <p role="group" aria-label={TEXTS.whatMayVary(nameOf(sought.who))}>
+        <span>{TEXTS.mayVary}</span>
         {(
           [
             ['speed', TEXTS.startSpeed],
             ['time', TEXTS.goalTime],
             ['seed', TEXTS.seed],
-            ['place', TEXTS.placeWithin(metres(PLACE_MORE_M, 0))],
+            ['place', TEXTS.positionWithin(metres(PLACE_MORE_M, 0))],
           ] as const
         ).map(([k, words]) => (
           <button
@@ -166,7 +166,7 @@ function Run({ cases, sought }: Of) {
       </section>
     );
   return (
-    <section class="sect seeking" aria-label={TEXTS.howFarTheSearch}>
+    <section class="sect seeking" aria-label={TEXTS.searchProgress}>
       <h3>
         <span role="status">{TEXTS.ofTried(p.tried, p.of)}</span>
         <small>{stateWords(state, p)}</small>
@@ -177,7 +177,7 @@ function Run({ cases, sought }: Of) {
       <p class="tally">
         <em class={`tag ${p.found ? 'near' : ''}`}>{TEXTS.found(p.found)}</em>
         {p.collisions ? <em class="tag collision">{TEXTS.collided(p.collisions)}</em> : null}
-        <em class="tag ok">{TEXTS.notLikeThat(Math.max(0, p.tried - p.found - p.collisions))}</em>
+        <em class="tag ok">{TEXTS.without(Math.max(0, p.tried - p.found - p.collisions))}</em>
       </p>
       {problem ? (
         <p class="problem" role="alert">
@@ -194,7 +194,7 @@ function Run({ cases, sought }: Of) {
           <ActionButton key="stop" id="case-stop" class="line" size={15} />
         ) : (
           <ActionButton key="on" id="case-search" class="line" icon="">
-            {state === 'paused' ? TEXTS.goOn : TEXTS.tryMore(MOST_TRIES)}
+            {state === 'paused' ? TEXTS.resume : TEXTS.tryMore(MOST_TRIES)}
           </ActionButton>
         )}
       </div>
@@ -222,22 +222,22 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
       <div class="stack">
         {may.time ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('time')}>
-            {TEXTS.letGoalTimeChange}
+            {TEXTS.varyGoalTime}
           </button>
         )}
         {may.place ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('place')}>
-            {TEXTS.letItsPlace}
+            {TEXTS.varyPosition}
           </button>
         )}
         {may.speed ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('speed')}>
-            {TEXTS.letStartSpeed}
+            {TEXTS.varyStartSpeed}
           </button>
         )}
         {nearest ? (
           <button type="button" class="opt" onClick={() => cases.take(nearest)}>
-            {TEXTS.takeTheNearest}
+            {TEXTS.useTheClosest}
           </button>
         ) : null}
       </div>
@@ -262,7 +262,7 @@ function Found({ cases, sought }: Of) {
     list.current?.querySelector<HTMLElement>(`[data-case="${cases.shown.peek()}"] .face`)?.focus();
   };
   return (
-    <section class="sect last" aria-label={TEXTS.casesThatWere}>
+    <section class="sect last" aria-label={TEXTS.casesFoundList}>
       <h3>
         {TEXTS.foundTitle}
         <small>{ORDER[sought.what] ?? TEXTS.closestFirst}</small>
@@ -294,11 +294,11 @@ function Found({ cases, sought }: Of) {
               <button
                 type="button"
                 class="btn line"
-                aria-label={TEXTS.takeCase(c.id)}
-                title={TEXTS.itIsWhatHappens}
+                aria-label={TEXTS.useCase(c.id)}
+                title={TEXTS.replacesTheScene}
                 onClick={() => cases.take(c)}
               >
-                {TEXTS.take}
+                {TEXTS.use}
               </button>
             </span>
           </article>
@@ -319,7 +319,7 @@ function Words({ found: { id, take, moment, like }, sought }: { found: Case; sou
       {howWords(a, take.scene, moment, editor.unitOf(a), from).map((words) => (
         <small key={words}>{words}</small>
       ))}
-      {like ? <small>{TEXTS.andLikeIt(like)}</small> : null}
+      {like ? <small>{TEXTS.andSimilar(like)}</small> : null}
     </span>
   );
 }

@@ -23,7 +23,7 @@ export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly st
       {ASKED.map((a) => (
         <Row key={a.field} asked={a} of={of} answer={answers.value[a.field]} put={(patch) => put(a.field, patch)} />
       ))}
-      <p class="mut">{TEXTS.whatIsLeftOut}</p>
+      <p class="mut">{TEXTS.missingColumns}</p>
       <div class="ways">
         <button type="submit" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off}>
           {TEXTS.readTheTable}

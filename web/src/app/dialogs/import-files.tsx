@@ -26,7 +26,7 @@ export function ImportFiles() {
   return (
     <Modal label={TEXTS.importFiles} class="import bring" close={close}>
       <div class="dhead">
-        <h2>{TEXTS.bringASceneA}</h2>
+        <h2>{TEXTS.importAScene}</h2>
         <span class="grow" />
         <button type="button" class="btn i" aria-label={TEXTS.close} onClick={close}>
           <Icon name="x" size={16} />
@@ -45,7 +45,7 @@ export function ImportFiles() {
         {away.value ? (
           <p class="mut">{TEXTS.theServerIsNot}</p>
         ) : (
-          <ul class="inkinds" aria-label={TEXTS.whatCanBeRead} aria-busy={formats.value === null}>
+          <ul class="inkinds" aria-label={TEXTS.supportedFormats} aria-busy={formats.value === null}>
             {inKinds(formats.value ?? []).map((k) => (
               <li key={k.label}>
                 <Icon name={k.icon} size={18} />
@@ -66,7 +66,7 @@ export function ImportFiles() {
         )}
       </div>
       <div class="dfoot">
-        <span class="mut">{TEXTS.packedWithGzip}</span>
+        <span class="mut">{TEXTS.gzipToo}</span>
       </div>
     </Modal>
   );

@@ -79,10 +79,10 @@ function titleOf(verdicts: readonly FileVerdict[]): string {
     return part ? TEXTS.aPartOfThisFile : TEXTS.thisFileCould;
   }
   const counts = [
-    good && TEXTS.in(good),
+    good && TEXTS.good(good),
     part - asked && TEXTS.inPart(part - asked),
-    asked && TEXTS.toBeToldAbout(asked),
-    bad && TEXTS.cannotBeRead(bad),
+    asked && TEXTS.withAQuestion(asked),
+    bad && TEXTS.notReadable(bad),
   ].filter(Boolean);
   return TEXTS.files(all, counts.join(', '));
 }
@@ -141,7 +141,7 @@ function FileRow({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) 
         {v.ok ? (
           <span class="tag ok">{done}</span>
         ) : v.columns ? (
-          <span class="tag near">{TEXTS.whichColumnIs}</span>
+          <span class="tag near">{TEXTS.assignColumns}</span>
         ) : v.without ? (
           <span class="tag near">{TEXTS.inPartTag}</span>
         ) : (
@@ -201,9 +201,9 @@ function Wrong({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
 /** What is wrong, where, and what to do about it. */
 function Words({ verdict: v }: { verdict: FileVerdict }) {
   if (v.ok) return <p>{v.wrong}</p>;
-  const rest = v.without ? TEXTS.mendItOrWithout(v.without.join(', ')) : v.todo;
+  const rest = v.without ? TEXTS.fixItOrWithout(v.without.join(', ')) : v.todo;
   const rows = [
-    [TEXTS.whatIsWrong, v.wrong],
+    [TEXTS.problem, v.wrong],
     [TEXTS.where, v.where],
     [TEXTS.whatToDo, rest],
   ] as const;

@@ -34,7 +34,7 @@ export function SaveAs() {
             }}
           />
         </label>
-        <p class="mut">{TEXTS.aSceneOfYour}</p>
+        <p class="mut">{TEXTS.yourOwnScene}</p>
       </div>
       <div class="dfoot">
         <span class="grow" />

@@ -131,7 +131,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
     if (typeof done === 'string') editor.notices.show({ text: done });
     else editor.run(done);
   };
-  const label = (pin ? PINS.letGoLetter : PINS.pinLetter)(LETTERS[index]);
+  const label = (pin ? PINS.unpinLetter : PINS.pinLetter)(LETTERS[index]);
   return (
     <div class="furow" onPointerEnter={point} onPointerLeave={leave}>
       <button
@@ -207,8 +207,8 @@ function PinnedRow({ pin, why }: ShownPin) {
         type="button"
         class="btn i pinb"
         aria-pressed="true"
-        aria-label={PINS.letGo(pin.name)}
-        title={PINS.letGo(pin.name)}
+        aria-label={PINS.unpin(pin.name)}
+        title={PINS.unpin(pin.name)}
         onClick={on(unpin)}
       >
         <Icon name="x" size={14} />

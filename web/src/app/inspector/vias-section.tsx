@@ -20,12 +20,12 @@ export function ViasSection({ agent }: { agent: LiveAgent }) {
   const count = useComputed(() => agent.value.goal.via.length).value;
   if (!count) return null;
   return (
-    <section class="sect vias" aria-label={TEXTS.placesOnTheWay}>
+    <section class="sect vias" aria-label={TEXTS.viaPoints}>
       <h3>
         <span class="mk">
           <Icon name="via" size={15} />
         </span>
-        {TEXTS.placesOnTheWay}
+        {TEXTS.viaPoints}
         <small>{count}</small>
       </h3>
       {Array.from({ length: count }, (_, i) => (
@@ -47,7 +47,7 @@ function Order({ agent }: { agent: LiveAgent }) {
     <p class="leave">
       {words}
       <button type="button" class="words" onClick={() => editor.run(swapVias(agent.peek(), i))}>
-        {TEXTS.swapThem}
+        {TEXTS.swap}
       </button>
     </p>
   );

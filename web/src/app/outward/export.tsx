@@ -36,7 +36,7 @@ export default function Export() {
       <div class="pad">
         <h2>{TEXTS.export}</h2>
         {offered.length > 1 ? (
-          <div class="seg" role="radiogroup" aria-label={TEXTS.whatGoesOut}>
+          <div class="seg" role="radiogroup" aria-label={TEXTS.whatToExport}>
             {offered.map(([id, text]) => (
               <button
                 key={id}
@@ -217,7 +217,7 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
         ) : losses.length ? (
           <span class="tag near">{lossTag(losses)}</span>
         ) : (
-          <span class="tag ok">{TEXTS.nothingLost}</span>
+          <span class="tag ok">{TEXTS.lossless}</span>
         )}
       </button>
       {on && typeof is === 'string' ? <div class="why">{is}</div> : null}
@@ -232,7 +232,7 @@ const MOST_NAMED = 24;
 function lossTag(losses: readonly Loss[]): string {
   const named = losses.map(({ what }) => inSentence(what)).join(', ');
   if (named.length <= MOST_NAMED) return TEXTS.loses(named);
-  return TEXTS.thingsLost(losses.length);
+  return TEXTS.lossesCount(losses.length);
 }
 
 /** A list that is longer is opened by hand. */
@@ -245,7 +245,7 @@ function Losses({ of }: { of: readonly Loss[] }) {
     <>
       <div class="why">
         <b class="head">
-          <Icon name="warn" size={15} /> {TEXTS.whatWillNotBe}
+          <Icon name="warn" size={15} /> {TEXTS.leftOut}
         </b>
         <dl>
           {of.slice(0, all.value ? of.length : MOST_LOSSES - 1).map(({ what, how }) => (
@@ -261,7 +261,7 @@ function Losses({ of }: { of: readonly Loss[] }) {
           </button>
         )}
       </div>
-      <p class="stays">{TEXTS.stays(stays(of, editor.scene.peek()!))}</p>
+      <p class="stays">{TEXTS.exported(stays(of, editor.scene.peek()!))}</p>
     </>
   );
 }
@@ -291,7 +291,7 @@ function SaveButton({ kind, ready, progress, stop }: SaveButtonProps) {
       progress.value = null;
     }
   };
-  const words = n ? TEXTS.saveLosingThings(n) : TEXTS.save;
+  const words = n ? TEXTS.saveWithLosses(n) : TEXTS.save;
   return (
     <button
       type="button"

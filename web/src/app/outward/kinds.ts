@@ -56,7 +56,7 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'events',
       wish: 'table',
-      says: TEXTS.whenWhoMeets,
+      says: TEXTS.oneRowPerEvent,
       label: TEXTS.eventsAsATable,
       ending: '.csv',
       icon: 'warn',
@@ -70,11 +70,11 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'report',
       wish: 'show',
-      says: TEXTS.whatHappensIn,
+      says: TEXTS.aShortSummary,
       label: TEXTS.reportPage,
       ending: '.html',
       icon: 'report',
-      tag: TEXTS.toReadNotToEdit,
+      tag: TEXTS.readOnly,
       make: async () => {
         const picture = pictureOf(c).toDataURL('image/png');
         const page = reportPage({
@@ -93,7 +93,7 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'png',
       wish: 'show',
-      says: TEXTS.whatYouSeeFor,
+      says: TEXTS.viewForSlides,
       label: TEXTS.image,
       ending: '.png',
       icon: 'image',
@@ -108,7 +108,7 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'svg',
       wish: 'show',
-      says: TEXTS.theSameAsLines,
+      says: TEXTS.viewAsVectors,
       label: TEXTS.drawing,
       ending: '.svg',
       icon: 'image',
@@ -121,7 +121,7 @@ export function ofScreen(c: Context): Kind[] {
         paintLegend(pen, stage.view, time);
         const { w, h, z, turn } = stage.view;
         const turned = turn ? TEXTS.turnedCounterClockwise(num(deg(turn), 1)) : '';
-        const about = TEXTS.pxAMetreXEast(num(z, 2)) + turned;
+        const about = TEXTS.pxPerMetre(num(z, 2)) + turned;
         const drawing = pen.file(w, h, `${scene.name}, ${seconds(time)}`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
       },
@@ -129,13 +129,13 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'gif',
       wish: 'show',
-      says: TEXTS.whatYouSeeAgain,
-      label: TEXTS.movingImage,
+      says: TEXTS.viewAsLoop,
+      label: TEXTS.animation,
       ending: '.gif',
       icon: 'film',
       // Where no film can be made it is what comes nearest to one.
-      name: moving ? TEXTS.movingImageNames : `${TEXTS.movingImageNames}, ${TEXTS.filmNames}`,
-      tag: TEXTS.s10ASecond(num(scene.duration, 1)),
+      name: moving ? TEXTS.animationNames : `${TEXTS.animationNames}, ${TEXTS.videoNames}`,
+      tag: TEXTS.sAt10Fps(num(scene.duration, 1)),
       make: async (_, progress, stop) => {
         const blob = await movingPicture(editor, stage, progress, stop);
         return blob && named(c, blob, 'gif');
@@ -146,12 +146,12 @@ export function ofScreen(c: Context): Kind[] {
           {
             id: 'film',
             wish: 'show' as const,
-            says: TEXTS.whatYouSeePlayed,
-            label: TEXTS.film,
+            says: TEXTS.viewPlayedOnce,
+            label: TEXTS.video,
             ending: `.${filmEnding(moving)}`,
             icon: 'film',
-            name: TEXTS.filmNames,
-            tag: TEXTS.s30ASecond(num(scene.duration, 1)),
+            name: TEXTS.videoNames,
+            tag: TEXTS.sAt30Fps(num(scene.duration, 1)),
             make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
               const blob = await film(editor, stage, moving, progress, stop);
               return blob && named(c, blob, filmEnding(moving));
@@ -165,7 +165,7 @@ export function ofScreen(c: Context): Kind[] {
 function originOf({ file }: Context): string {
   const o = file.raw?.meta?.origin as { x_m?: number; y_m?: number; crs?: string | null } | undefined;
   if (!o?.x_m && !o?.y_m) return TEXTS.theOriginIsThat;
-  return TEXTS.theOriginLies(String(o.x_m ?? 0), String(o.y_m ?? 0), o.crs ?? TEXTS.theRecording);
+  return TEXTS.originIsAt(String(o.x_m ?? 0), String(o.y_m ?? 0), o.crs ?? TEXTS.theRecording);
 }
 
 /** Several variants in one format: a file each. A file of records has room for all of them. */

@@ -90,8 +90,8 @@ export default function Share() {
         <Switch label={TEXTS.chosenFuture} on={parts.value.futures} set={set('futures')} />
         <Switch label={TEXTS.nameAndNotes} on={parts.value.words} set={set('words')} />
         <Switch
-          label={TEXTS.startTheFilm(num(time, 1))}
-          note={TEXTS.withWhatIsIn}
+          label={TEXTS.startPlayback(num(time, 1))}
+          note={TEXTS.withTheView}
           on={parts.value.start}
           set={set('start')}
         />

@@ -148,8 +148,8 @@ export class Cases {
     const scene = this.editor.scene.value;
     const who = s && scene?.agents.get(s.who);
     if (!s || !who) return TEXTS.selectOneOrTwo;
-    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.canBeLookedAt}.`;
-    if (KINDS[s.what].two && s.other === null) return TEXTS.thisIsBetween;
+    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.isNotEditable}.`;
+    if (KINDS[s.what].two && s.other === null) return TEXTS.needsTwo;
     if (s.what === 'red' && !scene?.signals.length) return TEXTS.noSignalsHere;
     if (s.what === 'goal' && !who.goal.pos) return TEXTS.hasNoGoalYet(who.name);
     return null;
@@ -353,7 +353,7 @@ export class Cases {
     }
     this.show(null);
     editor.answers.know(c.take.set);
-    const name = TEXTS.caseTaken(momentWords(sought, c.moment));
+    const name = TEXTS.caseUsed(momentWords(sought, c.moment));
     editor.run({ ...takeVariant(now, stateOfVariant(c.take.scene, sought.who), name), fold: undefined });
     editor.setTime(c.moment.time);
     editor.notices.show({ text: `${name}.`, undo: true });

@@ -246,8 +246,8 @@ export class Library {
   }
 
   #welcomeBack(): void {
-    const action = { label: TEXTS.startFresh, run: () => this.session.goTo(null) };
-    this.session.notices.show({ text: TEXTS.yourChangesFrom, action }, WELCOME_BACK_MS);
+    const action = { label: TEXTS.discard, run: () => this.session.goTo(null) };
+    this.session.notices.show({ text: TEXTS.lastSessionRestored, action }, WELCOME_BACK_MS);
   }
 
   // -------------------------------------------------------------- tabs

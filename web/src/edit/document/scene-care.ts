@@ -32,7 +32,7 @@ export class SceneCare {
   /** A map that was made here, or a scene with another map. */
   newOnMap(body: SceneJson, name: string, more = ''): Promise<void> {
     const free = this.#freeName(name);
-    return this.#create(body, free, more || TEXTS.theMapIsInIt(free));
+    return this.#create(body, free, more || TEXTS.mapAdded(free));
   }
 
   newOnPlainGround(): Promise<void> {
@@ -41,7 +41,7 @@ export class SceneCare {
 
   #begin(body: SceneJson): Promise<void> {
     const name = this.#freeName(TEXTS.newScene);
-    return this.#create(body, name, TEXTS.nobodyIsOnIt(name));
+    return this.#create(body, name, TEXTS.noRoadUsersYet(name));
   }
 
   /** An own copy of what is on screen; from then on it saves itself. */
@@ -57,7 +57,7 @@ export class SceneCare {
     const body = this.file.complete();
     if (!body) return Promise.resolve();
     const parent = this.file.stored ? (this.file.raw?.id ?? null) : null;
-    const said = TEXTS.savedAsItSaves(name);
+    const said = TEXTS.savedAs(name);
     return this.#create({ ...body, meta: { ...body.meta, parent_id: parent } }, name, said);
   }
 
@@ -130,9 +130,9 @@ export class SceneCare {
       if (etag) await this.journal.noteVersion(id, null, etag);
       await this.list.refresh().catch(() => undefined);
       if (open) await this.library.open(id);
-      this.session.notices.show({ text: TEXTS.isBack(body.name) });
+      this.session.notices.show({ text: TEXTS.restored(body.name) });
     } catch (e) {
-      this.#failed(TEXTS.notBroughtBack, e);
+      this.#failed(TEXTS.notRestored, e);
     }
   }
 

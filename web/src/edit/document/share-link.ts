@@ -33,7 +33,7 @@ export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: 
 
 export async function readLink(hash: string): Promise<Shared> {
   const coded = hash.slice(MARK.length);
-  if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError(TEXTS.theLinkIsLonger);
+  if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError(TEXTS.linkTooLong);
   try {
     const bytes = fromBase64(coded);
     const text = await through(new Blob([bytes]).stream(), new DecompressionStream('deflate-raw'), MOST_TEXT_BYTES);
@@ -44,7 +44,7 @@ export async function readLink(hash: string): Promise<Shared> {
     return { scene: scene as SceneJson, at: readShownAt(read.at) };
   } catch (e) {
     if (e instanceof LinkError) throw e;
-    throw new LinkError(TEXTS.theLinkIsNot);
+    throw new LinkError(TEXTS.linkIncomplete);
   }
 }
 
@@ -67,7 +67,7 @@ async function through(
     length += r.value.length;
     if (length > most) {
       void reader.cancel();
-      throw new LinkError(TEXTS.theLinkHoldsMore);
+      throw new LinkError(TEXTS.linkExceedsLimits);
     }
     parts.push(r.value);
   }

@@ -6,10 +6,10 @@ import { TEXTS } from '../../texts/files/formats';
 export type Wish = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';
 
 export const WISHES: readonly (readonly [Wish, string])[] = [
-  ['again', TEXTS.goOnWithItHere],
+  ['again', TEXTS.keepEditing],
   ['simulate', TEXTS.testInASimulator],
-  ['table', TEXTS.lookIntoItTables],
-  ['show', TEXTS.showToAColleague],
+  ['table', TEXTS.analyse],
+  ['show', TEXTS.showToOthers],
   ['train', TEXTS.trainAModel],
   ['more', TEXTS.more],
 ];
@@ -31,7 +31,7 @@ const OUT: readonly OutFormat[] = [
     wish: 'again',
     label: TEXTS.savedScene,
     icon: 'layers',
-    says: TEXTS.everythingThat,
+    says: TEXTS.theCompleteScene,
   },
   {
     id: 'openscenario',
@@ -43,7 +43,7 @@ const OUT: readonly OutFormat[] = [
   {
     id: 'opendrive',
     wish: 'simulate',
-    label: TEXTS.roadAlone,
+    label: TEXTS.roadOnly,
     icon: 'road',
     says: TEXTS.theLanesAsOpendrive,
   },
@@ -52,7 +52,7 @@ const OUT: readonly OutFormat[] = [
     wish: 'simulate',
     label: TEXTS.commonroadScenario,
     icon: 'file',
-    says: TEXTS.aTaskForMotion,
+    says: TEXTS.aPlanningProblem,
   },
   {
     id: 'sumo',
@@ -64,7 +64,7 @@ const OUT: readonly OutFormat[] = [
   {
     id: 'sumo-net',
     wish: 'simulate',
-    label: TEXTS.sumoRoadAlone,
+    label: TEXTS.sumoRoadOnly,
     icon: 'road',
     says: TEXTS.theLanesLinks,
   },
@@ -73,14 +73,14 @@ const OUT: readonly OutFormat[] = [
     wish: 'simulate',
     label: TEXTS.sumoRecording,
     icon: 'table',
-    says: TEXTS.whereEverybody,
+    says: TEXTS.positionsAtEachStep,
   },
   {
     id: 'csv',
     wish: 'table',
     label: TEXTS.table,
     icon: 'table',
-    says: TEXTS.aRowForEachRoad,
+    says: TEXTS.oneRowPerStep,
     sought: TEXTS.tableNames,
   },
   {
@@ -107,7 +107,7 @@ const OUT: readonly OutFormat[] = [
   {
     id: 'html',
     wish: 'show',
-    label: TEXTS.pageThatPlays,
+    label: TEXTS.interactivePage,
     icon: 'play',
     says: TEXTS.playsInAnyBrowser,
   },
@@ -130,7 +130,7 @@ const OUT: readonly OutFormat[] = [
     wish: 'train',
     label: TEXTS.simAgentsSubmission,
     icon: 'file',
-    says: TEXTS.futuresOfEverybody,
+    says: TEXTS.futuresOfAll,
   },
   {
     id: 'scenarionet',
@@ -204,17 +204,17 @@ const IN: readonly InKind[] = [
   {
     label: TEXTS.simulatedTraffic,
     icon: 'car',
-    says: TEXTS.whatSumoWrites,
+    says: TEXTS.sumoTrajectories,
     formats: ['sumo-fcd'],
   },
   {
-    label: TEXTS.tablesOfMotion,
+    label: TEXTS.trajectoryTables,
     icon: 'table',
-    says: TEXTS.aRowForEachRoadUser,
+    says: TEXTS.oneRowPerTime,
     formats: ['csv', 'parquet'],
   },
   {
-    label: TEXTS.mapsAlone,
+    label: TEXTS.mapsOnly,
     icon: 'road',
     says: TEXTS.theRoadOfAScene,
     formats: ['opendrive', 'lanelet2', 'sumo-net', 'osm'],

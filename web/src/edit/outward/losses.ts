@@ -21,59 +21,59 @@ function finer(scene: Scene): string {
     const n = count(scene, (a) => a.kind === kind);
     return n ? countWords(kind, n) : [];
   });
-  return all.length ? TEXTS.theyBecomePlain(all.join(', ')) : TEXTS.kindsAreVehicle;
+  return all.length ? TEXTS.asPlainVehicles(all.join(', ')) : TEXTS.kindsInTheFile;
 }
 
 function goals(scene: Scene): string {
   const n = count(scene, (a) => a.goal.pos !== null);
-  return n ? TEXTS.thatYouSetFinished(TEXTS.flags(n)) : TEXTS.startsThatYou;
+  return n ? TEXTS.goalsAsMotion(TEXTS.goalCount(n)) : TEXTS.startsAsMotion;
 }
 
 function notes(scene: Scene): string {
   const n = count(scene, (a) => a.note !== '');
-  return n ? TEXTS.namesAndTags(TEXTS.notes(n)) : TEXTS.namesAndTagsStay;
+  return n ? TEXTS.namesAndTags(TEXTS.notes(n)) : TEXTS.namesAndTagsAlone;
 }
 
 type Words = readonly [what: string, how: string | ((scene: Scene) => string)];
 
 /** The server's codes of losses, the worst first. */
 const WORDS: Record<string, Words> = {
-  'no-road-users': [TEXTS.roadUsers, (s) => TEXTS.allTheRoadGoes(s.agents.size)],
+  'no-road-users': [TEXTS.roadUsers, (s) => TEXTS.roadOnly(s.agents.size)],
   'no-map': [TEXTS.road, (s) => TEXTS.kerbsCrosswalks(TEXTS.lanes(s.map.lanes.size))],
   'no-signals': [
-    TEXTS.trafficLights,
-    (s) => (s.signals.length ? TEXTS.lightsOf(TEXTS.lanes(s.signals.length)) : TEXTS.thereAreNone),
+    TEXTS.signals,
+    (s) => (s.signals.length ? TEXTS.signalsOf(TEXTS.lanes(s.signals.length)) : TEXTS.sceneHasNone),
   ],
   'no-conditions': [TEXTS.goals, goals],
   'no-modes': [TEXTS.otherFutures, TEXTS.theChosenOnes],
-  'no-generated': [TEXTS.whatWasWorked, TEXTS.allMotionCounts],
-  'single-ego': [TEXTS.otherGoals, TEXTS.oneRoadUserAlone],
+  'no-generated': [TEXTS.generatedMotion, TEXTS.allMotionCounts],
+  'single-ego': [TEXTS.otherGoals, TEXTS.oneGoalOnly],
   'late-road-users': [TEXTS.lateRoadUsers, TEXTS.strictReaders],
-  'no-unseen': [TEXTS.unseenRoadUsers, TEXTS.whomNobodySaw],
-  'no-subtype': [TEXTS.finerKinds, finer],
-  'no-sizes': [TEXTS.sizes, TEXTS.readersTakeUsual],
-  'no-velocity': [TEXTS.speeds, TEXTS.readersFindThem],
-  'no-timing': [TEXTS.time, TEXTS.whichMomentIs],
-  'no-validity-gaps': [TEXTS.gaps, TEXTS.momentsAtWhich],
+  'no-unseen': [TEXTS.unseenRoadUsers, TEXTS.notSeen],
+  'no-subtype': [TEXTS.subtypes, finer],
+  'no-sizes': [TEXTS.sizes, TEXTS.defaultSizes],
+  'no-velocity': [TEXTS.speeds, TEXTS.derivedSpeeds],
+  'no-timing': [TEXTS.time, TEXTS.currentStep],
+  'no-validity-gaps': [TEXTS.gaps, TEXTS.stepsNotSeen],
   'no-judgements': [TEXTS.verdicts, TEXTS.chancesFaults],
   'no-trips': [TEXTS.someTrips, TEXTS.roadUsersOff],
   'no-rollouts': [TEXTS.someRollouts, TEXTS.theChallenge],
-  'no-lane-graph': [TEXTS.linksOfLanes, TEXTS.whichFollowEach],
-  'no-lane-width': [TEXTS.widthsOfLanes, TEXTS.readersTakeUsual],
-  'no-lane-type': [TEXTS.someKindsOfLanes, TEXTS.theyBecomeThe],
-  'no-speed-limits': [TEXTS.speedLimits, TEXTS.theyAreNotIn],
-  'no-signal-states': [TEXTS.someStatesOf, TEXTS.allButRedYellow],
-  'no-z': [TEXTS.heights, TEXTS.everythingLies],
+  'no-lane-graph': [TEXTS.linksOfLanes, TEXTS.successorsAndNeighbours],
+  'no-lane-width': [TEXTS.widthsOfLanes, TEXTS.defaultSizes],
+  'no-lane-type': [TEXTS.someLaneTypes, TEXTS.nearestType],
+  'no-speed-limits': [TEXTS.speedLimits, TEXTS.ofAllLanes],
+  'no-signal-states': [TEXTS.someSignalStates, TEXTS.allButRedYellow],
+  'no-z': [TEXTS.heights, TEXTS.mapIsFlat],
   'no-drivable': [TEXTS.pavedAreas, TEXTS.lanesAndKerbs],
   'no-lines': [TEXTS.paintedLines, TEXTS.markingsAndKerbs],
   'no-areas': [TEXTS.someAreas, TEXTS.suchAsDriveways],
-  'no-neighbors': [TEXTS.lanesSideBySide, TEXTS.whereTheyAre],
-  'geometry-approximated': [TEXTS.exactLines, TEXTS.theyAreDrawn],
-  'no-roles': [TEXTS.roles, TEXTS.whoRecordedAnd],
+  'no-neighbors': [TEXTS.adjacentLanes, TEXTS.partlyAdjacent],
+  'geometry-approximated': [TEXTS.exactLines, TEXTS.resampled],
+  'no-roles': [TEXTS.roles, TEXTS.egoAndTargets],
   'no-notes': [TEXTS.namesAndNotes, notes],
-  'no-licence': [TEXTS.licence, (s) => (s.licence ? TEXTS.isNotNamed(s.licence) : TEXTS.itIsNotNamed)],
-  'no-ids': [TEXTS.numbers, TEXTS.roadUsersAnd],
-  'ids-renumbered': [TEXTS.numbers, TEXTS.someRoadUsers],
+  'no-licence': [TEXTS.licence, (s) => (s.licence ? TEXTS.isNotStated(s.licence) : TEXTS.notStated)],
+  'no-ids': [TEXTS.numbers, TEXTS.renumbered],
+  'ids-renumbered': [TEXTS.numbers, TEXTS.someRenumbered],
   'long-record': [TEXTS.usualLength, TEXTS.nothingIsCut],
 };
 const ORDER = Object.keys(WORDS);
@@ -106,10 +106,10 @@ export function stays(losses: readonly Loss[], scene: Scene): string {
   const lost = new Set(losses.map((l) => l.what));
   const parts: readonly (readonly [kept: boolean, words: string])[] = [
     [!lost.has(TEXTS.road), TEXTS.theRoad],
-    [scene.signals.length > 0 && !lost.has(TEXTS.trafficLights), TEXTS.trafficLightsWithin],
+    [scene.signals.length > 0 && !lost.has(TEXTS.signals), TEXTS.signalsWithin],
     [scene.agents.size > 0 && !lost.has(TEXTS.roadUsers), TEXTS.roadUserCount(scene.agents.size)],
   ];
   const kept = parts.filter(([is]) => is).map(([, words]) => words);
-  if (!lost.has(TEXTS.roadUsers)) kept.push(TEXTS.sAt10StepsASecond(num(scene.duration, 1)));
+  if (!lost.has(TEXTS.roadUsers)) kept.push(TEXTS.sAt10Hz(num(scene.duration, 1)));
   return kept.join(', ');
 }

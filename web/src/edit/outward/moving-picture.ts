@@ -52,7 +52,7 @@ function taken(stage: Stage): Picture {
 function answer(worker: Worker, said: Picture | null, give: Transferable[]): Promise<unknown> {
   return new Promise((resolve, reject) => {
     worker.onmessage = (e) => resolve(e.data);
-    worker.onerror = () => reject(new Error(TEXTS.notPacked));
+    worker.onerror = () => reject(new Error(TEXTS.notEncoded));
     worker.postMessage(said, give);
   });
 }

@@ -50,11 +50,11 @@ export function reportPage(r: ReportOf): string {
   const facts: [string, string][] = [
     ...(r.variant === null ? [] : [[TEXTS.variant, r.variant] as [string, string]]),
     [TEXTS.roadUsers, String(all.length)],
-    [TEXTS.asked, String(asked.length)],
+    [TEXTS.withConditions, String(asked.length)],
     [TEXTS.goalsReached, goals.length ? TEXTS.of(reached.length, goals.length) : TEXTS.noneSet],
     [TEXTS.collisions, String(own.filter((e) => e.kind === 'collision').length)],
     [TEXTS.nearMisses, String(own.filter((e) => e.kind === 'near').length)],
-    [TEXTS.leastTime, r.motion.score?.minTtc == null ? TEXTS.none : seconds(r.motion.score.minTtc)],
+    [TEXTS.minTtc, r.motion.score?.minTtc == null ? TEXTS.none : seconds(r.motion.score.minTtc)],
     [TEXTS.seedDiversity, `${scene.seed}, ${Math.round(scene.diversity * 100)} %`],
     [CODE.code, resultCode(scene, r.motion)],
     [TEXTS.others, { react: TEXTS.react, log: TEXTS.replayTheLog, still: TEXTS.holdStill }[scene.others]],
@@ -70,9 +70,9 @@ export function reportPage(r: ReportOf): string {
 <p>${text(TEXTS.thePictureShows(seconds(r.time), seconds(scene.duration)))}</p>
 <img alt="${text(TEXTS.fromAbove)}" src="${r.picture}">
 <h2>${TEXTS.result}</h2><table>${rows(facts)}</table>
-<h2>${TEXTS.whatHappens}</h2>${eventTable(r.events)}
+<h2>${TEXTS.events}</h2>${eventTable(r.events)}
 <h2>${TEXTS.roadUsers}</h2>
-<table>${head(TEXTS.who, TEXTS.start('m'), TEXTS.speed, TEXTS.goal('m'), TEXTS.endsAt('m'), '')}
+<table>${head(TEXTS.roadUser, TEXTS.start('m'), TEXTS.speed, TEXTS.goal('m'), TEXTS.endsAt('m'), '')}
 ${all.map((a) => agentRow(r, a, words.get(a.id))).join('\n')}</table>
 <h2>${TEXTS.unitsAndAxes}</h2><p>${text(TEXTS.axesInMetres)} ${text(r.origin)}</p>
 </body></html>
@@ -83,9 +83,9 @@ const head = (...names: string[]): string => `<tr>${names.map((n) => `<th>${n}</
 const row = (...cells: string[]): string => `<tr>${cells.map(cell).join('')}</tr>`;
 
 function eventTable(events: readonly TrafficEvent[]): string {
-  if (!events.length) return `<p>${TEXTS.nothingJudged}</p>`;
+  if (!events.length) return `<p>${TEXTS.noEvents}</p>`;
   const rows = events.map((e) => row(seconds(e.time), e.words, e.title, place(e.at), e.inLog ? TEXTS.inTheLog : ''));
-  return `<table>${head(TEXTS.when, TEXTS.what, TEXTS.who, TEXTS.where('m'), '')}${rows.join('')}</table>`;
+  return `<table>${head(TEXTS.time, TEXTS.event, TEXTS.roadUser, TEXTS.position('m'), '')}${rows.join('')}</table>`;
 }
 
 /** Is something asked of a road user? Who was put here is asked nothing by that alone. */
@@ -107,7 +107,7 @@ function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
   const goal = a.goal.pos ? TEXTS.at(place(a.goal.pos), seconds(a.goal.time)) : '';
   const cells = [
     a.name,
-    start ? place([start.x, start.y]) : TEXTS.comesLater,
+    start ? place([start.x, start.y]) : TEXTS.appearsLater,
     start ? speedLabel(start.speed, unit) : '',
     goal,
     end ? place([end.x, end.y]) : '',

@@ -179,7 +179,7 @@ export class Rounds {
 
   forgetAll(): void {
     const traits = this.wished.peek().map((w) => w.wish);
-    if (traits.length) this.#run((a, asked) => forget(a, asked, traits, TEXTS.allWishes));
+    if (traits.length) this.#run((a, asked) => forget(a, asked, traits, TEXTS.all));
   }
 
   /** Draws the next round. */
@@ -266,8 +266,7 @@ export class Rounds {
     this.#known.set(text, hand);
     if (this.#known.size > REMEMBERED) this.#known.delete(this.#known.keys().next().value as string);
     deck.deal(hand);
-    const many = of.id === null ? TEXTS.ways : TEXTS.futures;
-    this.editor.notices.say(TEXTS.roundA(asked.round, hand.names.length, many, hand.names[0]));
+    this.editor.notices.say(TEXTS.roundA(asked.round, hand.names.length, hand.names[0]));
   }
 
   /** Are the cards those of the document? */

@@ -250,11 +250,11 @@ export class Variants {
     const a = this.subject.value;
     const scene = this.editor.scene.value;
     if (!sweep || !scene) return null;
-    if (!a) return TEXTS.selectWhoseNumber;
+    if (!a) return TEXTS.selectToVary;
     if (sweep.over === 'time' && valueOf(a, 'time') === null) return TEXTS.hasNoGoalYet(a.name);
     const [least, most] = limitsOfSweep(a, scene, sweep.over);
     const beyond = (v: number): boolean => v < least - 1e-6 || v > most + 1e-6;
-    if (beyond(sweep.from) || beyond(sweep.to)) return TEXTS.cannotBeAsked(a.name);
+    if (beyond(sweep.from) || beyond(sweep.to)) return TEXTS.exceedsLimits(a.name);
     const room = MOST_VARIANTS - scene.variants.filter((v) => v.kept || v.starred).length;
     const n = countOf(sweep);
     return n > room ? TEXTS.valuesThereIs(n, room) : null;
@@ -360,7 +360,7 @@ export class Variants {
     const n = takes.length;
     if (!n && stopped) return;
     const made = n ? TEXTS.variantsMade(n) : TEXTS.noVariantMade;
-    const keep = { label: TEXTS.keepWhatWas, run: () => this.keepTakes([was], null, 'present') };
+    const keep = { label: TEXTS.keepPrevious, run: () => this.keepTakes([was], null, 'present') };
     const text = stopped || n === wanted ? `${made}.` : TEXTS.moreWouldBeAlike(made);
     if (why) notices.show({ text: why });
     else notices.show({ text, undo: n > 0, ...(n && isWork ? { action: keep } : {}) });
@@ -447,7 +447,7 @@ export class Variants {
   toggleStar(id: number): void {
     this.#patch(id, (v, name) => ({
       patch: { starred: !v.starred },
-      name: v.starred ? TEXTS.starOfTakenAway(name) : TEXTS.starred(name),
+      name: v.starred ? TEXTS.unstarred(name) : TEXTS.starred(name),
     }));
   }
 
@@ -455,7 +455,7 @@ export class Variants {
     this.#renaming.value = null;
     const name = called.trim() || null;
     if (name === this.card(id)?.variant.called) return;
-    this.#patch(id, (_, was) => ({ patch: { called: name }, name: TEXTS.named(was, name ?? TEXTS.byWhatDiffers) }));
+    this.#patch(id, (_, was) => ({ patch: { called: name }, name: TEXTS.named(was, name ?? TEXTS.automatically) }));
   }
 
   /** What goes out, of the variants that everything is known of. */
@@ -567,7 +567,7 @@ export class Variants {
     if (first === null || first === id) {
       const taken = this.#picked.peek() !== id;
       this.#picked.value = taken ? id : null;
-      if (taken) this.editor.notices.show({ text: TEXTS.pickTheSecond(id) });
+      if (taken) this.editor.notices.show({ text: TEXTS.selectASecond(id) });
       return;
     }
     this.compare(first, id);
@@ -583,7 +583,7 @@ export class Variants {
     });
     const moment = this.compared.peek()?.parting.moments[0];
     this.editor.notices.say(
-      moment ? TEXTS.variantsAndThey(left, right, moment.words) : TEXTS.variantsAndTheyAre(left, right),
+      moment ? TEXTS.variantsDiffer(left, right, moment.words) : TEXTS.variantsAreIdentical(left, right),
     );
   }
 

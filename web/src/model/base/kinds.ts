@@ -106,5 +106,5 @@ export function kindsWords(kinds: readonly Kind[]): string {
   const count = new Map<Kind, number>();
   for (const k of kinds) count.set(k, (count.get(k) ?? 0) + 1);
   const rows = [...count].sort((a, b) => b[1] - a[1]).map(([k, n]) => countWords(k, n));
-  return rows.length > 3 ? TEXTS.andKindsMore(rows.slice(0, 2).join(', '), rows.length - 2) : rows.join(', ');
+  return rows.length > 3 ? TEXTS.andMoreTypes(rows.slice(0, 2).join(', '), rows.length - 2) : rows.join(', ');
 }

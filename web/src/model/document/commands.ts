@@ -105,7 +105,7 @@ export const setSize = (a: Agent, length: number, width: number): Command =>
   one(TEXTS.sizeOfChanged(a.name), a.id, { length, width, chosen: null }, 'size');
 export const choose = (a: Agent, index: number | null, letter: string): Command =>
   one(
-    index === null ? TEXTS.backToTheMost(a.name) : TEXTS.futureChosen(letter, a.name),
+    index === null ? TEXTS.mostLikelyRestored(a.name) : TEXTS.futureChosen(letter, a.name),
     a.id,
     // Picked again among the same six; what comes after a choice that was taken back is not of that round.
     { chosen: index, dealt: a.chosen === null ? null : a.dealt, profile: null },
@@ -151,13 +151,13 @@ function kindOfLog(a: Agent): Pick<Agent, 'kind' | 'name'> {
 export const nameAs = (a: Pick<Agent, 'name' | 'called'>, kind: Kind): string =>
   a.called ?? `${KIND_NAMES[kind]} ${/\d+$/.exec(a.name)?.[0] ?? ''}`.trim();
 
-export const resetAgent = (a: Agent): Command => one(TEXTS.backToTheLog(a.name), a.id, recorded(a));
+export const resetAgent = (a: Agent): Command => one(TEXTS.resetToLog(a.name), a.id, recorded(a));
 
 export function resetAll(scene: Scene): Command {
   const patches = new Map(
     [...scene.agents.values()].filter((a) => !a.placed && !a.locked).map((a) => [a.id, recorded(a)]),
   );
-  return patchAgents(TEXTS.everybodyBack, patches);
+  return patchAgents(TEXTS.allReset, patches);
 }
 
 // -------------------------------------------------------------- who is in the scene
@@ -236,10 +236,10 @@ export const setDiversity = (diversity: number): Command =>
   patchScene(TEXTS.diversity(Math.round(diversity * 100)), { diversity }, 'diversity');
 export const setOthers = (others: Others): Command =>
   patchScene({ react: TEXTS.othersReact, log: TEXTS.othersReplay, still: TEXTS.othersHoldStill }[others], { others });
-export const setReplan = (replan: Replan): Command => patchScene(TEXTS.plannedAnewEach(replan), { replan });
+export const setReplan = (replan: Replan): Command => patchScene(TEXTS.replanEvery(replan), { replan });
 
 /** Everybody worked out anew. */
-export const drawAnew = (scene: Scene): Command => patchScene(TEXTS.everybodyWorked, { drawn: scene.drawn + 1 });
+export const drawAnew = (scene: Scene): Command => patchScene(TEXTS.allGeneratedAgain, { drawn: scene.drawn + 1 });
 
 /** How much is worked out. Goals that would come after the end come at the end. */
 export function setLength(scene: Scene, length: Length): Command {
@@ -249,7 +249,7 @@ export function setLength(scene: Scene, length: Length): Command {
       .map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]),
   );
   return inOneStep(
-    patchScene(TEXTS.sWorkedOut(length), { length, duration: durationOf(length, scene.steps) }),
+    patchScene(TEXTS.length(length), { length, duration: durationOf(length, scene.steps) }),
     patchAgents('', late),
   );
 }

@@ -8,7 +8,7 @@ import { TEXTS } from '../../texts/editing/cases';
 export const KIND_WORDS: Readonly<Record<What, string>> = {
   near: TEXTS.nearMiss,
   collision: TEXTS.collision,
-  first: TEXTS.whoComesFirst,
+  first: TEXTS.passingOrder,
   braking: TEXTS.hardBrakingNo,
   goal: TEXTS.goalReachedLittle,
   red: TEXTS.redLight,
@@ -18,7 +18,7 @@ export const KIND_WORDS: Readonly<Record<What, string>> = {
 export const TITLES: Readonly<Record<What, string>> = {
   near: TEXTS.findANearMiss,
   collision: TEXTS.findACollision,
-  first: TEXTS.findWhoComesFirst,
+  first: TEXTS.findAPassingOrder,
   braking: TEXTS.findHardBraking,
   goal: TEXTS.findATightArrival,
   red: TEXTS.findARedLight,
@@ -26,9 +26,9 @@ export const TITLES: Readonly<Record<What, string>> = {
 
 /** As in `find a near miss between …`. */
 const SENTENCES: Readonly<Record<What, (a: string, b: string | null) => string>> = {
-  near: (a, b) => TEXTS.aNearMissBetween(a, b ?? TEXTS.somebody),
-  collision: (a, b) => TEXTS.aCollisionOf(a, b ?? TEXTS.somebody),
-  first: (a, b) => TEXTS.justBefore(a, b ?? TEXTS.somebody),
+  near: (a, b) => TEXTS.aNearMissBetween(a, b ?? TEXTS.aRoadUser),
+  collision: (a, b) => TEXTS.aCollisionOf(a, b ?? TEXTS.aRoadUser),
+  first: (a, b) => TEXTS.justBefore(a, b ?? TEXTS.aRoadUser),
   braking: (a) => TEXTS.hardBrakingOf(a),
   goal: (a, b) => TEXTS.atItsGoalWith(a, b ?? TEXTS.others),
   red: (a) => TEXTS.runsARedLight(a),
@@ -61,7 +61,7 @@ export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit, was
   const other = m.other === null ? null : scene.agents.get(m.other)?.name;
   return [
     start ? TEXTS.startsAt(speedLabel(start.speed, unit)) : '',
-    moved ? (moved > 0 ? TEXTS.furtherOn : TEXTS.furtherBack)(metres(Math.abs(moved), 1)) : '',
+    moved ? (moved > 0 ? TEXTS.furtherAhead : TEXTS.furtherBack)(metres(Math.abs(moved), 1)) : '',
     a.goal.pos ? TEXTS.atItsGoalAt(seconds(a.goal.time)) : '',
     other && m.side ? `${other} ${TEXTS.sides[m.side]}` : '',
   ].filter(Boolean);
@@ -70,5 +70,5 @@ export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit, was
 /** `No near miss in 300 tries. Closest was 1.4 m at 3.9 s.` */
 export function nothingWords(s: Sought, tries: number, closest: Moment | null): string {
   const none = TEXTS.notFoundInTries(tries);
-  return closest ? TEXTS.nearestToItWas(none, momentWords(s, closest)) : none;
+  return closest ? TEXTS.closestWas(none, momentWords(s, closest)) : none;
 }

@@ -21,7 +21,7 @@ export function findChanges(
   unit: SpeedUnit = 'km/h',
 ): Change[] {
   return changesBetween(scene, before, after, except).map((c) => {
-    const alone = c.released ? TEXTS.noLongerAnswers(c.released.name) : TEXTS.workedOutAnew;
+    const alone = c.released ? TEXTS.noLongerReacts(c.released.name) : TEXTS.replanned;
     const words = c.reaction ? reactionWords(scene.agents.get(c.id)!, c.reaction, unit) : alone;
     return { ...c, words };
   });
@@ -44,9 +44,9 @@ export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'):
       return /[1-9]/.test(speed) ? TEXTS.slowsTo(`${speed} ${unit}`, name, r.ahead) : TEXTS.stopsBriefly(name, r.ahead);
     }
     case 'speeds_up':
-      return TEXTS.makesWayFor(name);
+      return TEXTS.speedsUpFor(name);
     case 'keeps_clear':
-      return TEXTS.takesAnother(name);
+      return TEXTS.keepsClearOf(name);
   }
 }
 
@@ -67,7 +67,7 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
   const last = Math.round(duration / STEP_S);
   const end = poseAtStep(m, last),
     log = poseAtStep(a.log, last);
-  let words = TEXTS.movesDifferently;
+  let words = TEXTS.differs;
   if (end && log) {
     // A recording may begin before, and go on after what is worked out.
     const from = Math.max(firstStep(m), firstStep(a.log));
@@ -77,9 +77,9 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
     };
     const [s1, s0] = [gone(m), gone(a.log)];
     const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
-    if (turn > 0.6) words = TEXTS.endsFacingAnother;
-    else if (s1 < s0 - 2) words = TEXTS.getsLessFar(metres(s0 - s1, 0));
-    else if (s1 > s0 + 2) words = TEXTS.getsFurther(metres(s1 - s0, 0));
+    if (turn > 0.6) words = TEXTS.endsTurned;
+    else if (s1 < s0 - 2) words = TEXTS.travelsLess(metres(s0 - s1, 0));
+    else if (s1 > s0 + 2) words = TEXTS.travelsMore(metres(s1 - s0, 0));
   }
   return { ...f, words };
 }

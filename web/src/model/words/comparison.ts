@@ -105,8 +105,8 @@ function rowsOf(left: Side, right: Side, parted: readonly Diverging[]): Row[] {
   return [
     row(TEXTS.events, events(left), events(right)),
     ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
-    row(TEXTS.smallestGap, gap(left), gap(right)),
-    row(TEXTS.leastTimeToCollision, closing(left), closing(right)),
+    row(TEXTS.minPet, gap(left), gap(right)),
+    row(TEXTS.minTtc, closing(left), closing(right)),
     ...goals(left, right),
   ];
 }
@@ -120,7 +120,7 @@ function deeds(scene: Scene, { agent, left, right }: Diverging): Row {
 const TURNS = { left: TEXTS.turnsLeft, right: TEXTS.turnsRight } as const;
 
 function deedWords(d: Deed): string {
-  if (d.waits >= 1) return d.stands ? TEXTS.standsS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
+  if (d.waits >= 1) return d.stands ? TEXTS.stoppedS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
   return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TURNS[d.turn];
 }
 
@@ -128,7 +128,7 @@ function goals(left: Side, right: Side): Row[] {
   const words = (s: Side, id: string): string => {
     const a = s.scene.agents.get(id);
     const met = a ? meetsGoal(s.set, a) : null;
-    return met === null ? TEXTS.notKnown : met ? TEXTS.reached : TEXTS.missed;
+    return met === null ? TEXTS.unknown : met ? TEXTS.reached : TEXTS.missed;
   };
   return [...left.scene.agents.values()]
     .filter((a) => a.goal.pos)
@@ -140,7 +140,7 @@ function goals(left: Side, right: Side): Row[] {
 
 function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Moment[] {
   const said = (e: TrafficEvent): string =>
-    e.what === 'collision' && e.b ? TEXTS.meets(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
+    e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
   // Where there are too many the worst are told, and of these the first, whichever side they are on.
   const events = [left, right]
     .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))

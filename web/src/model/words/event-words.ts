@@ -55,7 +55,7 @@ const isMissInTime = ({ extent }: SceneEvent): boolean => extent === null || ext
 
 /** How bad it is, in the unit of its kind. */
 function extentWords(r: SceneEvent, unit: SpeedUnit): string | null {
-  if (r.what === 'near_miss' && isMissInTime(r)) return r.ttc === null ? null : TEXTS.sToCollision(num(r.ttc, 1));
+  if (r.what === 'near_miss' && isMissInTime(r)) return r.ttc === null ? null : TEXTS.ttc(num(r.ttc, 1));
   if (r.extent === null) return null;
   switch (r.what) {
     case 'collision':
@@ -88,8 +88,7 @@ function inWords(scene: Scene, set: MotionSet, e: SceneEvent, unit: SpeedUnit): 
 }
 
 function shortOf(scene: Scene, r: SceneEvent): string {
-  if (r.what === 'near_miss' && r.ttc !== null && isMissInTime(r))
-    return TEXTS.sToCollisionWith(num(r.ttc, 1), r.b?.name ?? '');
+  if (r.what === 'near_miss' && r.ttc !== null && isMissInTime(r)) return TEXTS.ttcTo(num(r.ttc, 1), r.b?.name ?? '');
   const { time, until, extent, at } = r;
   return placeWord({ kind: r.what, time, until, at, extent, with: r.b?.id ?? null, edge: null }, nameIn(scene));
 }
@@ -108,24 +107,24 @@ function factsOf(scene: Scene, set: MotionSet, r: SceneEvent, unit: SpeedUnit): 
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
   if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
   if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.gapThen, metres(r.extent, 1)]);
-  if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
+  if (r.ttc !== null) facts.push([TEXTS.ttcAlone, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null)
     facts.push([fact, r.what === 'red_light' ? speedLabel(r.extent, unit) : extentWords(r, unit)!]);
-  if (r.until > r.time + 0.15) facts.push([TEXTS.fromTo, TEXTS.to(num(r.time, 1), seconds(r.until))]);
-  if (r.inLog) facts.push([TEXTS.whereFrom, TEXTS.inTheLogNotCounted]);
+  if (r.until > r.time + 0.15) facts.push([TEXTS.interval, TEXTS.to(num(r.time, 1), seconds(r.until))]);
+  if (r.inLog) facts.push([TEXTS.source, TEXTS.inTheLogNotCounted]);
   return facts;
 }
 
 const FACTS: Partial<Record<FaultKind, string>> = {
-  red_light: TEXTS.speedOverThe,
-  wrong_way: TEXTS.waySoDriven,
+  red_light: TEXTS.speedAtStopLine,
+  wrong_way: TEXTS.distanceDriven,
   over_median: TEXTS.pastTheEdge,
   off_road: TEXTS.pastTheEdge,
   harsh_braking: TEXTS.braking,
-  harsh_steering: TEXTS.sideways,
-  via_missed: TEXTS.awayFromTheVia,
-  goal_missed: TEXTS.leftToTheGoal,
+  harsh_steering: TEXTS.lateral,
+  via_missed: TEXTS.distanceToVia,
+  goal_missed: TEXTS.distanceToGoal,
 };
 
 const relativeSpeed = (p: Pose, q: Pose): number =>

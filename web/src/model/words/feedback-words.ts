@@ -24,19 +24,19 @@ const MANOEUVRES = {
   straight: TEXTS.straightOn,
   left: TEXTS.turnsLeft,
   right: TEXTS.turnsRight,
-  turn_round: TEXTS.turnsRound,
+  turn_round: TEXTS.makesUTurn,
   lane_left: TEXTS.toTheLeftLane,
   lane_right: TEXTS.toTheRightLane,
-  stays: TEXTS.stays,
+  stays: TEXTS.standsStill,
   reverse: TEXTS.backsUp,
 } as const;
 
 const PLAIN = {
   pace: { more: TEXTS.faster, less: TEXTS.slower },
-  gap: { more: TEXTS.widerGap, less: TEXTS.closer },
-  harshness: { more: TEXTS.sharper, less: TEXTS.smoother },
+  gap: { more: TEXTS.widerGap, less: TEXTS.smallerGap },
+  harshness: { more: TEXTS.harsher, less: TEXTS.smoother },
   standing: { more: TEXTS.waitsLonger, less: TEXTS.waitsLess },
-  from_log: { more: TEXTS.offTheRecording, less: TEXTS.nearerTheRecording },
+  from_log: { more: TEXTS.lessLikeTheLog, less: TEXTS.moreLikeTheLog },
 } as const;
 
 const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? TEXTS.roadUser(id);
@@ -44,7 +44,7 @@ const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? TEXTS.roadU
 /** A shorter gap than this is nothing to be kept, seconds. */
 const LEAST_GAP_S = 1;
 
-/** `Smoother`, `Car 12 first`, `Keeps 2 s gap`. `kept`: the range of the kept ones. */
+/** `Smoother`, `Car 12 first`, `Keeps a 2 s gap`. `kept`: the range of the kept ones. */
 export function wishWords(w: Wish, nameOf: NameOf, kept?: readonly [number, number] | null): string {
   if (w.trait === 'first') return TEXTS.first(called(nameOf, w.wants === 'more' ? w.who : w.with));
   if (w.trait === 'does')
@@ -56,25 +56,26 @@ export function wishWords(w: Wish, nameOf: NameOf, kept?: readonly [number, numb
 
 type Range = readonly [number, number];
 
-/** `Kept ones stand 0 to 1.2 s, rejected ones 3 to 4 s.` */
+/** `Waiting time: kept 0 to 1.2, rejected 3 to 4 s.` */
 export function restsOn(w: LearnedWishJson, answers: readonly Answer[], { unit }: Speaking): string {
   const sentence = w.trait === 'first' || w.trait === 'does' ? shares(w, answers) : ranges(w, unit);
-  return [w.said ? TEXTS.youSaidSo : '', sentence].filter(Boolean).join(' ');
+  return [w.said ? TEXTS.setByYou : '', sentence].filter(Boolean).join(' ');
 }
 
-function ranges(w: LearnedWishJson, unit: SpeedUnit): string {
-  const say = saying(w, unit);
+function ranges(w: LearnedWishJson, speeds: SpeedUnit): string {
+  const say = saying(w, speeds);
   if (!say) return '';
-  const { does, value, of } = say;
+  const { what, value, unit } = say;
   const [kept, rejected] = [w.kept ?? null, w.rejected ?? null];
-  if (kept && rejected) return TEXTS.keptOnesRejected(does, value(kept), value(rejected), of);
-  return kept ? TEXTS.keptOnes(does, value(kept), of) : rejected ? TEXTS.rejectedOnes(does, value(rejected), of) : '';
+  if (kept && rejected) return TEXTS.keptAndRejected(what, value(kept), value(rejected), unit);
+  if (kept) return TEXTS.keptAlone(what, value(kept), unit);
+  return rejected ? TEXTS.rejectedAlone(what, value(rejected), unit) : '';
 }
 
 interface Saying {
-  /** Before the value, after it. */
-  readonly does: string;
-  readonly of: string;
+  readonly what: string;
+  /** After a value, with the space between. */
+  readonly unit: string;
   value(r: Range): string;
 }
 
@@ -85,25 +86,25 @@ function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | nu
   const one = (v: number) => num(v, 1);
   switch (trait) {
     case 'pace':
-      return { does: TEXTS.drive, of: TEXTS.onAverage(unit), value: (r) => between(r, (v) => speedText(v, unit)) };
+      return { what: TEXTS.meanSpeed, unit: ` ${unit}`, value: (r) => between(r, (v) => speedText(v, unit)) };
     case 'gap':
       return wants === 'more'
-        ? { does: TEXTS.leaveAtLeast, of: ' s', value: (r) => one(r[0]) }
-        : { does: TEXTS.leave, of: ' s', value: (r) => between(r, one) };
+        ? { what: TEXTS.smallestGap, unit: ' s', value: (r) => one(r[0]) }
+        : { what: TEXTS.gapOf, unit: ' s', value: (r) => between(r, one) };
     case 'harshness':
       return wants === 'less'
-        ? { does: TEXTS.brakeSpeedUp, of: ` ${accelerationUnit()}`, value: (r) => lengthText(r[1], 1) }
+        ? { what: TEXTS.highestAcceleration, unit: ` ${accelerationUnit()}`, value: (r) => lengthText(r[1], 1) }
         : {
-            does: TEXTS.brakeSpeedUpOr,
-            of: ` ${accelerationUnit()}`,
+            what: TEXTS.acceleration,
+            unit: ` ${accelerationUnit()}`,
             value: (r) => between(r, (v) => lengthText(v, 1)),
           };
     case 'standing':
-      return { does: TEXTS.stand, of: ' s', value: (r) => between(r, one) };
+      return { what: TEXTS.waitingTime, unit: ' s', value: (r) => between(r, one) };
     case 'from_log':
       return {
-        does: TEXTS.are,
-        of: TEXTS.fromTheRecording(lengthUnit()),
+        what: TEXTS.distanceToLog,
+        unit: ` ${lengthUnit()}`,
         value: (r) => between(r, (v) => lengthText(v, 1)),
       };
     default:
@@ -129,8 +130,8 @@ function shares(w: Wish, answers: readonly Answer[]): string {
     return all.length ? TEXTS.of(all.filter(Boolean).length, all.length) : null;
   };
   const [kept, rejected] = [of('keep'), of('reject')];
-  if (kept && rejected) return TEXTS.soItIsInKept(kept, rejected);
-  return kept ? TEXTS.soItIsInKeptOnes(kept) : rejected ? TEXTS.soItIsInRejected(rejected) : '';
+  if (kept && rejected) return TEXTS.trueOfBoth(kept, rejected);
+  return kept ? TEXTS.trueOfKept(kept) : rejected ? TEXTS.trueOfRejected(rejected) : '';
 }
 
 /** Which answers contradict a wish: `A of round 1, “After Car 12”, was kept.` */
@@ -163,11 +164,11 @@ const REASONS: readonly Row[] = [
   ['pace', 'more', TEXTS.tooSlow, TEXTS.brisk],
   ['pace', 'less', TEXTS.tooFast, TEXTS.calm],
   ['gap', 'more', TEXTS.tooClose, TEXTS.keepsClear],
-  ['gap', 'less', TEXTS.tooCareful, TEXTS.goesWhileItCan],
+  ['gap', 'less', TEXTS.tooCareful, TEXTS.takesTheGap],
   ['harshness', 'less', TEXTS.tooHarsh, TEXTS.smooth],
   ['standing', 'less', TEXTS.waitsTooLong, TEXTS.hardlyWaits],
   ['standing', 'more', TEXTS.shouldWait, TEXTS.waits],
-  ['from_log', 'less', TEXTS.tooFarFromThe, TEXTS.nearTheRecording],
+  ['from_log', 'less', TEXTS.tooUnlikeTheLog, TEXTS.likeTheLog],
 ];
 
 /** More orders of two than this are no choice but a list, in a scene. */
@@ -193,7 +194,7 @@ export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf
     const wish: Wish = { trait: 'first', who: me, with: other, wants: first === liked ? 'more' : 'less' };
     // Of a whole scene it must be said who.
     const it = id === null ? `${called(nameOf, me)} ` : '';
-    if (liked) return choice(wish, it + (first ? TEXTS.goesBefore(who) : TEXTS.letsGoFirst(who)));
+    if (liked) return choice(wish, it + (first ? TEXTS.goesBefore(who) : TEXTS.yieldsTo(who)));
     return choice(wish, it + (first ? TEXTS.shouldGoAfter(who) : TEXTS.shouldGoBefore(who)));
   });
   return [...plain, ...order];
@@ -227,5 +228,5 @@ export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string =
 export function factWords(f: Features): string {
   // The widest gap that is counted says only that nobody is near.
   const gap = f.gap_s >= 5 ? TEXTS.clear : TEXTS.gap(seconds(f.gap_s));
-  return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.stands(seconds(f.standing_s)) : acceleration(f.harshness_mps2)}`;
+  return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.waitsFor(seconds(f.standing_s)) : acceleration(f.harshness_mps2)}`;
 }

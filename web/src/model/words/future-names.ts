@@ -202,7 +202,7 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   const stopTells = modes.length === 1 || stops.some((s) => !s);
   return modes.map((m, i) => [
     ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
-    ...(alone && onRoad[i] ? [{ basis: TEXTS.byTheRoad, forms: [TEXTS.byTheRoad] }] : []),
+    ...(alone && onRoad[i] ? [{ basis: TEXTS.byRoad, forms: [TEXTS.byRoad] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
     // One that stops is not called by how it goes on.
     stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
@@ -292,7 +292,7 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>
     case 'left':
     case 'right': {
       const turn = manoeuvre === 'left' ? TEXTS.turnsLeft : TEXTS.turnsRight;
-      return !onFoot && shiftsFirst(m) ? [TEXTS.otherLaneThen[manoeuvre], TEXTS.laneThen[manoeuvre], turn] : [turn];
+      return !onFoot && shiftsFirst(m) ? [TEXTS.laneChangeThen[manoeuvre], TEXTS.laneChange[manoeuvre], turn] : [turn];
     }
     case 'lane_left':
     case 'lane_right': {
@@ -300,9 +300,9 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>
       return onFoot ? [TEXTS.bears[side]] : [TEXTS.toTheLane[side], side === 'left' ? TEXTS.leftLane : TEXTS.rightLane];
     }
     case 'turn_round':
-      return [TEXTS.turnsRound];
+      return [TEXTS.uTurn];
     case 'stays':
-      if (pathLength(m) >= CREEPS_M) return [onFoot ? TEXTS.aStepOrTwo : TEXTS.creepsOn];
+      if (pathLength(m) >= CREEPS_M) return [onFoot ? TEXTS.aStepOrTwo : TEXTS.rollsForward];
       return [onFoot ? TEXTS.stays : TEXTS.standsStill];
     case 'reverse':
       return [TEXTS.backsUp];
@@ -426,7 +426,7 @@ function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trai
     return when;
   };
   const values = new Map(group.map((i) => [i, at(modes[i].motion)]));
-  return { values, least: 1, more: TEXTS.brakesLater, less: TEXTS.brakesSooner };
+  return { values, least: 1, more: TEXTS.brakesLater, less: TEXTS.brakesEarlier };
 }
 
 interface Traits {

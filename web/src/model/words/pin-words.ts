@@ -11,7 +11,7 @@ export function misfit(a: Agent, pin: Pin, unit: SpeedUnit): string | null {
     case undefined:
       return null;
     case 'kind':
-      return TEXTS.anotherKind;
+      return TEXTS.anotherType;
     case 'start':
       return TEXTS.startsAway(metres(m.metres, 1));
     case 'start-heading':

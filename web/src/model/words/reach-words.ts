@@ -15,9 +15,9 @@ export function reachWords(
   nameOf: (id: string) => string | null = () => null,
 ): { title: string; words: string } {
   if (isBlocked(r) && r.nearest && goal.pos) {
-    const who = (r.with != null && nameOf(r.with)) || TEXTS.somebody;
+    const who = (r.with != null && nameOf(r.with)) || TEXTS.aRoadUser;
     const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
-    return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
+    return { title: TEXTS.isInTheWay(who), words: TEXTS.stopsShort(metres(short, 0)) };
   }
   const text = r.message ? messageText(r.message) : '';
   const cut = /[.!?](?=\s|$)/.exec(text);
@@ -53,8 +53,8 @@ const WHO: Readonly<Record<Agent['kind'], string>> = {
   bus: TEXTS.thisBus,
   motorcycle: TEXTS.thisMotorcycle,
   cyclist: TEXTS.thisCyclist,
-  pedestrian: TEXTS.thisPerson,
-  other: TEXTS.it,
+  pedestrian: TEXTS.thisPedestrian,
+  other: TEXTS.thisRoadUser,
 };
 
 function wordsOf(r: GoalReach, a: Agent, v: number, t: number, unit: SpeedUnit): { title: string; words: string } {
@@ -62,26 +62,24 @@ function wordsOf(r: GoalReach, a: Agent, v: number, t: number, unit: SpeedUnit):
   switch (r.kind) {
     case 'far': {
       const away = r.onLanes ? TEXTS.theGoalIsAway : TEXTS.theGoalIsAwayStraight;
-      const gets = TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), WHO[a.kind], metres(max, 0));
+      const gets = TEXTS.coversAtMost(seconds(t), speedLabel(v, unit), WHO[a.kind], metres(max, 0));
       return { title: TEXTS.tooFarFor(seconds(t)), words: away(metres(along, 0)) + gets };
     }
     case 'near':
       return {
         title: TEXTS.cannotStopThat,
-        words: TEXTS.fromItNeedsThe(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
+        words: TEXTS.brakingTakes(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
       };
     case 'sharp':
-      return { title: TEXTS.tooTightAtThis, words: TEXTS.wouldDo(speedLabel(r.speed!, unit)) };
+      return { title: TEXTS.tooTightAtThis, words: TEXTS.possibleAt(speedLabel(r.speed!, unit)) };
     case 'ok': {
       const mean = speedLabel(along / t, unit);
       const onFoot = a.type === 'pedestrian';
-      const words = onFoot
-        ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t))
-        : TEXTS.onAverageIsEnough(mean);
+      const words = onFoot ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t)) : TEXTS.needsOnAverage(mean);
       return { title: TEXTS.reachable, words };
     }
   }
 }
 
 const walk = (v: number): string =>
-  v < 0.6 ? TEXTS.aStroll : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
+  v < 0.6 ? TEXTS.aSlowWalk : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;

@@ -102,7 +102,7 @@ function ofEvents({ events = [] }: Nameless): Said[] {
     const { a, b, short } = e;
     const words = !b
       ? `${a.name}, ${short}`
-      : `${a.name} ${e.what === 'collision' ? TEXTS.meets : TEXTS.closeTo} ${b.name}`;
+      : `${a.name} ${e.what === 'collision' ? TEXTS.hits : TEXTS.nearlyHits} ${b.name}`;
     return { words, weight: EVENT_SAYS[e.kind] };
   });
 }
@@ -160,6 +160,6 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
 
 /** What tells a variant by its number. */
 export function valueWords(over: Over, value: number, unit: SpeedUnit): string {
-  if (over === 'time') return TEXTS.thereAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
+  if (over === 'time') return TEXTS.arrivesAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
   return `${over === 'start' ? TEXTS.startsAt : TEXTS.arrivesAt} ${speedLabel(value, unit)}`;
 }

@@ -19,7 +19,7 @@ import { TEXTS } from '../../texts/scene/verdicts';
 
 export type NameOf = (id: string) => string | null;
 
-const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.somebody;
+const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.aRoadUser;
 
 /** The word on the picture where it happens. */
 export function placeWord(f: Fault, nameOf: NameOf): string {
@@ -41,7 +41,7 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
       return f.extent === null || f.extent > THRESHOLDS.gap_m.usual
-        ? TEXTS.closeCallWith(somebody(f, nameOf))
+        ? TEXTS.nearMissWith(somebody(f, nameOf))
         : TEXTS.to(metres(f.extent, 1), somebody(f, nameOf));
     case 'via_missed':
       return f.extent === null ? TEXTS.pastTheVia : TEXTS.fromTheVia(metres(f.extent, 1));
@@ -49,10 +49,6 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return f.extent === null ? TEXTS.shortWord : TEXTS.short(metres(f.extent));
   }
 }
-
-/** The same in a sentence: `hits Car 12 at 1.3 s`. */
-const headlineWord = (f: Fault, nameOf: NameOf): string =>
-  f.kind === 'red_light' ? TEXTS.throughRed : f.kind === 'wrong_way' ? TEXTS.theWrongWay : placeWord(f, nameOf);
 
 export interface Headline {
   readonly mark: Mark;
@@ -85,22 +81,26 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
     return { mark, title: reachedBy(f, open), words: all, at: null };
   }
   const [worst] = about.faults;
-  const word = headlineWord(worst, who.nameOf);
+  const word = placeWord(worst, who.nameOf);
   const at = TEXTS.at(seconds(worst.time));
   const missed = about.faults.find((x) => x.kind === 'goal_missed');
   const toGoal = hasGoal && !missed && !isOpen(chosen);
   if (worst.kind === 'goal_missed') return { mark, title: TEXTS.ofTheGoal(upper(word)), words, at: worst.time };
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
+  const only = ONLY[worst.kind];
   const title =
-    toGoal && all && leavesRoad(worst)
-      ? TEXTS.only(word, at)
+    toGoal && all && only
+      ? only(seconds(worst.time))
       : toGoal
         ? TEXTS.reached(word, at)
         : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
   return { mark, title, words, at: worst.time };
 }
 
-/** How it gets about, and what others are called. */
+/** Kinds of faults without which a goal cannot be reached where all futures have them. */
+const ONLY: Partial<Record<FaultKind, (time: string) => string>> = TEXTS.onlyBy;
+
+/** What kind of road user it is, and what others are called. */
 export interface Walker {
   readonly type: AgentType;
   readonly nameOf: NameOf;
@@ -116,10 +116,10 @@ function reachedBy(f: Futures, open: readonly number[]): string {
   return TEXTS.reachedIn(there.map((i) => LETTERS[i]).join(', '));
 }
 
-/** Futures that nobody follows are worked out for a first while alone. */
+/** Futures that nobody follows are planned for a first while alone. */
 function openWords(f: Futures, open: readonly number[]): string {
   const until = seconds(lastStep(f.modes[open[0]].motion) * STEP_S);
-  return TEXTS.workedOutUpTo(and(open.map((i) => LETTERS[i])), open.length, until);
+  return TEXTS.plannedUpTo(and(open.map((i) => LETTERS[i])), open.length, until);
 }
 
 // -------------------------------------------------------------- who does what
@@ -130,12 +130,12 @@ const and = (list: readonly string[]): string =>
 interface Group {
   readonly key: string;
   readonly letters: string[];
-  /** `drive over it` and `drives over it`. */
+  /** `cross the median` and `crosses the median`. */
   readonly many: string;
   readonly one: string;
 }
 
-/** `A, B, C and D drive over it. E gets there by the road. F stops.` */
+/** `A, B, C and D cross the median. E reaches the goal by road. F stops short.` */
 function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker): string {
   const named = f.modes[chosen].about?.faults[0]?.kind ?? null;
   const offRoad = f.modes.some((m) => m.about?.faults.some(leavesRoad));
@@ -171,26 +171,20 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
   if (!worst) {
     // The headline lists those that get there, unless it names what is wrong.
     if (said.named === null) return null;
-    if (!said.hasGoal) return group('ok', TEXTS.doNot, TEXTS.doesNot);
-    return said.offRoad
-      ? group('ok', TEXTS.getThereByThe, TEXTS.getsThereByThe)
-      : group('ok', TEXTS.getThere, TEXTS.getsThere);
+    if (!said.hasGoal) return group('ok', TEXTS.areClear, TEXTS.isClear);
+    return said.offRoad ? group('ok', TEXTS.reachByRoad, TEXTS.reachesByRoad) : group('ok', TEXTS.reach, TEXTS.reaches);
   }
-  const it = said.named === worst.kind;
-  const [drive, drives] = GOES[said.who.type];
   switch (worst.kind) {
     case 'collision': {
       const whom = somebody(worst, said.who.nameOf);
-      return group(`hit:${worst.with}`, TEXTS.hit(whom), TEXTS.hitsWhom(whom));
+      return group(`hit:${worst.with}`, TEXTS.hit(whom), TEXTS.hits(whom));
     }
     case 'red_light':
-      return group(worst.kind, TEXTS.driveThroughRed(drive), TEXTS.drivesThroughRed(drives));
+      return group(worst.kind, TEXTS.runARedLight, TEXTS.runsARedLight);
     case 'wrong_way':
-      return group(worst.kind, TEXTS.driveTheWrongWay(drive), TEXTS.drivesTheWrongWay(drives));
-    case 'over_median': {
-      const over = it ? TEXTS.overIt : TEXTS.overTheMedian;
-      return group(worst.kind, `${drive} ${over}`, `${drives} ${over}`);
-    }
+      return group(worst.kind, TEXTS.goTheWrongWay, TEXTS.goesTheWrongWay);
+    case 'over_median':
+      return group(worst.kind, TEXTS.crossTheMedian, TEXTS.crossesTheMedian);
     case 'off_road':
       return group(worst.kind, TEXTS.leaveTheRoad, TEXTS.leavesTheRoad);
     case 'harsh_braking':
@@ -205,28 +199,16 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
       return group(worst.kind, TEXTS.missAVia, TEXTS.missesAVia);
     case 'goal_missed': {
       if (Math.abs(endPose(f.modes[i].motion).speed) < THRESHOLDS.moving_mps.usual)
-        return group('stops', TEXTS.stop, TEXTS.stops);
-      return group('short', TEXTS.doNotGetThere, TEXTS.doesNotGetThere);
+        return group('stops', TEXTS.stopShort, TEXTS.stopsShort);
+      return group('short', TEXTS.missTheGoal, TEXTS.missesTheGoal);
     }
   }
 }
 
-const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = {
-  vehicle: [TEXTS.drive, TEXTS.drives],
-  cyclist: [TEXTS.ride, TEXTS.rides],
-  pedestrian: [TEXTS.walk, TEXTS.walks],
-  other: [TEXTS.go, TEXTS.goes],
-};
-
-/** `drive`, `ride`, `walk`: how one kind gets about. */
-export const goes = (type: AgentType): string => GOES[type][0];
-
-/** `may drive over this median`, or may not. An island has several edges and is one median all the same. */
-export function mayCrossWords(go: string, map: LaneMap, edges: readonly string[], may = true): string {
+/** `may cross this median`, and the like. An island has several edges and is one median all the same. */
+export function crossingWords(map: LaneMap, edges: readonly string[]): typeof TEXTS.thisMedian {
   const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
-  const median = edges.every((id) => medians.has(id));
-  if (!may) return median ? TEXTS.mayNotOverThisMedian(go) : TEXTS.mayNotOverThisKerb(go);
-  return median ? TEXTS.mayOverThisMedian(go) : TEXTS.mayOverThisKerb(go);
+  return edges.every((id) => medians.has(id)) ? TEXTS.thisMedian : TEXTS.thisKerb;
 }
 
 // -------------------------------------------------------------- why another is shown
@@ -243,24 +225,22 @@ export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): 
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;
-  const is = TEXTS.isShownOnly(LETTERS[shown]);
-  if (!old) return TEXTS.theOneBefore(is);
-  const likelier = now.probability > old.probability;
-  const plain = likelier ? TEXTS.itIsLikelier(is, LETTERS[was]) : TEXTS.itWasInTheDrag(is, LETTERS[was]);
-  return whyNot(f, was, shown, nameOf) ?? plain;
+  if (!old) return TEXTS.previousIsGone(LETTERS[shown]);
+  const plain = now.probability > old.probability ? TEXTS.isLikelier : TEXTS.wasInTheDrag;
+  return whyNot(f, was, shown, nameOf) ?? plain(LETTERS[shown], LETTERS[was]);
 }
 
 const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
   collision: placeWord,
   rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
-  near: (f, nameOf) => TEXTS.nearlyHitsSomebody(somebody(f, nameOf)),
+  near: (f, nameOf) => TEXTS.nearlyHits(somebody(f, nameOf)),
   short: (f, nameOf) => TEXTS.ends(placeWord(f, nameOf)),
   ok: () => '',
 };
 
 const RULE_VERBS: Partial<Record<FaultKind, string>> = {
   red_light: TEXTS.runsARedLight,
-  wrong_way: TEXTS.goesTheWrong,
-  over_median: TEXTS.goesOverTheMedian,
+  wrong_way: TEXTS.goesTheWrongWay,
+  over_median: TEXTS.crossesTheMedian,
   off_road: TEXTS.leavesTheRoad,
 };

@@ -1,14 +1,16 @@
-import { table } from '../table';
+import { plural, table } from '../table';
 
 export const TEXTS = table('rounds', {
-  cardOfARound: (letter: string) => `Card ${letter} of a round taken for everybody`,
+  cardOfARound: (letter: string) => `Card ${letter} of a round used for all road users`,
   theGenerator: 'The generator is not answering.',
   theWholeScene: 'the whole scene',
   roundsOf: (name: string) => `Rounds of ${name}.`,
-  keepOrReject: 'Keep or reject one first, or add a wish.',
-  noCardsCame: 'No cards came.',
-  roundA: (round: number, count: number, many: string, name: string) => `Round ${round}: ${count} ${many}. A: ${name}.`,
-  allWishes: 'All wishes',
-  ways: 'ways',
-  futures: 'futures',
+  keepOrReject: 'Keep or reject one first, or add a preference.',
+  noCardsCame: 'No cards received.',
+  roundA: (round: number, count: number, name: string) =>
+    plural(count, {
+      one: `Round ${round}: ${count} future. A: ${name}.`,
+      other: `Round ${round}: ${count} futures. A: ${name}.`,
+    }),
+  all: 'all',
 });

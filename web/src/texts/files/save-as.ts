@@ -3,7 +3,7 @@ import { table } from '../table';
 export const TEXTS = table('save-as', {
   saveAs: 'Save as',
   name: 'Name',
-  aSceneOfYour: 'A scene of your own, which saves itself. This one stays as it is.',
+  yourOwnScene: 'A scene of your own, saved automatically. This one is not changed.',
   cancel: 'Cancel',
   save: 'Save',
 });

@@ -41,5 +41,5 @@ export const TEXTS = table('kinds', {
     pedestrian: (n: number) => plural(n, { one: `${n} pedestrian`, other: `${n} pedestrians` }),
     other: (n: number) => plural(n, { one: `${n} object`, other: `${n} objects` }),
   },
-  andKindsMore: (rows: string, count: number) => `${rows} and ${count} kinds more`,
+  andMoreTypes: (rows: string, count: number) => `${rows} and ${count} more types`,
 });

@@ -2,9 +2,9 @@ import { table } from '../table';
 
 export const TEXTS = table('places', {
   across: {
-    straight: 'in the crossing, straight on',
-    left: 'in the crossing, turning left',
-    right: 'in the crossing, turning right',
+    straight: 'in the junction, straight on',
+    left: 'in the junction, turning left',
+    right: 'in the junction, turning right',
   },
   /** Of the compass, in a letter or two. */
   e: 'E',

@@ -3,17 +3,17 @@ import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  generatorAway: 'Generator weg. Nichts ist verloren.',
+  generatorAway: 'Der Generator antwortet nicht. Nichts geht verloren.',
   change: 'Änderung',
   undone: 'Rückgängig gemacht',
-  doneAgain: 'Wiederholt',
+  redone: 'Wiederholt',
   backToTheBeginning: 'Zurück am Anfang',
   nowAt: (name: string) => `Jetzt bei: ${name}.`,
-  putBack: 'Zurückgelegt.',
+  restored: 'Wiederhergestellt.',
   selected: (name: string) => `${name} ausgewählt.`,
   roadUsersSelected: (n: number) => `${n} Verkehrsteilnehmer ausgewählt.`,
   sceneOpened: 'Szene geöffnet',
-  changesWorked: (waiting) =>
+  changesComputed: (waiting) =>
     plural(waiting, { one: ` ${waiting} Änderung berechnet.`, other: ` ${waiting} Änderungen berechnet.` }),
   theGenerator: (done) => `Der Generator ist wieder da.${done}`,
   waitingChanges: 'Wartende Änderungen',
@@ -22,15 +22,15 @@ export const german: Said<typeof TEXTS> = {
     `Sechs Zukünfte. Am wahrscheinlichsten: ${best}, ${likely} Prozent.`,
   aValueIsOutside: (min, max) => `Ein Wert liegt nicht zwischen ${min} und ${max}.`,
   toS: (window, min) => `${window} bis ${min} s`,
-  keepItsCurve: 'Tempokurve behalten',
-  itsCurveIsOff: 'Seine Tempokurve gilt nicht mehr.',
-  itHitsAt: (other, time) => ` Zusammenstoß mit ${other} bei ${time}.`,
+  keepCurve: 'Tempokurve behalten',
+  curveIsOff: 'Die Tempokurve gilt nicht mehr.',
+  collisionWith: (other, time) => ` Zusammenstoß mit ${other} bei ${time}.`,
   othersChanged: (n, step) =>
-    plural(n, { one: `${step}. ${n} anderer änderte sich.`, other: `${step}. ${n} andere änderten sich.` }),
-  nobodyElseHad: ' Sonst musste sich niemand ändern.',
+    plural(n, { one: `${step}. ${n} weiterer betroffen.`, other: `${step}. ${n} weitere betroffen.` }),
+  noOtherAffected: ' Niemand sonst ist betroffen.',
   othersChangedAndHit: (n, step, hit) =>
-    plural(n, { one: `${step}. ${n} anderer änderte sich.${hit}`, other: `${step}. ${n} andere änderten sich.${hit}` }),
+    plural(n, { one: `${step}. ${n} weiterer betroffen.${hit}`, other: `${step}. ${n} weitere betroffen.${hit}` }),
   collisionAnd: (name, name2, time) => `Zusammenstoß, ${name} und ${name2}, ${time} Sekunden.`,
   asBefore: 'wie zuvor',
-  theSearchDid: 'Die Suche wurde nicht geladen. Noch einmal versuchen, wenn das Netz wieder da ist.',
+  theSearchDid: 'Die Suche wurde nicht geladen. Noch einmal versuchen, sobald das Netz wieder da ist.',
 };

@@ -4,13 +4,12 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   copied: (who) => `${who} kopiert.`,
-  lockedStay: (stay) => plural(stay, { one: ` ${stay} gesperrter bleibt.`, other: ` ${stay} gesperrte bleiben.` }),
+  lockedUnchanged: (n) => ` ${n} gesperrt, nicht geändert.`,
   allAreLocked: (n) =>
     plural(n, { one: 'Gesperrt. Strg L entsperrt.', other: `Alle ${n} sind gesperrt. Strg L entsperrt.` }),
-  onlyLockedStay: (locked) =>
-    plural(locked, { one: `${locked} gesperrter bleibt.`, other: `${locked} gesperrte bleiben.` }),
+  onlyLocked: (n) => `${n} gesperrt, nicht geändert.`,
   future: (letter) => `Zukunft ${letter}`,
-  letStartSlower: (name) => `${name} langsamer starten`,
+  startOneSlower: (name) => `${name} langsamer starten`,
   goal: 'Ziel',
   start: 'Start',
   goalHeading: 'Richtung am Ziel',
@@ -29,7 +28,7 @@ export const german: Said<typeof TEXTS> = {
   goalOfMovedTo: (name) => `Ziel von ${name} zum nächsten erreichbaren Punkt verschoben`,
   leaveTheHeading: 'Richtung frei lassen',
   widerGoal: 'weiteres Ziel',
-  giveItMoreTime: 'Mehr Zeit geben',
+  allowMoreTime: 'Mehr Zeit geben',
   startFaster: 'Schneller starten',
   startSlower: 'Langsamer starten',
   roadUsers: (count) => `${count} Verkehrsteilnehmer`,
@@ -47,19 +46,18 @@ export const german: Said<typeof TEXTS> = {
   holdStill: 'bleiben stehen',
   named: (name, name2) => `${name} heißt jetzt ${name2}`,
   noteOn: (name) => `Notiz zu ${name}`,
-  madeEachA: (count, whoWords, label) =>
-    plural(count, { one: `${whoWords} ist jetzt: ${label}`, other: `${whoWords} sind jetzt: ${label}` }),
+  kindChanged: (whoWords, label) => `${whoWords}: jetzt ${label}`,
   removed: (whoWords) => `${whoWords} entfernt`,
   aSceneHoldsRoad: (most_in_scene, room) =>
     `Eine Szene fasst ${most_in_scene} Verkehrsteilnehmer. Platz ist noch für ${room}.`,
-  aSceneHoldsRoadUsers: (most_in_scene) => `Eine Szene fasst ${most_in_scene} Verkehrsteilnehmer, und diese ist voll.`,
-  selectARoadUser: 'Einen Verkehrsteilnehmer auswählen, der sich ändern lässt.',
-  waitForItsFutures: 'Auf die Zukünfte warten.',
+  aSceneHoldsRoadUsers: (most_in_scene) =>
+    `Diese Szene ist voll: Eine Szene fasst ${most_in_scene} Verkehrsteilnehmer.`,
+  selectARoadUser: 'Einen bearbeitbaren Verkehrsteilnehmer auswählen.',
+  futuresComing: 'Die Zukünfte werden noch berechnet.',
   thereIsNoRoom: 'Hier ist kein Platz für einen Punkt.',
   atYourSpeed: 'Mit diesem Tempo',
-  goalOfMovedToWhere: (name) => `Ziel von ${name} dorthin verschoben, wohin die Straße führt`,
-  byTheRoad: (letter) => `Über die Straße: ${letter}`,
-  it: (words) => `${words.charAt(0).toUpperCase()}${words.slice(1)}`,
+  goalOfMovedOntoRoad: (name) => `Ziel von ${name} auf die Straße verschoben`,
+  byRoad: (letter) => `Auf der Straße: ${letter}`,
   position: 'Ort',
   headingWithin: 'Richtung',
   speedWithin: 'Tempo',

@@ -1,15 +1,18 @@
 import type { TEXTS } from '../../editing/rounds';
+import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  cardOfARound: (letter) => `Vorschlag ${letter} einer Runde für alle genommen`,
+  cardOfARound: (letter) => `Vorschlag ${letter} einer Runde für alle übernommen`,
   theGenerator: 'Der Generator antwortet nicht.',
   theWholeScene: 'die ganze Szene',
   roundsOf: (name) => `Runden: ${name}.`,
-  keepOrReject: 'Erst einen behalten oder verwerfen, oder einen Wunsch angeben.',
-  noCardsCame: 'Es kamen keine Vorschläge.',
-  roundA: (round, count, many, name) => `Runde ${round}: ${count} ${many}. A: ${name}.`,
-  allWishes: 'Alle Wünsche',
-  ways: 'Verläufe',
-  futures: 'Zukünfte',
+  keepOrReject: 'Erst einen behalten oder verwerfen oder einen Wunsch angeben.',
+  noCardsCame: 'Keine Vorschläge erhalten.',
+  roundA: (round, count, name) =>
+    plural(count, {
+      one: `Runde ${round}: ${count} Zukunft. A: ${name}.`,
+      other: `Runde ${round}: ${count} Zukünfte. A: ${name}.`,
+    }),
+  all: 'alle',
 };

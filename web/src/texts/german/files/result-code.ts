@@ -2,9 +2,8 @@ import type { TEXTS } from '../../files/result-code';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  label: (code) => `${code}, Code dieses Ergebnisses`,
-  means:
-    'Code dieses Ergebnisses: gleiche Szene, gleicher Startwert und gleiche Version zeigen denselben. Ein Klick kopiert ihn',
+  label: (code) => `${code}, Ergebniscode`,
+  means: 'Ergebniscode: Gleiche Szene, gleicher Startwert und gleiche Version ergeben denselben. Klicken zum Kopieren',
   copied: (code) => `Code ${code} kopiert.`,
   code: 'Code',
   codeIs: (code) => `Code ${code}.`,

@@ -4,7 +4,7 @@ import type { Said } from '../../table';
 export const german: Said<typeof TEXTS> = {
   saveAs: 'Sichern als',
   name: 'Name',
-  aSceneOfYour: 'Eine eigene Szene, die sich selbst sichert. Diese bleibt, wie sie ist.',
+  yourOwnScene: 'Eine eigene Szene, die automatisch gesichert wird. Diese bleibt unverändert.',
   cancel: 'Abbrechen',
   save: 'Sichern',
 };

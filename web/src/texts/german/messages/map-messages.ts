@@ -2,7 +2,7 @@ import type { SENTENCES } from '../../messages/map-messages';
 import type { Said, Values } from '../../table';
 
 export const german: Said<typeof SENTENCES> = {
-  lists: { vehicle: { bus: '12-m-Bus', car: '5-m-Auto' } },
+  lists: { vehicle: { bus: '12-m-Bus', car: '5-m-Pkw' } },
   sentences: {
     'lanes-lead': 'Jede Spur führt weiter',
     'lane-leads-nowhere': (v: Values) => `Spur ${v.lane} führt nirgends hin`,

@@ -12,7 +12,7 @@ export const german: Said<typeof SENTENCES> = {
     'goal-above-top-speed': (v: Values) =>
       `Schneller, als ${v.kind} fahren oder gehen kann.${v.need_mps && ` Nötig wären ${v.need_mps}.`}`,
     'goal-too-near': (v: Values) =>
-      `So bald ist Anhalten nicht möglich. Aus ${v.start_mps} sind ${v.least_m} nötig, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+      `Anhalten ist so früh nicht möglich. Der Bremsweg aus ${v.start_mps} beträgt ${v.least_m}, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
     'goal-too-slow': (v: Values) =>
       `So starkes Bremsen ist in ${v.time_s} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
     'goal-too-tight': (v: Values) => `Zu eng bei diesem Tempo.${v.need_mps2 && ` Nötig wären quer ${v.need_mps2}.`}`,
@@ -22,12 +22,13 @@ export const german: Said<typeof SENTENCES> = {
     'goal-blocked-by-traffic': (v: Values) =>
       `Im Weg für ${v.kind}: ein anderer Verkehrsteilnehmer. Der Halt liegt ${v.short_m} vor dem Ziel.`,
     'goal-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um das Ziel ist keine Spur.`,
-    'goal-beyond-top-speed': (v: Values) => `${v.goal_m} in ${v.time_s} ist schneller als die Höchstgeschwindigkeit.`,
+    'goal-beyond-top-speed': (v: Values) =>
+      `${v.goal_m} in ${v.time_s} ist mehr als mit Höchstgeschwindigkeit möglich.`,
     'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,
     'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,
     'via-missed': (v: Values) =>
       `Zwischenpunkt ${v.number} wird bei ${v.time_s} um ${v.distance_m} verfehlt; die Toleranz ist ${v.tolerance_m}.`,
     'motion-ends': (v: Values) =>
-      `Die bekannte Bewegung endet bei ${v.time_s}; es geht geradeaus mit gleichem Tempo weiter.`,
+      `Die bekannte Bewegung endet bei ${v.time_s}; danach geht es geradeaus mit gleichem Tempo weiter.`,
   },
 };

@@ -15,7 +15,7 @@ export const german: Said<typeof SENTENCES> = {
     'unknown-edge': 'Erwartet wird die Kennung eines Straßenrands der Karte',
     'unequal-columns': (v: Values) => `${v.count} Werte, erwartet werden so viele wie x_m (${v.expected})`,
     'one-scene': 'Nötig ist genau eines von scene und scene_id',
-    'changed-scene': 'Die gespeicherte Szene ist eine andere als die gelesene.',
+    'changed-scene': 'Die gespeicherte Szene wurde seit dem Lesen geändert.',
     'no-network': (v: Values) => `Eine Datei im Format ${v.format} kommt ohne Netz`,
     'no-columns': (v: Values) => `Eine Datei im Format ${v.format} hat keine Spalten zu benennen`,
     'unknown-format': (v: Values) => `Kein Format heißt „${v.format}“; es gibt ${v.formats}.`,

@@ -3,7 +3,7 @@ import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  car: 'Auto',
+  car: 'Pkw',
   truck: 'Lkw',
   bus: 'Bus',
   motorcycle: 'Motorrad',
@@ -26,7 +26,7 @@ export const german: Said<typeof TEXTS> = {
   wheelchair: 'Rollstuhl',
   // The same as above, written out: the build gives the keys of the table other names, and not these.
   one: {
-    car: 'Auto',
+    car: 'Pkw',
     truck: 'Lkw',
     bus: 'Bus',
     motorcycle: 'Motorrad',
@@ -35,7 +35,7 @@ export const german: Said<typeof TEXTS> = {
     other: 'Objekt',
   },
   count: {
-    car: (n: number) => plural(n, { one: `${n} Auto`, other: `${n} Autos` }),
+    car: (n: number) => `${n} Pkw`,
     truck: (n: number) => `${n} Lkw`,
     bus: (n: number) => plural(n, { one: `${n} Bus`, other: `${n} Busse` }),
     motorcycle: (n: number) => plural(n, { one: `${n} Motorrad`, other: `${n} Motorräder` }),
@@ -43,5 +43,5 @@ export const german: Said<typeof TEXTS> = {
     pedestrian: (n: number) => `${n} Fußgänger`,
     other: (n: number) => plural(n, { one: `${n} Objekt`, other: `${n} Objekte` }),
   },
-  andKindsMore: (rows: string, n: number) => `${rows} und ${n} weitere Arten`,
+  andMoreTypes: (rows: string, n: number) => `${rows} und ${n} weitere Arten`,
 };

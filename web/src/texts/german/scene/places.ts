@@ -33,7 +33,7 @@ export const german: Said<typeof TEXTS> = {
   inboundLane: (arm) => `${arm}, Zufahrt`,
   outboundLane: (arm) => `${arm}, Ausfahrt`,
   atTheStopLine: 'an der Haltlinie',
-  beforeTheCrosswalk: 'vor dem Zebrastreifen',
+  beforeTheCrosswalk: 'vor dem Überweg',
   behind: (name) => `hinter ${name}`,
   per100MOfLane: (density) => `${density} je 100 m Spur`,
   per1000FtOfLane: (density) => `${density} je 1000 ft Spur`,
