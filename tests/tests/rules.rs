@@ -398,15 +398,10 @@ fn rooms_import_those_below_them_alone() {
     }
 }
 
-/// Modules of the engine whose files, types included, form no ring of imports.
-const WITHOUT_RINGS: &[&str] = &["planning", "generator"];
-
 #[test]
-fn the_engines_rooms_have_no_rings_inside() {
-    for module in WITHOUT_RINGS {
-        let rings = rings(&root().join("models/experts/src"), &[module]).unwrap();
-        assert!(rings.is_empty(), "{module}: {rings:?}");
-    }
+fn the_engines_files_form_no_ring_of_imports() {
+    let rings = rings(&root().join("models/experts/src"), &[]).unwrap();
+    assert!(rings.is_empty(), "{rings:?}");
 }
 
 #[test]

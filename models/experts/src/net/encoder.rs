@@ -3,8 +3,8 @@
 
 use candle_core::{Result, Tensor};
 
-use super::NetError;
 use super::architecture::Architecture;
+use super::error::NetError;
 use super::inputs::Inputs;
 use super::layers::{Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;

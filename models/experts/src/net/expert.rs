@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, HashMap};
 use candle_core::{Device, Tensor, Var};
 use serde::{Deserialize, Serialize};
 
-use super::NetError;
 use super::architecture::Architecture;
 use super::encoder::{Context, ContextEncoder};
+use super::error::NetError;
 use super::initializer::{Initial, Initializer};
 use super::inputs::Inputs;
 use super::params::Params;

@@ -1,6 +1,7 @@
 //! What placing is asked for, and its answer.
 
 use super::arms::Arm;
+use super::driving::SpeedRange;
 use super::region::Region;
 use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -19,14 +20,6 @@ pub const MAX_PER_HOUR: f64 = 20_000.0;
 pub const MAX_PARKED_PER_100M: f64 = 20.0;
 /// Highest starting speed that may be asked for, m/s: the top speed of cars.
 pub const MAX_SPEED_MPS: f64 = 40.0;
-
-/// Between which speeds those start who drive and do not stand, m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct SpeedRange {
-    pub min_mps: f64,
-    pub max_mps: f64,
-}
 
 /// Traffic that is to come in by an arm.
 #[derive(Clone, Debug, PartialEq)]
