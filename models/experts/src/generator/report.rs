@@ -127,7 +127,7 @@ pub(super) fn reach_report(
             };
             ReachReport::Unreachable {
                 nearest: nearest.into(),
-                limiting: (*limiting).into(),
+                limiting: *limiting,
                 needs: *needs,
                 words: message.to_string(),
                 message,

@@ -11,6 +11,8 @@ use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::direction;
 use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, MAX_VIAS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// What must hold at one step; `None` leaves a field free. Scene frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,18 +75,19 @@ impl GoalError {
     }
 }
 
-/// Which limit keeps a goal out of reach.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The limit of motion that binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Limiting {
-    /// Cannot speed up that much.
+    /// Speeding up, m/s2.
     Acceleration,
-    /// Cannot stop or slow down that soon.
+    /// Slowing down, m/s2.
     Braking,
-    /// Top speed.
+    /// Top speed, m/s.
     Speed,
-    /// Sideways grip at this speed.
+    /// Sideways acceleration, m/s2.
     Lateral,
-    /// Steering lock.
+    /// Tightness of a turn, 1/m.
     Curvature,
     /// Somebody is in the way and does not get out of it.
     Traffic,
