@@ -67,9 +67,8 @@ pub enum Amount {
 
 /// How road users are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-#[schemars(rename = "PlacementMethod")]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum PlacementMethod {
     /// By learned rates and distributions.
     Model,
     /// Even along lanes, at the speed limit: where there are no weights, and to compare with.
@@ -134,7 +133,7 @@ pub struct Placement {
     /// Why, in one sentence; `None` when all were placed.
     pub reason: Option<String>,
     /// How they were placed.
-    pub method: Method,
+    pub method: PlacementMethod,
     /// All arms of the map or region, with what was made of them.
     pub arms: Vec<ArmTraffic>,
     /// Places where a car could park; `None` where nobody asked.
