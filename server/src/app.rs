@@ -3,7 +3,7 @@
 use crate::base::limits::Limits;
 use crate::generation::Experts;
 use crate::http::body::{Reading, Room};
-use crate::http::observe::Gate;
+use crate::http::observe::RequestGate;
 use crate::scenes::Catalog;
 use crate::work::Pool;
 use axum::extract::FromRef;
@@ -15,14 +15,14 @@ use std::sync::atomic::AtomicBool;
 
 /// Shared state. Cheap to clone.
 #[derive(Clone)]
-pub struct App(Arc<Inside>);
+pub struct App(Arc<AppParts>);
 
-/// What [`App`] holds.
-pub struct Inside {
+/// Parts of [`App`].
+pub struct AppParts {
     /// Bounds.
     pub limits: Arc<Limits>,
     /// Who may talk to the server.
-    pub gate: Gate,
+    pub gate: RequestGate,
     /// Scenes and maps, wherever they are.
     pub catalog: Catalog,
     /// Room for bodies.
@@ -45,7 +45,7 @@ pub struct Inside {
 
 impl App {
     /// Wraps the state.
-    pub fn new(inside: Inside) -> Self {
+    pub fn new(inside: AppParts) -> Self {
         Self(Arc::new(inside))
     }
 
@@ -56,9 +56,9 @@ impl App {
 }
 
 impl Deref for App {
-    type Target = Inside;
+    type Target = AppParts;
 
-    fn deref(&self) -> &Inside {
+    fn deref(&self) -> &AppParts {
         &self.0
     }
 }

@@ -42,9 +42,10 @@ pub use maps::Maps;
 pub use placement::Placer;
 pub use planning::world::Planning;
 pub use request::{
-    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, Limiting, NearestState,
-    ReachReport, React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source,
-    Stages, Timings, Warning, WarningCode,
+    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
+    React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source, Stages,
+    Timings, Warning, WarningCode,
 };
+pub use scene::motion::Limiting;
 pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

@@ -4,6 +4,7 @@ use crate::net::schedule;
 use crate::planning::world::Planning;
 use crate::tuning::fixed::rounds::ROUND_DIVERSITY;
 use scene::message::Message;
+use scene::motion::Limiting;
 use scene::preference::{Feedback, Round};
 use scene::score::Thresholds;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
@@ -225,37 +226,6 @@ pub struct Field {
     pub value: f64,
     /// Origin.
     pub from: Source,
-}
-
-/// The limit of motion that binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Limiting {
-    /// Speeding up, m/s2.
-    Acceleration,
-    /// Slowing down, m/s2.
-    Braking,
-    /// Top speed, m/s.
-    Speed,
-    /// Sideways acceleration, m/s2.
-    Lateral,
-    /// Tightness of a turn, 1/m.
-    Curvature,
-    /// Somebody is in the way and does not get out of it.
-    Traffic,
-}
-
-impl From<scene::motion::Limiting> for Limiting {
-    fn from(limiting: scene::motion::Limiting) -> Self {
-        match limiting {
-            scene::motion::Limiting::Acceleration => Self::Acceleration,
-            scene::motion::Limiting::Braking => Self::Braking,
-            scene::motion::Limiting::Speed => Self::Speed,
-            scene::motion::Limiting::Lateral => Self::Lateral,
-            scene::motion::Limiting::Curvature => Self::Curvature,
-            scene::motion::Limiting::Traffic => Self::Traffic,
-        }
-    }
 }
 
 /// Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and

@@ -229,7 +229,7 @@ fn a_round_leaves_the_cards_of_a_wide_draw() {
         .places
         .iter()
         .map(|(id, at)| (id.clone(), at.iter().map(|[x, y]| Vec2::new(*x, *y)).collect()));
-    let said = scene::preference::Answer {
+    let said = scene::preference::JudgedCard {
         features: rejected.features.clone(),
         verdict: Verdict::Reject,
         why: None,

@@ -1,7 +1,7 @@
 //! One road user under two ids: a tracker that loses a road user and finds it again gives it a second id, in
 //! the same place with the same motion, where the first one ends.
 
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::{Agent, STEP_S, Scene, State, wrap_angle};
@@ -22,7 +22,7 @@ const NAMED: usize = 8;
 
 /// Joins the tracks of road users that the recording has under two ids; the first id stays. The warning says
 /// whose they were.
-pub fn join(scene: &mut Scene) -> Option<Warning> {
+pub fn join(scene: &mut Scene) -> Option<ImportWarning> {
     let mut joined = Vec::new();
     while let Some((first, second)) = find(&scene.agents) {
         let second = scene.agents.remove(second);
@@ -53,7 +53,7 @@ pub fn join(scene: &mut Scene) -> Option<Warning> {
         0 => sentences::identities_joined_all(count, &pairs),
         more => sentences::identities_joined(count, &pairs, more),
     };
-    Some(Warning::new("identities-joined", message))
+    Some(ImportWarning::new("identities-joined", message))
 }
 
 fn unique<T>(list: &mut Vec<T>, key: impl Fn(&T) -> String) {
@@ -147,7 +147,7 @@ mod tests {
         agent
     }
 
-    fn joined(agents: Vec<Agent>) -> (Scene, Option<Warning>) {
+    fn joined(agents: Vec<Agent>) -> (Scene, Option<ImportWarning>) {
         let mut scene = Scene::bare("", LaneMap::default(), agents);
         scene.meta.objects_of_interest = vec!["2".into(), "1".into()];
         let warning = join(&mut scene);

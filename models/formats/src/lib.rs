@@ -81,5 +81,5 @@ pub use format::{
     COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes,
 };
 pub use loss::Loss;
-pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};
+pub use problem::{FieldProblem, ImportWarning, Imported, ReadError, RefusalKind, never_null, pointer_token};
 pub use source::Source;

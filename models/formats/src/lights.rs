@@ -1,6 +1,6 @@
 //! Signals for maps that have heads but no program: the heads of a junction take turns.
 
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::map::LaneMap;
 use scene::{MAX_SIGNALS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
@@ -12,7 +12,7 @@ const PHASES_S: [f64; 3] = [12.0, 3.0, 1.0];
 
 /// A head of a signal: which lane it rules, and where.
 #[derive(Clone, Debug)]
-pub(crate) struct Head {
+pub(crate) struct SignalHead {
     /// Index of the lane.
     pub lane: usize,
     pub stop: Vec2,
@@ -25,8 +25,12 @@ pub(crate) struct Head {
 }
 
 /// A signal for each head, over `steps` steps, with what has to be said of them.
-pub(crate) fn signals(map: &LaneMap, mut heads: Vec<Head>, steps: usize) -> (Vec<Signal>, Option<Warning>) {
-    let mut by_junction: BTreeMap<String, Vec<Head>> = BTreeMap::new();
+pub(crate) fn signals(
+    map: &LaneMap,
+    mut heads: Vec<SignalHead>,
+    steps: usize,
+) -> (Vec<Signal>, Option<ImportWarning>) {
+    let mut by_junction: BTreeMap<String, Vec<SignalHead>> = BTreeMap::new();
     let count = heads.len();
     if count > MAX_SIGNALS {
         heads.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
@@ -51,16 +55,16 @@ pub(crate) fn signals(map: &LaneMap, mut heads: Vec<Head>, steps: usize) -> (Vec
     } else {
         sentences::signals_made(count, junctions)
     };
-    (signals, (count > 0).then(|| Warning::new("signals-made", message)))
+    (signals, (count > 0).then(|| ImportWarning::new("signals-made", message)))
 }
 
 /// Number of the group of each head.
-fn groups(heads: &[Head]) -> Vec<usize> {
+fn groups(heads: &[SignalHead]) -> Vec<usize> {
     let mut names: Vec<_> = heads.iter().filter_map(|head| head.group.as_ref()).collect();
     names.sort();
     names.dedup();
     let said = heads.iter().all(|head| head.group.is_some());
-    let group = |head: &Head| {
+    let group = |head: &SignalHead| {
         if said && names.len() > 1 {
             return names.iter().position(|name| head.group.as_ref() == Some(name)).unwrap_or(0);
         }
@@ -107,11 +111,11 @@ mod tests {
     use super::*;
     use scene::map::Lane;
 
-    fn head(lane: usize, heading_rad: f64, group: Option<(u32, String)>) -> Head {
-        Head { lane, stop: Vec2::zeros(), heading_rad, junction: "j".into(), group }
+    fn head(lane: usize, heading_rad: f64, group: Option<(u32, String)>) -> SignalHead {
+        SignalHead { lane, stop: Vec2::zeros(), heading_rad, junction: "j".into(), group }
     }
 
-    fn shown(heads: Vec<Head>, step: usize) -> Vec<SignalState> {
+    fn shown(heads: Vec<SignalHead>, step: usize) -> Vec<SignalState> {
         let line = vec![Vec2::zeros(), Vec2::new(1.0, 0.0)];
         let lanes = (0..heads.len()).map(|i| Lane::street(i.to_string(), line.clone())).collect();
         let map = LaneMap { lanes, ..LaneMap::default() };

@@ -3,7 +3,7 @@
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one, one_scene, only_read,
 };
-use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::map::LaneMap;
@@ -46,7 +46,7 @@ pub(crate) struct MapRead {
     pub signals: Vec<Signal>,
     /// Where the origin lies in the file's frame.
     pub origin: Origin,
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<ImportWarning>,
 }
 
 impl MapRead {

@@ -4,7 +4,7 @@
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Event, Scanner};
+use crate::xml::{Element, Scanner, XmlEvent};
 
 /// Most bytes of a file once decompressed, and of one tag.
 const MAX_BYTES: u64 = 256 << 20;
@@ -16,7 +16,7 @@ const MAX_VALUE: usize = 255;
 
 /// A node, way or relation.
 #[derive(Debug, Default)]
-pub(crate) struct Item {
+pub(crate) struct OsmElement {
     pub kind: &'static str,
     pub id: i64,
     /// Latitude and longitude of a node.
@@ -37,7 +37,7 @@ pub(crate) struct Member {
     pub role: String,
 }
 
-impl Item {
+impl OsmElement {
     pub fn tag(&self, key: &str) -> Option<&str> {
         self.tags.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
     }
@@ -50,16 +50,16 @@ impl Item {
 /// `invalid-field` for what is no number, `map-too-large`, and those of `take`.
 pub(crate) fn each(
     file: &dyn Source,
-    mut take: impl FnMut(Item) -> Result<(), ReadError>,
+    mut take: impl FnMut(OsmElement) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let mut scanner = Scanner::new(input.map_err(|error| unpack::fault(&error, 0))?, MAX_TAG);
     let (mut item, mut depth) = (None, 0_usize);
     while let Some(event) = scanner.next()? {
         let element = match event {
-            Event::Start(element) => element,
-            Event::Text(_) => continue,
-            Event::End => {
+            XmlEvent::Start(element) => element,
+            XmlEvent::Text(_) => continue,
+            XmlEvent::End => {
                 depth = depth.saturating_sub(1);
                 if depth == 1
                     && let Some(item) = item.take()
@@ -107,14 +107,14 @@ pub(crate) fn each(
     Ok(())
 }
 
-fn begun(kind: &'static str, element: &Element) -> Result<Option<Item>, ReadError> {
+fn begun(kind: &'static str, element: &Element) -> Result<Option<OsmElement>, ReadError> {
     if element.get("action") == Some("delete") || element.get("visible") == Some("false") {
         return Ok(None);
     }
     let degree = |name| element.get(name).and_then(|text| text.parse::<f64>().ok());
     let in_range = |(lat, lon): &(f64, f64)| lat.abs() < 89.0 && lon.abs() <= 180.0;
     let degrees = degree("lat").zip(degree("lon")).filter(in_range);
-    Ok(Some(Item { kind, id: id(element, "id")?, degrees, ..Item::default() }))
+    Ok(Some(OsmElement { kind, id: id(element, "id")?, degrees, ..OsmElement::default() }))
 }
 
 fn id(element: &Element, attribute: &'static str) -> Result<i64, ReadError> {

@@ -127,7 +127,7 @@ impl From<SceneError> for FieldProblem {
 
 /// What sort of refusal it is; decides the HTTP status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum RefusalKind {
     /// The text is not JSON (400). Both count from one.
     MalformedJson {
         /// Line of the fault.
@@ -153,7 +153,7 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
     /// The sort of refusal.
-    pub kind: Kind,
+    pub kind: RefusalKind,
     /// All faults found, the first one first.
     pub problems: Vec<FieldProblem>,
 }
@@ -165,24 +165,24 @@ impl ReadError {
             problems.push(FieldProblem::new("", code::INVALID_FIELD, "not a scene"));
         }
         problems.truncate(MAX_PROBLEMS);
-        Self { kind: Kind::Invalid, problems }
+        Self { kind: RefusalKind::Invalid, problems }
     }
 
     /// A broken binary file.
     pub fn malformed(offset: u64, detail: impl Into<String>) -> Self {
         let problem = FieldProblem::new("", code::MALFORMED_FILE, detail);
-        Self { kind: Kind::MalformedFile { offset }, problems: vec![problem] }
+        Self { kind: RefusalKind::MalformedFile { offset }, problems: vec![problem] }
     }
 
     /// Text that is not JSON.
     pub fn malformed_json(line: usize, column: usize, detail: impl Into<String>) -> Self {
         let problem = FieldProblem::new("", code::MALFORMED_JSON, detail);
-        Self { kind: Kind::MalformedJson { line, column }, problems: vec![problem] }
+        Self { kind: RefusalKind::MalformedJson { line, column }, problems: vec![problem] }
     }
 
     /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.
     pub fn too_large(code: &'static str, limit: u64, detail: impl Into<String>) -> Self {
-        Self { kind: Kind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, detail)] }
+        Self { kind: RefusalKind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, detail)] }
     }
 
     /// The code that names the whole refusal: that of the first fault.
@@ -209,9 +209,9 @@ impl From<FieldProblem> for ReadError {
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.kind {
-            Kind::MalformedJson { line, column } => write!(f, "line {line}, column {column}: ")?,
-            Kind::MalformedFile { offset } => write!(f, "byte {offset}: ")?,
-            Kind::TooLarge { .. } | Kind::Invalid => {}
+            RefusalKind::MalformedJson { line, column } => write!(f, "line {line}, column {column}: ")?,
+            RefusalKind::MalformedFile { offset } => write!(f, "byte {offset}: ")?,
+            RefusalKind::TooLarge { .. } | RefusalKind::Invalid => {}
         }
         let Some(first) = self.problems.first() else { return f.write_str("invalid") };
         first.fmt(f)?;
@@ -226,8 +226,7 @@ impl std::error::Error for ReadError {}
 
 /// Something a reader changed or left out without refusing.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "ImportWarning")]
-pub struct Warning {
+pub struct ImportWarning {
     /// The kind of change; programs switch on it.
     pub code: &'static str,
     /// The change in English.
@@ -236,7 +235,7 @@ pub struct Warning {
     pub message: Message,
 }
 
-impl Warning {
+impl ImportWarning {
     /// A warning of this kind, with its sentence.
     pub fn new(code: &'static str, message: Message) -> Self {
         Self { code, detail: message.to_string(), message }
@@ -244,7 +243,7 @@ impl Warning {
 }
 
 /// A scene and what its reader changed or left out.
-pub type Imported = (Scene, Vec<Warning>);
+pub type Imported = (Scene, Vec<ImportWarning>);
 
 /// Faults collected while reading one document.
 #[derive(Debug, Default)]

@@ -9,13 +9,13 @@ const F: f64 = 1.0 / 298.257_223_563;
 /// A transverse Mercator projection with scale 1 at its middle meridian, by the series of Krüger to the third order
 /// (below a millimetre within hundreds of kilometres).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Projection {
+pub(crate) struct TransverseMercator {
     lat_deg: f64,
     lon_deg: f64,
     north_m: f64,
 }
 
-impl Projection {
+impl TransverseMercator {
     /// About the middle of these places (latitude and longitude in degrees), to whole thousandths of a degree.
     pub fn about(places: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
         let corners = places.fold(None, |corners: Option<[f64; 4]>, (lat, lon)| {
@@ -71,7 +71,7 @@ mod tests {
         assert!((utm - Vec2::new(630_084.0, 4_833_438.0)).norm() < 1.0, "{utm:?}");
         // The quarter of a meridian on WGS 84.
         assert!((project(89.999_999_9, 0.0).y - 10_001_965.729).abs() < 0.02);
-        let here = Projection::about([(48.1, 11.5)].into_iter()).unwrap();
+        let here = TransverseMercator::about([(48.1, 11.5)].into_iter()).unwrap();
         assert_eq!(here.metres(48.1, 11.5), Vec2::zeros());
         let east = here.metres(48.1, 11.50201393269);
         assert!((east - Vec2::new(150.0, 0.0)).norm() < 0.01, "{east:?}");

@@ -3,7 +3,7 @@
 mod build;
 mod motion;
 
-pub(crate) use build::{Drawn, Recording, Said};
+pub(crate) use build::{RecordedFuture, Recording, Said};
 
 use scene::{AgentType, Size, Subtype, Vec2};
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ pub(crate) const MAX_USERS: usize = 20_000;
 /// A road user at a time, in the frame of the file. What the file does not say is NaN; without a position it is
 /// known that nobody saw the road user then.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sample {
+pub(crate) struct RecordedState {
     pub time_s: f64,
     /// Centre of the box, metres.
     pub at: Vec2,
@@ -25,7 +25,7 @@ pub(crate) struct Sample {
     pub z_m: f64,
 }
 
-impl Sample {
+impl RecordedState {
     /// Somebody saw the road user.
     pub fn is_seen(&self) -> bool {
         self.at.x.is_finite() && self.at.y.is_finite()
@@ -34,17 +34,17 @@ impl Sample {
 
 /// A road user of a file.
 #[derive(Clone, Debug)]
-pub(crate) struct User {
+pub(crate) struct RecordedAgent {
     pub id: String,
     pub agent_type: AgentType,
     pub subtype: Subtype,
     pub role: Option<String>,
     /// Length, width and height as far as the file says them, metres.
     pub size_m: [Option<f64>; 3],
-    pub samples: Vec<Sample>,
+    pub samples: Vec<RecordedState>,
 }
 
-impl User {
+impl RecordedAgent {
     /// The box, with the usual size where the file says none, and whether it does.
     fn size(&self) -> (Size, bool) {
         let usual = Size::default_for(self.agent_type, self.subtype);
@@ -71,12 +71,12 @@ pub(crate) fn middle(points: impl Iterator<Item = Vec2>) -> Vec2 {
 
 /// Ids as a scene can have them, each once.
 #[derive(Default)]
-pub(crate) struct Ids {
+pub(crate) struct AgentIds {
     taken: BTreeSet<String>,
     pub changed: usize,
 }
 
-impl Ids {
+impl AgentIds {
     /// The id itself where it is legal and free.
     pub fn take(&mut self, id: &str) -> String {
         let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };

@@ -3,7 +3,7 @@
 use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
 use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
@@ -19,7 +19,7 @@ use std::collections::HashSet;
 pub(crate) fn settled(
     mut scene: Scene,
     mut map: LaneMap,
-    mut warnings: Vec<Warning>,
+    mut warnings: Vec<ImportWarning>,
     options: &ImportOptions,
 ) -> Result<Imported, ReadError> {
     let now = scene.time.now_step;
@@ -48,7 +48,7 @@ fn state_about(agent: &Agent, step: usize) -> Option<&State> {
 }
 
 /// Keeps the road users that a scene has room for: the ego and those nearest to it, else to the first one.
-pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<Warning> {
+pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<ImportWarning> {
     let count = agents.len();
     if count <= MAX_AGENTS {
         return None;
@@ -66,7 +66,7 @@ pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<Warning> {
     let near: HashSet<usize> = order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect();
     let mut i = 0..;
     agents.retain(|_| i.next().is_some_and(|i| near.contains(&i)));
-    Some(Warning::new("agents-dropped", sentences::agents_near_ego(count, MAX_AGENTS)))
+    Some(ImportWarning::new("agents-dropped", sentences::agents_near_ego(count, MAX_AGENTS)))
 }
 
 /// Where the ego is at the present step; without one the middle of everything, in whole metres so that it is found
@@ -140,9 +140,9 @@ impl Ids {
     }
 
     /// Warns of ids that were changed.
-    pub fn warning(&self, subject: Word) -> Option<Warning> {
+    pub fn warning(&self, subject: Word) -> Option<ImportWarning> {
         let message = || sentences::ids_replaced(self.changed, subject);
-        (self.changed > 0).then(|| Warning::new("ids-changed", message()))
+        (self.changed > 0).then(|| ImportWarning::new("ids-changed", message()))
     }
 }
 

@@ -1,13 +1,21 @@
-//! The two sides of a piece of lane: what lies halfway, how wide it is.
+//! Lanelets: what they are for, and what lies halfway between their two sides.
 
 use crate::polyline::{arc_lengths, length, point_at};
 use scene::Vec2;
 use scene::geometry::cross;
+use scene::map::LaneType;
 
 /// Distance of points of a centre line, metres.
 const SPACING_M: f64 = 1.0;
 /// Most pieces of a centre line.
 const MAX_PIECES: f64 = 4_000.0;
+
+/// What a lanelet is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LaneletKind {
+    Lane(LaneType),
+    Crosswalk,
+}
 
 /// Points a metre apart halfway between two sides that run the same way, and the mean width.
 pub(crate) fn middle(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, f64) {

@@ -1,7 +1,7 @@
 //! Elements of XML with what is in them, one at a time: for formats whose files are lists of small elements.
 
 use crate::problem::{FieldProblem, ReadError, code};
-use crate::xml::{Element, Event, Missing, Scanner};
+use crate::xml::{Element, Missing, Scanner, XmlEvent};
 use std::io::BufRead;
 
 /// Most elements in one, and most bytes of their names, attributes and texts.
@@ -10,14 +10,14 @@ const MAX_BYTES: usize = 16 << 20;
 
 /// An element with its attributes, its text and the elements in it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Node {
+pub(crate) struct XmlNode {
     pub element: Element,
-    pub children: Vec<Node>,
+    pub children: Vec<XmlNode>,
     /// Trimmed; all pieces of it.
     pub text: String,
 }
 
-impl Node {
+impl XmlNode {
     /// What follows a start tag, to its end.
     ///
     /// # Errors
@@ -27,7 +27,7 @@ impl Node {
         let mut open = vec![Self { element, ..Self::default() }];
         while let Some(event) = scanner.next()? {
             match event {
-                Event::Start(element) => {
+                XmlEvent::Start(element) => {
                     nodes += 1;
                     bytes += element.name.len();
                     bytes += element
@@ -37,13 +37,13 @@ impl Node {
                         .sum::<usize>();
                     open.push(Self { element, ..Self::default() });
                 }
-                Event::Text(text) => {
+                XmlEvent::Text(text) => {
                     bytes += text.len();
                     if let Some(node) = open.last_mut() {
                         node.text.push_str(&text);
                     }
                 }
-                Event::End => {
+                XmlEvent::End => {
                     let Some(mut node) = open.pop() else { break };
                     node.children.shrink_to_fit();
                     match open.last_mut() {
@@ -125,10 +125,10 @@ fn shown(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Node, ReadError> {
+    fn read(text: &str) -> Result<XmlNode, ReadError> {
         let mut scanner = Scanner::new(text.as_bytes(), 1 << 10).with_texts();
         match scanner.next()? {
-            Some(Event::Start(element)) => Node::read(&mut scanner, element),
+            Some(XmlEvent::Start(element)) => XmlNode::read(&mut scanner, element),
             _ => panic!("an element expected"),
         }
     }

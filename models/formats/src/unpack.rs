@@ -41,12 +41,12 @@ pub(crate) fn excess(code: &'static str, limit: u64, detail: String) -> io::Erro
 }
 
 /// Counts what goes through.
-struct Counted<R> {
+struct CountingReader<R> {
     inner: R,
     count: u64,
 }
 
-impl<R: Read> Read for Counted<R> {
+impl<R: Read> Read for CountingReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let n = self.inner.read(buffer)?;
         self.count += n as u64;
@@ -54,7 +54,7 @@ impl<R: Read> Read for Counted<R> {
     }
 }
 
-type Whole<R> = Counted<io::Chain<io::Cursor<Vec<u8>>, R>>;
+type Whole<R> = CountingReader<io::Chain<io::Cursor<Vec<u8>>, R>>;
 
 enum Inner<R: Read> {
     Plain(Whole<R>),
@@ -107,7 +107,7 @@ pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReade
     let mut head = Vec::new();
     input.by_ref().take(2).read_to_end(&mut head)?;
     let gzip = is_gzip(&head);
-    let whole = Counted { inner: io::Cursor::new(head).chain(input), count: 0 };
+    let whole = CountingReader { inner: io::Cursor::new(head).chain(input), count: 0 };
     let inner = if gzip { Inner::Gzip(Box::new(MultiGzDecoder::new(whole))) } else { Inner::Plain(whole) };
     Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
 }

@@ -62,9 +62,9 @@ impl From<Missing> for ReadError {
     }
 }
 
-/// What comes next.
+/// One event of the scanner.
 #[derive(Clone, Debug)]
-pub(crate) enum Event {
+pub(crate) enum XmlEvent {
     /// Also for an element without content, which has an end too.
     Start(Element),
     /// The end of an element.
@@ -116,9 +116,9 @@ impl<R: BufRead> Scanner<R> {
     ///
     /// # Errors
     /// `malformed-file` with the byte and the line of the tag; the bounds of the reader.
-    pub fn next(&mut self) -> Result<Option<Event>, ReadError> {
+    pub fn next(&mut self) -> Result<Option<XmlEvent>, ReadError> {
         if std::mem::take(&mut self.pending) {
-            return Ok(Some(Event::End));
+            return Ok(Some(XmlEvent::End));
         }
         loop {
             if !std::mem::take(&mut self.in_tag) {
@@ -132,7 +132,7 @@ impl<R: BufRead> Scanner<R> {
                 }
                 if let Some(text) = self.text()? {
                     self.in_tag = true;
-                    return Ok(Some(Event::Text(text)));
+                    return Ok(Some(XmlEvent::Text(text)));
                 }
             }
             let (start, line) = (self.offset.saturating_sub(1), self.line);
@@ -141,7 +141,7 @@ impl<R: BufRead> Scanner<R> {
             let result = match self.tag.first() {
                 Some(b'!') if self.tag.starts_with(CDATA) => {
                     match self.character_data().map_err(|detail| at(start, line, &detail))? {
-                        Some(text) => return Ok(Some(Event::Text(text))),
+                        Some(text) => return Ok(Some(XmlEvent::Text(text))),
                         None => continue,
                     }
                 }
@@ -260,17 +260,17 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
-    fn end(&mut self) -> Result<Event, String> {
+    fn end(&mut self) -> Result<XmlEvent, String> {
         let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
         let name = text.trim_start_matches('/').trim_end_matches('>').trim_end();
         match self.open.pop() {
-            Some(open) if open == name => Ok(Event::End),
+            Some(open) if open == name => Ok(XmlEvent::End),
             Some(open) => Err(format!("</{}> found, </{}> expected", shown(name), shown(&open))),
             None => Err(format!("</{}> found where nothing is open", shown(name))),
         }
     }
 
-    fn start(&mut self, line: u32) -> Result<Event, String> {
+    fn start(&mut self, line: u32) -> Result<XmlEvent, String> {
         let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
         let text = text.trim_end_matches('>');
         let (text, empty) = match text.strip_suffix('/') {
@@ -310,7 +310,7 @@ impl<R: BufRead> Scanner<R> {
         } else {
             self.open.push(element.name.clone());
         }
-        Ok(Event::Start(element))
+        Ok(XmlEvent::Start(element))
     }
 }
 
@@ -373,7 +373,7 @@ fn unescaped(value: &str) -> Result<String, String> {
 /// Name of the first element, for recognising a file. Looks no further than `head`.
 pub(crate) fn root_of(head: &[u8]) -> Option<String> {
     match Scanner::new(head, head.len().max(1)).next() {
-        Ok(Some(Event::Start(element))) => Some(element.name),
+        Ok(Some(XmlEvent::Start(element))) => Some(element.name),
         _ => None,
     }
 }
@@ -386,12 +386,12 @@ mod tests {
         let mut out = String::new();
         while let Some(event) = scanner.next()? {
             match event {
-                Event::Start(e) => {
+                XmlEvent::Start(e) => {
                     out.push_str(&e.name);
                     e.attributes.iter().for_each(|(n, v)| out.push_str(&format!("[{n}:{v}]")));
                 }
-                Event::End => out.push(';'),
-                Event::Text(text) => out.push_str(&format!("'{text}'")),
+                XmlEvent::End => out.push(';'),
+                XmlEvent::Text(text) => out.push_str(&format!("'{text}'")),
             }
         }
         Ok(out)

@@ -12,7 +12,7 @@ use flate2::write::GzEncoder;
 use formats::ExportedMotion;
 use formats::womd::proto::{FeatureData, MapFeature, MapPoint, Polygon, Scenario};
 use formats::womd::{self, Options, masked_crc, write_record};
-use formats::{Kind, ReadError};
+use formats::{ReadError, RefusalKind};
 use prost::Message;
 use std::io::Write;
 use std::time::{Duration, Instant};
@@ -240,7 +240,7 @@ fn hostile_files_are_refused_precisely() {
         };
         println!("{name:38} {error}");
         let at = match error.kind {
-            Kind::MalformedFile { offset } => Some(offset),
+            RefusalKind::MalformedFile { offset } => Some(offset),
             _ => None,
         };
         if error.code() != code || (offset.is_some() && at != offset) {
@@ -296,7 +296,7 @@ fn bounds_can_be_lowered() {
     let options = Options { max_decoded_bytes: 1_000, ..Options::default() };
     for bytes in [good.clone(), gzip(&good)] {
         let error = womd::read_all(&bytes, &options).remove(0).unwrap_err();
-        assert_eq!((error.code(), error.kind), ("decoded-too-large", Kind::TooLarge { limit: 1_000 }));
+        assert_eq!((error.code(), error.kind), ("decoded-too-large", RefusalKind::TooLarge { limit: 1_000 }));
     }
 }
 

@@ -120,7 +120,7 @@ fn broken_pickles_say_where() {
     ] {
         let error = import(bytes).unwrap_err();
         assert!(error.to_string().contains(said), "{bytes:?}: {error}");
-        assert_eq!(error.kind, formats::Kind::MalformedFile { offset: at }, "{bytes:?}: {error}");
+        assert_eq!(error.kind, formats::RefusalKind::MalformedFile { offset: at }, "{bytes:?}: {error}");
     }
     let deep = [&b"\x80\x02"[..], &b"(".repeat(100)].concat();
     assert!(import(&deep).unwrap_err().to_string().contains("nested deeper"));

@@ -27,7 +27,7 @@ fn read(format: &str, bytes: &[u8], columns: Option<&str>) -> formats::Imported 
     list.remove(0).unwrap()
 }
 
-fn codes(warnings: &[formats::Warning]) -> Vec<&str> {
+fn codes(warnings: &[formats::ImportWarning]) -> Vec<&str> {
     warnings.iter().map(|warning| warning.code).collect()
 }
 

@@ -2,7 +2,7 @@
 //! lane above, and out to the street again. Everything in the park is one-way.
 
 use crate::curve::{arc, join, straight, tidy};
-use crate::draft::{Draft, Vehicle};
+use crate::draft::{MapDraft, Vehicle};
 use crate::parameters::CarPark;
 use crate::roadway::{Plan, Profile, Side};
 use scene::Vec2;
@@ -71,7 +71,7 @@ impl Grid {
 
 /// A way in the park on the way to be linked.
 struct Ways<'a> {
-    draft: &'a mut Draft,
+    draft: &'a mut MapDraft,
 }
 
 impl Ways<'_> {
@@ -85,7 +85,7 @@ impl Ways<'_> {
     }
 }
 
-pub fn draw(layout: &CarPark) -> Draft {
+pub fn draw(layout: &CarPark) -> MapDraft {
     let profile = Profile {
         lanes: [1, 1],
         lane_m: layout.lane_width_m,
@@ -97,7 +97,7 @@ pub fn draw(layout: &CarPark) -> Draft {
     let kerb_m = profile.half_m(0);
     let grid = Grid::new(layout, kerb_m);
     let radius_m = layout.kerb_radius_m.min(SETBACK_M - 1.0);
-    let mut draft = Draft { turns: Vehicle::Car, ..Draft::default() };
+    let mut draft = MapDraft { turns: Vehicle::Car, ..MapDraft::default() };
     street(&mut draft, &profile, &grid);
     park(&mut draft, layout, &grid);
     kerbs(&mut draft, layout, &grid, kerb_m, radius_m);
@@ -105,7 +105,7 @@ pub fn draw(layout: &CarPark) -> Draft {
 }
 
 /// The street in three stretches with the ways into and out of the park.
-fn street(draft: &mut Draft, profile: &Profile, grid: &Grid) {
+fn street(draft: &mut MapDraft, profile: &Profile, grid: &Grid) {
     let half = CUT_M;
     let (x0, x3) = (grid.low.x - BEYOND_M, grid.high.x + BEYOND_M);
     let cuts =
@@ -157,7 +157,7 @@ fn street(draft: &mut Draft, profile: &Profile, grid: &Grid) {
 }
 
 /// Lanes and bays of the park.
-fn park(draft: &mut Draft, layout: &CarPark, grid: &Grid) {
+fn park(draft: &mut MapDraft, layout: &CarPark, grid: &Grid) {
     let width_m = layout.aisle_m.min(4.0);
     let (Some(drive_in), Some(drive_out)) = (index(draft, "drive-in"), index(draft, "drive-out")) else {
         return;
@@ -209,11 +209,11 @@ fn park(draft: &mut Draft, layout: &CarPark, grid: &Grid) {
     bays(draft, layout, grid);
 }
 
-fn index(draft: &Draft, id: &str) -> Option<usize> {
+fn index(draft: &MapDraft, id: &str) -> Option<usize> {
     draft.map.lanes.iter().position(|lane| lane.id == id)
 }
 
-fn bays(draft: &mut Draft, layout: &CarPark, grid: &Grid) {
+fn bays(draft: &mut MapDraft, layout: &CarPark, grid: &Grid) {
     for (i, x) in grid.aisles.iter().enumerate() {
         for (word, sign) in [("w", -1.0), ("e", 1.0)] {
             let near = x + sign * layout.aisle_m / 2.0;
@@ -235,7 +235,7 @@ fn bays(draft: &mut Draft, layout: &CarPark, grid: &Grid) {
 }
 
 /// The far kerb of the street, its near kerb with the mouths of the drives, and the rim of the park.
-fn kerbs(draft: &mut Draft, layout: &CarPark, grid: &Grid, kerb_m: f64, radius_m: f64) {
+fn kerbs(draft: &mut MapDraft, layout: &CarPark, grid: &Grid, kerb_m: f64, radius_m: f64) {
     let (x0, x3) = (grid.low.x - BEYOND_M, grid.high.x + BEYOND_M);
     let half = DRIVE_M / 2.0;
     // Round the corner from the street up a drive.
@@ -265,7 +265,7 @@ fn kerbs(draft: &mut Draft, layout: &CarPark, grid: &Grid, kerb_m: f64, radius_m
     }
     if layout.sidewalk_m > 0.0 {
         let aside = layout.sidewalk_m / 2.0 + 0.2 + kerb_m;
-        let walk = |draft: &mut Draft, a: f64, b: f64, y: f64| {
+        let walk = |draft: &mut MapDraft, a: f64, b: f64, y: f64| {
             draft.sidewalk(straight(Vec2::new(a, y), Vec2::new(b, y)), layout.sidewalk_m, false)
         };
         walk(draft, x0, x3, -aside);

@@ -1,7 +1,7 @@
 //! What is looked at in every map: each failed check says where and what, and forbids nothing.
 
 use crate::curve::{curvature, turn};
-use crate::draft::{Draft, Vehicle, place};
+use crate::draft::{MapDraft, Vehicle, place};
 use crate::lights::{gives_way, meet};
 use crate::messages;
 use scene::limits::Limits;
@@ -62,7 +62,7 @@ impl Check {
 }
 
 /// All checks of a drawing.
-pub fn all(draft: &Draft) -> Vec<Check> {
+pub fn all(draft: &MapDraft) -> Vec<Check> {
     let mut checks = Vec::new();
     let mut add = |passed: Check, failed: Vec<Check>| {
         if failed.is_empty() {
@@ -81,7 +81,7 @@ pub fn all(draft: &Draft) -> Vec<Check> {
     checks
 }
 
-fn fault(draft: &Draft, kind: CheckKind, message: Message, lane: usize, share: f64) -> Check {
+fn fault(draft: &MapDraft, kind: CheckKind, message: Message, lane: usize, share: f64) -> Check {
     let points = draft.points(lane);
     let at = points[((points.len() - 1) as f64 * share).round() as usize];
     let lanes = vec![draft.map.lanes[lane].id.clone()];
@@ -89,12 +89,12 @@ fn fault(draft: &Draft, kind: CheckKind, message: Message, lane: usize, share: f
 }
 
 /// Lanes for vehicles and cycles.
-fn travelled(draft: &Draft) -> impl Iterator<Item = usize> + '_ {
+fn travelled(draft: &MapDraft) -> impl Iterator<Item = usize> + '_ {
     let used = |kind: LaneType| kind.carries_vehicles() || kind.carries_cyclists();
     (0..draft.map.lanes.len()).filter(move |i| used(draft.map.lanes[*i].lane_type))
 }
 
-fn ends(draft: &Draft) -> Vec<Check> {
+fn ends(draft: &MapDraft) -> Vec<Check> {
     let carries = |id: &String, vehicles: bool| {
         let lane = draft.map.lanes.iter().find(|lane| lane.id == *id);
         lane.is_some_and(|lane| !vehicles || lane.lane_type.carries_vehicles())
@@ -124,7 +124,7 @@ fn vehicle(vehicle: Vehicle) -> (Word, Limits) {
     }
 }
 
-fn bends(draft: &Draft) -> Vec<Check> {
+fn bends(draft: &MapDraft) -> Vec<Check> {
     let (vehicle, limits) = vehicle(draft.turns);
     let most = limits.curvature_per_m;
     let mut failed: Vec<(f64, Check)> = Vec::new();
@@ -148,7 +148,7 @@ fn bends(draft: &Draft) -> Vec<Check> {
     failed.into_iter().map(|(_, check)| check).collect()
 }
 
-fn widths(draft: &Draft) -> Vec<Check> {
+fn widths(draft: &MapDraft) -> Vec<Check> {
     let narrow = |i: &usize| {
         let lane = &draft.map.lanes[*i];
         let least = if lane.lane_type.carries_vehicles() { LEAST_M } else { LEAST_CYCLE_M };
@@ -164,7 +164,7 @@ fn widths(draft: &Draft) -> Vec<Check> {
         .collect()
 }
 
-fn greens(draft: &Draft) -> Vec<Check> {
+fn greens(draft: &MapDraft) -> Vec<Check> {
     let state = |lane: usize, step: usize| {
         let id = &draft.map.lanes[lane].id;
         draft.signals.iter().find(|signal| signal.lane == *id).map_or(SignalState::Unknown, |s| s.at(step))

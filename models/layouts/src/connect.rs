@@ -1,7 +1,7 @@
 //! Ways through a junction, drawn from lane to lane.
 
 use crate::curve::join;
-use crate::draft::Draft;
+use crate::draft::MapDraft;
 use crate::parameters::{Arm, Connections, Turn};
 use crate::roadway::Roadway;
 use crate::turns::{Movement, all_links};
@@ -21,7 +21,7 @@ pub struct Bends {
 
 /// Draws all ways. `roads` and `bends` are by arm.
 pub fn draw(
-    draft: &mut Draft,
+    draft: &mut MapDraft,
     arms: &[Arm],
     connections: &Connections,
     roads: &[Roadway],
@@ -66,7 +66,7 @@ fn bare(from: usize, to: usize, turn: Turn) -> Movement {
     Movement { lane: 0, from, to, turn, lanes: None, added: false }
 }
 
-fn connect(draft: &mut Draft, [a, b]: [usize; 2], radius_m: f64, way: Movement) {
+fn connect(draft: &mut MapDraft, [a, b]: [usize; 2], radius_m: f64, way: Movement) {
     let line = join(draft.end(a), draft.start(b), radius_m);
     let lane_type = if way.lanes.is_some() { LaneType::SurfaceStreet } else { LaneType::BikeLane };
     let lane = draft.through(a, b, line, lane_type);
@@ -75,7 +75,7 @@ fn connect(draft: &mut Draft, [a, b]: [usize; 2], radius_m: f64, way: Movement) 
 
 /// Cycle lanes go on straight and round the corner; where there is none on the other side, into the lane beside the
 /// kerb.
-fn cycles(draft: &mut Draft, arms: &[Arm], roads: &[Roadway], bends: &[Bends], kerbs_m: &[[f64; 2]]) {
+fn cycles(draft: &mut MapDraft, arms: &[Arm], roads: &[Roadway], bends: &[Bends], kerbs_m: &[[f64; 2]]) {
     for from in 0..arms.len() {
         let ways: Vec<(usize, Turn)> = crate::turns::directions(arms, from)
             .into_iter()

@@ -52,9 +52,9 @@ pub struct CornerPlace {
     pub arms: [usize; 2],
 }
 
-/// What is known of a lane beside what the map says.
+/// Facts about a lane that the map does not hold.
 #[derive(Clone, Debug, Default)]
-pub struct About {
+pub struct LaneExtra {
     /// The road goes on beyond the map at its beginning and its end.
     pub open: [bool; 2],
 }
@@ -68,11 +68,11 @@ pub enum Vehicle {
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Draft {
+pub struct MapDraft {
     pub map: LaneMap,
     pub signals: Vec<Signal>,
     /// By lane.
-    pub about: Vec<About>,
+    pub about: Vec<LaneExtra>,
     pub movements: Vec<Movement>,
     pub turns: Vehicle,
     pub arms: Vec<ArmPlace>,
@@ -85,7 +85,7 @@ pub fn place(p: Vec2) -> [f64; 2] {
     [p.x, p.y]
 }
 
-impl Draft {
+impl MapDraft {
     /// A lane; its index.
     pub fn lane(
         &mut self,
@@ -102,7 +102,7 @@ impl Draft {
             ..Lane::street(id, line)
         };
         self.map.lanes.push(lane);
-        self.about.push(About::default());
+        self.about.push(LaneExtra::default());
         self.map.lanes.len() - 1
     }
 

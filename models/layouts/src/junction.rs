@@ -2,8 +2,8 @@
 
 use crate::connect::{self, Bends};
 use crate::curve::{Pose, arc, join, left_of, straight, tidy};
-use crate::draft::{ArmPlace, CornerPlace, Draft, place};
-use crate::lights::{self, Crossing};
+use crate::draft::{ArmPlace, CornerPlace, MapDraft, place};
+use crate::lights::{self, SignalledCrosswalk};
 use crate::parameters::{Arm, Connection, Connections, Control, Junction, Traffic};
 use crate::roadway::{Plan, Profile, Roadway};
 use crate::turns::{mirrored, names, of_lanes};
@@ -93,7 +93,7 @@ pub fn between(a: &Spoke, b: &Spoke) -> f64 {
     if angle <= 0.0 { angle + TAU } else { angle }
 }
 
-pub fn draw(junction: &Junction) -> Draft {
+pub fn draw(junction: &Junction) -> MapDraft {
     let (mut spokes, order) = spokes(&junction.arms, junction.lane_width_m, junction.traffic);
     let corners = corners(&mut spokes, junction.kerb_radius_m);
     for spoke in &mut spokes {
@@ -102,7 +102,7 @@ pub fn draw(junction: &Junction) -> Draft {
         spoke.stop_m = spoke.mouth_m + if crosswalk > 0.0 { crosswalk + STOP_LINE_M } else { 0.5 };
         spoke.end_m = spoke.arm.length_m.max(spoke.stop_m + LEAST_ROAD_M);
     }
-    let mut draft = Draft::default();
+    let mut draft = MapDraft::default();
     let kerbs: Vec<Vec<Vec2>> = corners.iter().map(|corner| kerb(&spokes, corner, 0.0)).collect();
     let edges: Vec<String> = kerbs.iter().map(|kerb| draft.edge("boundary", kerb.clone())).collect();
     let roads: Vec<Roadway> =
@@ -162,7 +162,7 @@ fn corners_of(spokes: &[Spoke], corners: &[Corner]) -> Vec<(CornerPlace, [usize;
 
 /// Says what the caller wants to know, in the order of the parameters.
 pub fn finish(
-    draft: &mut Draft,
+    draft: &mut MapDraft,
     spokes: &[Spoke],
     roads: &[Roadway],
     order: &[usize],
@@ -193,7 +193,7 @@ pub fn finish(
 }
 
 /// Names the arms as they lie in the end.
-pub fn named(draft: &mut Draft, arms: &[Arm]) {
+pub fn named(draft: &mut MapDraft, arms: &[Arm]) {
     for (place, name) in draft.arms.iter_mut().zip(names(arms)) {
         place.name = name;
     }
@@ -260,7 +260,7 @@ fn nearer(a: &Spoke, b: &Spoke, aside_m: [f64; 2], radius_m: f64) -> Option<Vec2
     (det.abs() > 0.05).then(|| p + a.way * (cross(q - p, b.way) / det))
 }
 
-fn road(draft: &mut Draft, spoke: &Spoke, number: usize) -> Roadway {
+fn road(draft: &mut MapDraft, spoke: &Spoke, number: usize) -> Roadway {
     let axis = straight(spoke.at(spoke.stop_m, 0.0), spoke.at(spoke.end_m, 0.0));
     let median_m = vec![spoke.arm.median_m; axis.len()];
     let id = format!("arm{}", number + 1);
@@ -278,13 +278,13 @@ fn road(draft: &mut Draft, spoke: &Spoke, number: usize) -> Roadway {
 }
 
 /// The road goes on beyond the map.
-pub fn open(draft: &mut Draft, road: &Roadway) {
+pub fn open(draft: &mut MapDraft, road: &Roadway) {
     road.left.all().into_iter().for_each(|lane| draft.about[lane].open[0] = true);
     road.right.all().into_iter().for_each(|lane| draft.about[lane].open[1] = true);
 }
 
 /// Crosswalks over the arms that have one.
-pub fn crosswalks(draft: &mut Draft, spokes: &[Spoke]) -> Vec<Crossing> {
+pub fn crosswalks(draft: &mut MapDraft, spokes: &[Spoke]) -> Vec<SignalledCrosswalk> {
     let mut crossings = Vec::new();
     for (arm, spoke) in spokes.iter().enumerate().filter(|(_, spoke)| spoke.arm.crosswalk_m > 0.0) {
         let [left_m, right_m] = spoke.kerbs_m();
@@ -296,13 +296,13 @@ pub fn crosswalks(draft: &mut Draft, spokes: &[Spoke]) -> Vec<Crossing> {
             spoke.at(near, left_m),
         ];
         let from = spoke.at(0.5 * (near + far), -right_m);
-        crossings.push(Crossing { id: draft.crosswalk(ring), arm, from });
+        crossings.push(SignalledCrosswalk { id: draft.crosswalk(ring), arm, from });
     }
     crossings
 }
 
 /// Pavements along the arms and round the corners.
-fn sidewalks(draft: &mut Draft, spokes: &[Spoke], corners: &[Corner], width_m: f64) {
+fn sidewalks(draft: &mut MapDraft, spokes: &[Spoke], corners: &[Corner], width_m: f64) {
     let behind_m = width_m / 2.0 + 0.2;
     for corner in corners {
         let [a, b] = corner.arms.map(|k| &spokes[k]);
@@ -345,7 +345,7 @@ fn main_arms(arms: &[Arm]) -> Vec<bool> {
 }
 
 /// Stop signs at the arms that have to stop.
-fn signs(draft: &mut Draft, spokes: &[Spoke], stops: impl Fn(usize) -> bool) {
+fn signs(draft: &mut MapDraft, spokes: &[Spoke], stops: impl Fn(usize) -> bool) {
     for (arm, spoke) in spokes.iter().enumerate().filter(|(arm, _)| stops(*arm)) {
         let from = draft.movements.iter().filter(|movement| movement.from == arm);
         let lanes: Vec<String> = from.map(|movement| draft.map.lanes[movement.lane].id.clone()).collect();

@@ -36,9 +36,9 @@ pub use parameters::{
     ARMS, Arm, CarPark, Connection, Connections, Control, Junction, LEAST_BETWEEN_ARMS_DEG, Merge, Program,
     Road, Roundabout, Traffic, Turn, TurnAcross,
 };
-pub use ranges::{Fault, all as ranges};
+pub use ranges::{ParameterFault, all as ranges};
 
-use draft::Draft;
+use draft::MapDraft;
 use scene::objects::Objects;
 use scene::{HORIZON_STEPS, LaneMap, Meta, Scene, Signal};
 use schemars::JsonSchema;
@@ -149,7 +149,7 @@ impl Template {
     ///
     /// # Errors
     /// What cannot be read, with its place below the parameters.
-    pub fn with(self, given: &Value) -> Result<Layout, Fault> {
+    pub fn with(self, given: &Value) -> Result<Layout, ParameterFault> {
         let mut whole = self.layout().parameters();
         lay_over(&mut whole, given);
         Ok(match self {
@@ -176,8 +176,8 @@ fn lay_over(whole: &mut Value, given: &Value) {
     }
 }
 
-fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
-    serde_path_to_error::deserialize(Objects(value)).map_err(|error| Fault::unreadable(&error))
+fn read<T: DeserializeOwned>(value: &Value) -> Result<T, ParameterFault> {
+    serde_path_to_error::deserialize(Objects(value)).map_err(|error| ParameterFault::unreadable(&error))
 }
 
 impl Layout {
@@ -240,7 +240,7 @@ pub struct Built {
 ///
 /// # Errors
 /// Parameters out of their range, and arms that are too close, each with its place below the parameters.
-pub fn build(layout: &Layout) -> Result<Built, Vec<Fault>> {
+pub fn build(layout: &Layout) -> Result<Built, Vec<ParameterFault>> {
     let faults = ranges::faults(layout);
     if !faults.is_empty() {
         return Err(faults);
@@ -270,7 +270,7 @@ pub fn build(layout: &Layout) -> Result<Built, Vec<Fault>> {
         checks
     };
     let ways = draft.ways();
-    let Draft { map, signals, arms, corners, .. } = draft;
+    let MapDraft { map, signals, arms, corners, .. } = draft;
     Ok(Built { map, signals, checks, arms, corners, ways })
 }
 
@@ -278,7 +278,7 @@ pub fn build(layout: &Layout) -> Result<Built, Vec<Fault>> {
 ///
 /// # Errors
 /// Those of [`build`].
-pub fn scene(layout: &Layout, name: &str) -> Result<(Scene, Built), Vec<Fault>> {
+pub fn scene(layout: &Layout, name: &str) -> Result<(Scene, Built), Vec<ParameterFault>> {
     let built = build(layout)?;
     let mut scene = Scene::bare(name, built.map.clone(), Vec::new());
     debug_assert_eq!(scene.time.steps, HORIZON_STEPS + 1);

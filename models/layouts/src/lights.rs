@@ -1,6 +1,6 @@
 //! Signal programs: phases in which nobody meets who does not give way.
 
-use crate::draft::Draft;
+use crate::draft::MapDraft;
 use crate::parameters::{Program, Turn, TurnAcross};
 use crate::turns::Movement;
 use scene::geometry::segments::{Segment, SegmentIndex, pieces};
@@ -11,14 +11,14 @@ type Phase = Vec<usize>;
 
 /// A crosswalk with a light: its id, the arm it crosses, and where people wait.
 #[derive(Clone, Debug)]
-pub struct Crossing {
+pub struct SignalledCrosswalk {
     pub id: String,
     pub arm: usize,
     pub from: Vec2,
 }
 
 /// Two ways meet: they cross, or end in one lane.
-pub fn meet(draft: &Draft, a: &Movement, b: &Movement) -> bool {
+pub fn meet(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     if a.from == b.from {
         return false;
     }
@@ -45,7 +45,7 @@ const LOOKS_STRAIGHT_RAD: f64 = 0.3;
 /// Two ways of opposite arms may have green together: they do not meet, or who turns sees whom to give way to. That
 /// is so before oncoming traffic and into the same arm, and where both turn; not where a way that looks straight
 /// on is crossed by one from the side.
-fn go_together(draft: &Draft, a: &Movement, b: &Movement) -> bool {
+fn go_together(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     let bends = |m: &Movement| {
         let path = draft.points(m.lane);
         let direction = |pair: &[Vec2]| (pair[1] - pair[0]).y.atan2((pair[1] - pair[0]).x);
@@ -58,7 +58,7 @@ fn go_together(draft: &Draft, a: &Movement, b: &Movement) -> bool {
 }
 
 /// The phases of a junction of so many arms.
-fn phases(draft: &Draft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
+fn phases(draft: &MapDraft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
     let movements = &draft.movements;
     let of = |arm: usize| (0..movements.len()).filter(move |i| movements[*i].from == arm);
     let straight = |arm: usize| {
@@ -92,7 +92,7 @@ fn phases(draft: &Draft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
 }
 
 /// Turns across have their own phase where they have their own lanes; else one arm goes after the other.
-fn protected(draft: &Draft, both: Phase, arms: [usize; 2], phases: &mut Vec<Phase>) {
+fn protected(draft: &MapDraft, both: Phase, arms: [usize; 2], phases: &mut Vec<Phase>) {
     let movements = &draft.movements;
     let across = |i: &usize| movements[*i].turn == Turn::Left;
     let lane_in = |i: &usize| draft.map.lanes[movements[*i].lane].predecessors.first();
@@ -112,7 +112,7 @@ fn protected(draft: &Draft, both: Phase, arms: [usize; 2], phases: &mut Vec<Phas
 }
 
 /// Gives the ways of a junction their lights.
-pub fn draw(draft: &mut Draft, arms: usize, program: &Program, crossings: &[Crossing]) {
+pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[SignalledCrosswalk]) {
     let phases = phases(draft, arms, program.turns_across);
     let mut signals = Vec::new();
     for (i, movement) in draft.movements.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! A carriageway of one direction with a ramp that leaves it, one that joins it, or both.
 
 use crate::curve::{Pose, join, parallel, straight, tidy};
-use crate::draft::Draft;
+use crate::draft::MapDraft;
 use crate::parameters::Merge;
 use scene::Vec2;
 use scene::map::LaneType;
@@ -35,9 +35,9 @@ struct Road<'a> {
     right_m: f64,
 }
 
-pub fn draw(layout: &Merge) -> Draft {
+pub fn draw(layout: &Merge) -> MapDraft {
     let road = Road::new(layout);
-    let mut draft = Draft::default();
+    let mut draft = MapDraft::default();
     let cuts = road.cuts();
     let main = road.main(&mut draft, &cuts);
     let mut edge: Vec<Vec<Vec2>> = vec![vec![road.at(0.0, road.right_m - SHOULDER_M[1])]];
@@ -95,7 +95,7 @@ impl<'a> Road<'a> {
     }
 
     /// Lanes that go through, by stretch and from the left; their paint.
-    fn main(&self, draft: &mut Draft, cuts: &[f64]) -> Vec<Vec<usize>> {
+    fn main(&self, draft: &mut MapDraft, cuts: &[f64]) -> Vec<Vec<usize>> {
         let (width_m, lanes) = (self.layout.lane_width_m, usize::from(self.layout.lanes));
         let mut all: Vec<Vec<usize>> = Vec::new();
         for (k, cut) in cuts.windows(2).enumerate() {
@@ -146,7 +146,7 @@ impl<'a> Road<'a> {
     /// One ramp: its lane, the lane beside the others, and what that does to kerb and ground.
     fn ramp(
         &self,
-        draft: &mut Draft,
+        draft: &mut MapDraft,
         ramp: &Ramp,
         cuts: &[f64],
         main: &[Vec<usize>],

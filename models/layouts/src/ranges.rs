@@ -12,7 +12,7 @@ const MOST_FAULTS: usize = 32;
 
 /// What is wrong with a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct ParameterFault {
     /// JSON pointer below the parameters.
     pub pointer: String,
     /// What was found and what was expected, for people.
@@ -21,7 +21,7 @@ pub struct Fault {
     pub range: Option<(f64, f64, f64)>,
 }
 
-impl Fault {
+impl ParameterFault {
     fn new(pointer: impl Into<String>, reason: impl Into<String>) -> Self {
         Self { pointer: pointer.into(), reason: reason.into(), range: None }
     }
@@ -84,7 +84,7 @@ fn collect(root: &Value, schema: &Value, place: &str, ranges: &mut BTreeMap<Stri
 }
 
 /// Everything that is wrong with the parameters of a layout.
-pub fn faults(layout: &Layout) -> Vec<Fault> {
+pub fn faults(layout: &Layout) -> Vec<ParameterFault> {
     let schema = match layout {
         Layout::ThreeArms(_) | Layout::FourArms(_) => &SCHEMAS[0],
         Layout::Roundabout(_) => &SCHEMAS[1],
@@ -104,15 +104,15 @@ pub fn faults(layout: &Layout) -> Vec<Fault> {
         for (i, arm) in arms.iter().enumerate() {
             if arm.turns.as_ref().is_some_and(|turns| turns.len() != usize::from(arm.lanes_in)) {
                 let reason = format!("a list for each of the {} lanes in expected", arm.lanes_in);
-                faults.push(Fault::new(format!("/arms/{i}/turns"), reason));
+                faults.push(ParameterFault::new(format!("/arms/{i}/turns"), reason));
             }
         }
         if !arms.iter().any(|arm| arm.lanes_in > 0) || !arms.iter().any(|arm| arm.lanes_out > 0) {
-            faults.push(Fault::new("/arms", "a lane in and a lane out expected, at any arm"));
+            faults.push(ParameterFault::new("/arms", "a lane in and a lane out expected, at any arm"));
         }
         let bare = arms.iter().position(|arm| arm.lanes_in == 0 && arm.lanes_out == 0);
         if let Some(i) = bare {
-            faults.push(Fault::new(format!("/arms/{i}/lanes_in"), "an arm needs a lane in or out"));
+            faults.push(ParameterFault::new(format!("/arms/{i}/lanes_in"), "an arm needs a lane in or out"));
         }
     }
     if let (Layout::ThreeArms(junction) | Layout::FourArms(junction), true) = (layout, faults.is_empty()) {
@@ -123,7 +123,7 @@ pub fn faults(layout: &Layout) -> Vec<Fault> {
 }
 
 /// Numbers and lengths of lists against the schema of all.
-fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &mut Vec<Fault>) {
+fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &mut Vec<ParameterFault>) {
     if let Some(name) = schema["$ref"].as_str() {
         let at = name.trim_start_matches('#');
         return root.pointer(at).map_or((), |schema| within(root, schema, value, pointer, faults));
@@ -131,7 +131,7 @@ fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &m
     match value {
         // JSON has no number that is not finite: serde writes it as null.
         Value::Null if !optional(schema) => {
-            faults.push(Fault::new(pointer, "a finite number expected"));
+            faults.push(ParameterFault::new(pointer, "a finite number expected"));
         }
         Value::Number(number) => {
             let (least, most) = (schema["minimum"].as_f64(), schema["maximum"].as_f64());
@@ -139,7 +139,11 @@ fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &m
             let (least, most) = (least.unwrap_or(f64::MIN), most.unwrap_or(f64::MAX));
             if !(least..=most).contains(&got) {
                 let reason = format!("{got} found, {least} to {most} expected");
-                faults.push(Fault { pointer: pointer.to_owned(), reason, range: Some((least, most, got)) });
+                faults.push(ParameterFault {
+                    pointer: pointer.to_owned(),
+                    reason,
+                    range: Some((least, most, got)),
+                });
             }
         }
         Value::Array(items) => {
@@ -147,7 +151,7 @@ fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &m
             let (least, most) = (least.unwrap_or(0), most.unwrap_or(u64::MAX));
             if !(least..=most).contains(&(items.len() as u64)) {
                 let reason = format!("{} found, {least} to {most} expected", items.len());
-                faults.push(Fault::new(pointer, reason));
+                faults.push(ParameterFault::new(pointer, reason));
             }
             for (i, item) in items.iter().enumerate().take(MOST_FAULTS) {
                 within(root, &schema["items"], item, &format!("{pointer}/{i}"), faults);
@@ -167,25 +171,25 @@ fn optional(schema: &Value) -> bool {
 }
 
 /// Lanes that connections name are there, and none is there and not there.
-fn connect(junction: &Junction, faults: &mut Vec<Fault>) {
+fn connect(junction: &Junction, faults: &mut Vec<ParameterFault>) {
     let Connections { added, removed } = &junction.connections;
     for (list, connections) in [("added", added), ("removed", removed)] {
         for (i, connection) in connections.iter().enumerate() {
             for (end, is) in ["from", "to"].into_iter().zip(connection.is_of(&junction.arms)) {
                 if !is {
                     let pointer = format!("/connections/{list}/{i}/{end}");
-                    faults.push(Fault::new(pointer, "there is no such lane"));
+                    faults.push(ParameterFault::new(pointer, "there is no such lane"));
                 }
             }
             if list == "removed" && added.contains(connection) {
                 let pointer = format!("/connections/{list}/{i}");
-                faults.push(Fault::new(pointer, "it is added as well"));
+                faults.push(ParameterFault::new(pointer, "it is added as well"));
             }
         }
     }
 }
 
-fn keep_apart(arms: &[Arm], faults: &mut Vec<Fault>) {
+fn keep_apart(arms: &[Arm], faults: &mut Vec<ParameterFault>) {
     for (i, arm) in arms.iter().enumerate() {
         let near = |other: &Arm| {
             let between = (arm.angle_deg - other.angle_deg).rem_euclid(360.0);
@@ -193,7 +197,7 @@ fn keep_apart(arms: &[Arm], faults: &mut Vec<Fault>) {
         };
         if arms[..i].iter().any(near) {
             let reason = format!("Arms need {LEAST_BETWEEN_ARMS_DEG}° between them");
-            faults.push(Fault::new(format!("/arms/{i}/angle_deg"), reason));
+            faults.push(ParameterFault::new(format!("/arms/{i}/angle_deg"), reason));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One road, straight or bent; with kerbs that come nearer at a crosswalk where cars are parked.
 
 use crate::curve::{arc, left_of, length, parallel, straight, tidy};
-use crate::draft::Draft;
+use crate::draft::MapDraft;
 use crate::junction::open;
 use crate::parameters::{Road, Traffic};
 use crate::roadway::{Plan, Profile};
@@ -21,7 +21,7 @@ const INSIDE_M: f64 = 8.0;
 /// Straight beginning and end, at least, metres.
 const STRAIGHT_M: f64 = 20.0;
 
-pub fn draw(road: &Road) -> Draft {
+pub fn draw(road: &Road) -> MapDraft {
     let profile = Profile {
         lanes: [usize::from(road.lanes_forward), usize::from(road.lanes_backward)],
         lane_m: road.lane_width_m,
@@ -32,7 +32,7 @@ pub fn draw(road: &Road) -> Draft {
     };
     let axis = axis(road, &profile);
     let length_m = length(&axis);
-    let mut draft = Draft::default();
+    let mut draft = MapDraft::default();
     let median_m = vec![road.median_m; axis.len()];
     // An island stands in nobody's way over the road.
     let raised = if road.crosswalk_m > 0.0 { 0.0 } else { f64::INFINITY };
@@ -155,7 +155,7 @@ fn stations(road: &Road, length_m: f64) -> Vec<f64> {
     all
 }
 
-fn parking(draft: &mut Draft, road: &Road, profile: &Profile, axis: &[Vec2], length_m: f64) {
+fn parking(draft: &mut MapDraft, road: &Road, profile: &Profile, axis: &[Vec2], length_m: f64) {
     let free_m = if road.crosswalk_m > 0.0 { road.crosswalk_m / 2.0 + NO_PARKING_M } else { 0.0 };
     let parts = if free_m > 0.0 {
         vec![[0.0, length_m / 2.0 - free_m], [length_m / 2.0 + free_m, length_m]]
@@ -186,7 +186,7 @@ fn parking(draft: &mut Draft, road: &Road, profile: &Profile, axis: &[Vec2], len
     }
 }
 
-fn crosswalk(draft: &mut Draft, road: &Road, profile: &Profile, axis: &[Vec2], middle_m: f64) {
+fn crosswalk(draft: &mut MapDraft, road: &Road, profile: &Profile, axis: &[Vec2], middle_m: f64) {
     if road.crosswalk_m <= 0.0 {
         return;
     }
@@ -210,7 +210,7 @@ fn crosswalk(draft: &mut Draft, road: &Road, profile: &Profile, axis: &[Vec2], m
 }
 
 /// Pavements; where a crosswalk ends they are cut, so that people turn there.
-fn sidewalks(draft: &mut Draft, road: &Road, axis: &[Vec2], halves_m: [f64; 2], length_m: f64) {
+fn sidewalks(draft: &mut MapDraft, road: &Road, axis: &[Vec2], halves_m: [f64; 2], length_m: f64) {
     let behind_m = road.sidewalk_m / 2.0 + 0.2;
     for (side, sign) in [(0, -1.0), (1, 1.0)] {
         let line = parallel(axis, sign * (halves_m[side] + behind_m));

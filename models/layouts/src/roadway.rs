@@ -1,7 +1,7 @@
 //! A road along a line: lanes of both directions, cycle lanes, strips for parked cars, paint, a raised middle.
 
 use crate::curve::{self, tidy};
-use crate::draft::Draft;
+use crate::draft::MapDraft;
 use scene::Vec2;
 use scene::geometry::direction;
 use scene::map::LaneType;
@@ -107,7 +107,7 @@ impl Plan<'_> {
     }
 
     /// Draws lanes and paint. Kerbs are the caller's.
-    pub fn draw(&self, draft: &mut Draft) -> Roadway {
+    pub fn draw(&self, draft: &mut MapDraft) -> Roadway {
         let [right, left] = [0, 1].map(|side| self.side(draft, side));
         self.middle(draft, &right, &left);
         Roadway { right, left }
@@ -121,7 +121,7 @@ impl Plan<'_> {
         line
     }
 
-    fn side(&self, draft: &mut Draft, side: usize) -> Side {
+    fn side(&self, draft: &mut MapDraft, side: usize) -> Side {
         let profile = self.profile;
         let count = profile.lanes[side];
         if count == 0 {
@@ -166,7 +166,7 @@ impl Plan<'_> {
     }
 
     /// Paint between two lanes of a side: broken, and solid before a stop line.
-    fn between(&self, draft: &mut Draft, side: usize, line: Vec<Vec2>) -> String {
+    fn between(&self, draft: &mut MapDraft, side: usize, line: Vec<Vec2>) -> String {
         let mut line = Self::driven(side, line);
         let stops = if side == 0 { self.stops[1] } else { self.stops[0] };
         let length_m = curve::length(&line);
@@ -177,7 +177,7 @@ impl Plan<'_> {
         draft.line("broken_single_white", line)
     }
 
-    fn middle(&self, draft: &mut Draft, right: &Side, left: &Side) {
+    fn middle(&self, draft: &mut MapDraft, right: &Side, left: &Side) {
         let (Some(first_right), Some(first_left)) = (right.lanes.first(), left.lanes.first()) else { return };
         let (first_right, first_left) = (*first_right, *first_left);
         let widest = self.median_m.iter().copied().fold(0.0, f64::max);

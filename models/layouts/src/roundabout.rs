@@ -1,7 +1,7 @@
 //! Roads that meet at a ring, which goes round counter-clockwise and has the right of way.
 
 use crate::curve::{Pose, arc, join, left_of, parallel, straight, tidy};
-use crate::draft::{CornerPlace, Draft, place};
+use crate::draft::{CornerPlace, MapDraft, place};
 use crate::junction::{Spoke, between, crosswalks, finish, open, spokes};
 use crate::parameters::Roundabout;
 use crate::roadway::{Plan, Roadway};
@@ -38,7 +38,7 @@ struct Ring {
     limit_kmh: f64,
 }
 
-pub fn draw(layout: &Roundabout) -> Draft {
+pub fn draw(layout: &Roundabout) -> MapDraft {
     let (mut spokes, order) = spokes(&layout.arms, layout.lane_width_m, layout.traffic);
     let ring = ring(layout, &spokes);
     let corners = corners(&mut spokes, &ring, layout.kerb_radius_m);
@@ -48,7 +48,7 @@ pub fn draw(layout: &Roundabout) -> Draft {
         spoke.stop_m = spoke.mouth_m + if crosswalk > 0.0 { crosswalk + 1.2 } else { 0.5 };
         spoke.end_m = spoke.arm.length_m.max(spoke.stop_m + LEAST_ROAD_M);
     }
-    let mut draft = Draft::default();
+    let mut draft = MapDraft::default();
     let plans: Vec<(Vec<Vec2>, Vec<f64>)> = spokes.iter().map(flare).collect();
     let roads: Vec<Roadway> = (0..spokes.len())
         .map(|k| {
@@ -186,7 +186,7 @@ fn kerb(
 }
 
 fn kerbs(
-    draft: &mut Draft,
+    draft: &mut MapDraft,
     spokes: &[Spoke],
     plans: &[(Vec<Vec2>, Vec<f64>)],
     corners: &[Corner],
@@ -222,7 +222,7 @@ fn kerbs(
 }
 
 /// The ring's lanes and the ways in and out.
-fn lanes(draft: &mut Draft, spokes: &[Spoke], roads: &[Roadway], ring: &Ring, order: &[usize]) {
+fn lanes(draft: &mut MapDraft, spokes: &[Spoke], roads: &[Roadway], ring: &Ring, order: &[usize]) {
     let count = spokes.len();
     let angle = |k: usize| spokes[k].arm.angle_deg.to_radians();
     let share = |k: usize| (ENTRY_SHARE * between(&spokes[k], &spokes[(k + 1) % count])).min(ENTRY_RAD);
@@ -273,10 +273,10 @@ fn lanes(draft: &mut Draft, spokes: &[Spoke], roads: &[Roadway], ring: &Ring, or
     }
 }
 
-fn connect(draft: &mut Draft, from: usize, to: usize, lane_type: LaneType) {
+fn connect(draft: &mut MapDraft, from: usize, to: usize, lane_type: LaneType) {
     // Lanes of the ring are chords of it: their true direction is across the radius.
     let on_ring = |pose: Pose| Pose { heading_rad: pose.at.y.atan2(pose.at.x) + FRAC_PI_2, ..pose };
-    let ring = |draft: &Draft, lane: usize| draft.map.lanes[lane].id.starts_with("ring");
+    let ring = |draft: &MapDraft, lane: usize| draft.map.lanes[lane].id.starts_with("ring");
     let (mut a, mut b) = (draft.end(from), draft.start(to));
     if ring(draft, from) {
         a = on_ring(a);
@@ -288,7 +288,7 @@ fn connect(draft: &mut Draft, from: usize, to: usize, lane_type: LaneType) {
     draft.through(from, to, line, lane_type);
 }
 
-fn paint(draft: &mut Draft, spokes: &[Spoke], ring: &Ring) {
+fn paint(draft: &mut MapDraft, spokes: &[Spoke], ring: &Ring) {
     for radius_m in ring.lanes_m.iter().skip(1).map(|m| m - ring.width_m / 2.0) {
         draft.line("broken_single_white", arc(Vec2::zeros(), radius_m, 0.0, TAU));
     }
@@ -303,7 +303,7 @@ fn paint(draft: &mut Draft, spokes: &[Spoke], ring: &Ring) {
 }
 
 fn sidewalks(
-    draft: &mut Draft,
+    draft: &mut MapDraft,
     spokes: &[Spoke],
     plans: &[(Vec<Vec2>, Vec<f64>)],
     corners: &[Corner],

@@ -24,7 +24,7 @@ pub struct Movement {
 
 /// One way from a lane of an arm to a lane of another, both counted from the middle of the road.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Link {
+pub struct TurnLink {
     pub to: usize,
     pub turn: Turn,
     pub lane_in: usize,
@@ -96,7 +96,7 @@ pub fn of_lanes(arms: &[Arm], from: usize) -> Vec<Vec<Turn>> {
 }
 
 /// The ways from the lanes of an arm.
-pub fn links(arms: &[Arm], from: usize) -> Vec<Link> {
+pub fn links(arms: &[Arm], from: usize) -> Vec<TurnLink> {
     let directions = directions(arms, from);
     let turns = of_lanes(arms, from);
     let mut links = Vec::new();
@@ -111,16 +111,16 @@ pub fn links(arms: &[Arm], from: usize) -> Vec<Link> {
                 Turn::Left => k.min(outs - 1),
                 Turn::Straight | Turn::Right => (outs - 1).saturating_sub(ins.len() - 1 - k),
             };
-            links.push(Link { to, turn, lane_in: *lane_in, lane_out, added: false });
+            links.push(TurnLink { to, turn, lane_in: *lane_in, lane_out, added: false });
         }
     }
     links
 }
 
 /// All ways of a junction by the arm they come from: those that its turn lanes make, but for single ones.
-pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<Link>> {
+pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<TurnLink>> {
     let mut all = usual_links(arms);
-    let is = |from: usize, link: &Link, other: &Connection| {
+    let is = |from: usize, link: &TurnLink, other: &Connection| {
         other.from == [from, link.lane_in] && other.to == [link.to, link.lane_out]
     };
     for (from, links) in all.iter_mut().enumerate() {
@@ -130,7 +130,7 @@ pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<Link>> {
                 let ([_, lane_in], [to, lane_out]) = (other.from, other.to);
                 // Who turns back gives way as who turns left.
                 let turn = directions(arms, from)[to].unwrap_or(Turn::Left);
-                links.push(Link { to, turn, lane_in, lane_out, added: true });
+                links.push(TurnLink { to, turn, lane_in, lane_out, added: true });
             }
         }
     }
@@ -138,15 +138,15 @@ pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<Link>> {
 }
 
 /// Those that turn lanes make. Lanes out that nothing would lead to are reached from where the lane beside them is.
-fn usual_links(arms: &[Arm]) -> Vec<Vec<Link>> {
-    let mut all: Vec<Vec<Link>> = (0..arms.len()).map(|from| links(arms, from)).collect();
+fn usual_links(arms: &[Arm]) -> Vec<Vec<TurnLink>> {
+    let mut all: Vec<Vec<TurnLink>> = (0..arms.len()).map(|from| links(arms, from)).collect();
     for to in 0..arms.len() {
         for lane_out in 0..usize::from(arms[to].lanes_out) {
-            let into = |link: &&Link| link.to == to;
+            let into = |link: &&TurnLink| link.to == to;
             if all.iter().flatten().filter(into).any(|link| link.lane_out == lane_out) {
                 continue;
             }
-            let mut best: Option<(usize, usize, Link)> = None;
+            let mut best: Option<(usize, usize, TurnLink)> = None;
             for (from, links) in all.iter().enumerate() {
                 for link in links.iter().filter(into) {
                     let aside = link.lane_out.abs_diff(lane_out);
@@ -157,7 +157,7 @@ fn usual_links(arms: &[Arm]) -> Vec<Vec<Link>> {
                 }
             }
             if let Some((_, from, link)) = best {
-                all[from].push(Link { lane_out, ..link });
+                all[from].push(TurnLink { lane_out, ..link });
             }
         }
     }

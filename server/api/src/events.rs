@@ -3,7 +3,7 @@
 use crate::compact::{FuturesDoc, FuturesForm};
 use experts::{Draft, Resolved, Warning};
 use scene::Sample;
-use scene::preference::{Card, Learned};
+use scene::preference::{Learned, RoundCard};
 use scene::score::Score;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -114,7 +114,7 @@ pub struct FinalBody {
 #[schemars(rename = "Round")]
 pub struct RoundBody {
     /// One a future of the road user that was asked for, or one a sample, in their order: the best liked first.
-    pub cards: Vec<Card>,
+    pub cards: Vec<RoundCard>,
     /// What the answers agree upon, the surest first.
     pub wishes: Vec<Learned>,
 }

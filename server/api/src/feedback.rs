@@ -3,7 +3,7 @@
 use formats::native::Members;
 use formats::{FieldProblem, pointer_token};
 use scene::Vec2;
-use scene::preference::{Answer, Features, Feedback, Places, Trait, Verdict, Wish};
+use scene::preference::{Features, Feedback, JudgedCard, Places, Trait, Verdict, Wish};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -85,7 +85,7 @@ impl FeedbackDoc {
 }
 
 impl AnswerDoc {
-    fn resolve(&self, pointer: &str, faults: &mut Vec<FieldProblem>) -> Answer {
+    fn resolve(&self, pointer: &str, faults: &mut Vec<FieldProblem>) -> JudgedCard {
         for (name, value, most) in self.features.quantities() {
             if !(0.0..=most).contains(&value) {
                 faults.push(FieldProblem::range(format!("{pointer}/features/{name}"), 0.0, most, value));
@@ -105,6 +105,6 @@ impl AnswerDoc {
             }
             places.insert(id.clone(), points.iter().map(|[x, y]| Vec2::new(*x, *y)).collect());
         }
-        Answer { features: self.features.clone(), verdict: self.verdict, why: self.why.clone(), places }
+        JudgedCard { features: self.features.clone(), verdict: self.verdict, why: self.why.clone(), places }
     }
 }

@@ -15,7 +15,7 @@ pub struct ReadScene {
     /// The scene.
     pub scene: Scene,
     /// What the reader changed or left out.
-    pub warnings: Vec<formats::Warning>,
+    pub warnings: Vec<formats::ImportWarning>,
 }
 
 /// What a file gave.

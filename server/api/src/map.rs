@@ -3,7 +3,7 @@
 use crate::problem::Problem;
 use formats::native::{AnyDoc, MapForm, SceneDoc};
 use formats::{FieldProblem, ReadError};
-use layouts::{ArmPlace, Built, Check, CornerPlace, Fault, Layout, TEMPLATES, Template, Way};
+use layouts::{ArmPlace, Built, Check, CornerPlace, Layout, ParameterFault, TEMPLATES, Template, Way};
 use scene::{MAX_NAME_CHARS, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -104,8 +104,8 @@ impl MapBody {
     }
 }
 
-fn refused_parameters(faults: Vec<Fault>) -> Problem {
-    let told = |fault: Fault| {
+fn refused_parameters(faults: Vec<ParameterFault>) -> Problem {
+    let told = |fault: ParameterFault| {
         let pointer = format!("/parameters{}", fault.pointer);
         match fault.range {
             Some((least, most, got)) => FieldProblem::range(pointer, least, most, got),

@@ -1,7 +1,7 @@
 //! Scenes that are open, and what is worked out about them once.
 
 use scene::Scene;
-use scene::score::{Drivable, Standing};
+use scene::score::{BaselineScore, Drivable};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -30,7 +30,7 @@ impl Opened {
 /// What a scene comes to as it stands, by the steps that are scored; worked out when it is first asked for.
 pub struct Standings {
     scene: Arc<Scene>,
-    known: Mutex<Vec<Arc<Standing>>>,
+    known: Mutex<Vec<Arc<BaselineScore>>>,
 }
 
 impl Standings {
@@ -40,14 +40,14 @@ impl Standings {
     }
 
     /// The one over these steps.
-    pub fn over(&self, steps: &Range<usize>, drivable: &Drivable) -> Arc<Standing> {
-        let find = |known: &[Arc<Standing>]| known.iter().find(|s| s.steps() == *steps).cloned();
+    pub fn over(&self, steps: &Range<usize>, drivable: &Drivable) -> Arc<BaselineScore> {
+        let find = |known: &[Arc<BaselineScore>]| known.iter().find(|s| s.steps() == *steps).cloned();
         let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(standing) = find(&lock()) {
             return standing;
         }
         // Not under the lock: two callers may work out the same, and nobody waits for another.
-        let standing = Arc::new(Standing::new(Arc::clone(&self.scene), drivable, steps.clone()));
+        let standing = Arc::new(BaselineScore::new(Arc::clone(&self.scene), drivable, steps.clone()));
         let mut known = lock();
         if find(&known).is_none() {
             known.insert(0, Arc::clone(&standing));

@@ -6,7 +6,7 @@
 use crate::code::Code;
 use crate::english;
 use experts::GenerateError;
-use formats::{FieldProblem, Kind, ReadError};
+use formats::{FieldProblem, ReadError, RefusalKind};
 use scene::message::Message;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -166,8 +166,8 @@ pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
 impl From<ReadError> for Problem {
     fn from(error: ReadError) -> Self {
         let code = match error.kind {
-            Kind::MalformedJson { .. } => Code::MalformedJson,
-            Kind::MalformedFile { .. } => Code::MalformedFile,
+            RefusalKind::MalformedJson { .. } => Code::MalformedJson,
+            RefusalKind::MalformedFile { .. } => Code::MalformedFile,
             _ => Code::from_name(error.code()).unwrap_or(Code::InvalidField),
         };
         let first = error.problems.first();
@@ -176,10 +176,10 @@ impl From<ReadError> for Problem {
             pointer => format!("{pointer}: {}", p.detail),
         });
         match error.kind {
-            Kind::MalformedJson { line, column } => {
+            RefusalKind::MalformedJson { line, column } => {
                 detail = format!("line {line}, column {column}: {detail}")
             }
-            Kind::MalformedFile { offset } => detail = format!("byte {offset}: {detail}"),
+            RefusalKind::MalformedFile { offset } => detail = format!("byte {offset}: {detail}"),
             _ => {}
         }
         if error.problems.len() > 1 {
@@ -187,15 +187,15 @@ impl From<ReadError> for Problem {
         }
         let problem = Self::new(code, detail);
         match error.kind {
-            Kind::MalformedJson { line, column } => {
+            RefusalKind::MalformedJson { line, column } => {
                 problem.with(|m| (m.line, m.column) = (Some(line), Some(column)))
             }
-            Kind::MalformedFile { offset } => {
+            RefusalKind::MalformedFile { offset } => {
                 let reason = error.problems.into_iter().next().map(|p| p.detail).unwrap_or_default();
                 problem.with(|m| (m.offset, m.reason) = (Some(offset), Some(reason)))
             }
-            Kind::TooLarge { limit } => problem.limit(limit),
-            Kind::Invalid => problem.with(|m| m.errors = Some(error.problems)),
+            RefusalKind::TooLarge { limit } => problem.limit(limit),
+            RefusalKind::Invalid => problem.with(|m| m.errors = Some(error.problems)),
         }
     }
 }

@@ -7,11 +7,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A cache of values that are cheap to clone, bounded by what they weigh together.
 pub struct Cache<K: Hash + Eq, V> {
-    inside: Mutex<Inside<K, V>>,
+    inside: Mutex<CacheEntries<K, V>>,
     most: usize,
 }
 
-struct Inside<K: Hash + Eq, V> {
+struct CacheEntries<K: Hash + Eq, V> {
     values: LruCache<K, (V, usize)>,
     weight: usize,
 }
@@ -19,10 +19,10 @@ struct Inside<K: Hash + Eq, V> {
 impl<K: Hash + Eq, V: Clone> Cache<K, V> {
     /// An empty cache whose values weigh `most` at most.
     pub fn new(most: usize) -> Self {
-        Self { inside: Mutex::new(Inside { values: LruCache::unbounded(), weight: 0 }), most }
+        Self { inside: Mutex::new(CacheEntries { values: LruCache::unbounded(), weight: 0 }), most }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Inside<K, V>> {
+    fn lock(&self) -> MutexGuard<'_, CacheEntries<K, V>> {
         // A cache of whole values is usable after a panic elsewhere.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -53,7 +53,7 @@ impl<K: Hash + Eq, V: Clone> Cache<K, V> {
     }
 }
 
-impl<K: Hash + Eq, V> Inside<K, V> {
+impl<K: Hash + Eq, V> CacheEntries<K, V> {
     fn forget(&mut self, key: &K) {
         if let Some((_, weight)) = self.values.pop(key) {
             self.weight -= weight;

@@ -1,17 +1,17 @@
 //! `dragtraffic serve`: the editor and the HTTP API.
 
 use super::{Common, Exit, Failure, output};
-use crate::app::{App, Inside};
+use crate::app::{App, AppParts};
 use crate::base::limits::Limits;
 use crate::base::metrics;
 use crate::http::body::Room;
 use crate::http::guard::Guard;
 use crate::http::net;
-use crate::http::observe::Gate;
+use crate::http::observe::RequestGate;
 use crate::routes::router;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
-use crate::work::{self, Lane, Pool};
+use crate::work::{self, Pool, PoolLane};
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -102,8 +102,8 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let pool = Pool::start(&limits)?;
     let cached_bytes = limits.cached_scene_bytes as usize;
     let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_bytes)?;
-    let app = App::new(Inside {
-        gate: Gate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
+    let app = App::new(AppParts {
+        gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
         room: Arc::new(Room::new(&limits)),
         pool,
@@ -139,7 +139,7 @@ fn start_background(app: &App) -> std::io::Result<()> {
     let warmed = app.clone();
     let warm_up = move || {
         // The generator's own threads start here.
-        work::give_way(Lane::Quick);
+        work::give_way(PoolLane::Quick);
         warmed.generator.warm_up();
         warmed.warm.store(true, Ordering::Relaxed);
         tracing::info!("experts are warm");

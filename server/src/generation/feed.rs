@@ -1,7 +1,7 @@
 //! The events of one job: made by its worker or by who stops it, taken by its reader.
 
 use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
-use super::outbox::{JobEnd, Message, Outbox};
+use super::outbox::{EventMessage, JobEnd, Outbox};
 use crate::base::problem::logged;
 use crate::work::{Ending, Handle, Stop, Ticket};
 use api::Problem;
@@ -36,7 +36,7 @@ impl Feed {
         let revision = self.ticket.client.as_ref().map(|c| c.1);
         let envelope = Envelope { event, seq, job: &self.ticket.id, revision, elapsed_ms, body };
         match serde_json::to_vec(&envelope) {
-            Ok(json) => self.outbox.push(Message { event, seq, json: json.into(), end }),
+            Ok(json) => self.outbox.push(EventMessage { event, seq, json: json.into(), end }),
             Err(error) => self.fail(Problem::internal(error)),
         }
     }
@@ -80,7 +80,7 @@ impl EventReader {
     }
 
     /// The next event; `None` after the last.
-    pub async fn next(&self) -> Option<Message> {
+    pub async fn next(&self) -> Option<EventMessage> {
         self.feed.outbox.next().await
     }
 }

@@ -9,7 +9,7 @@ pub mod stream;
 pub use feed::EventReader;
 
 use crate::base::limits::Limits;
-use crate::work::{Asked, Caller, Kind, Lane, Pool, Work};
+use crate::work::{Caller, JobKind, JobRequest, Pool, PoolLane, Work};
 use api::Problem;
 use api::generate::GenerationPlan;
 use experts::Generator;
@@ -36,8 +36,8 @@ pub fn submit(
     caller: Caller,
     plan: GenerationPlan,
 ) -> Result<EventReader, Problem> {
-    let asked = Asked { kind: Kind::Generate, cost: plan.cost(), caller };
-    let generator = Arc::clone(if asked.lane() == Lane::Quick { experts.quick } else { experts.patient });
+    let asked = JobRequest { kind: JobKind::Generate, cost: plan.cost(), caller };
+    let generator = Arc::clone(if asked.lane() == PoolLane::Quick { experts.quick } else { experts.patient });
     let most = limits.buffered_events as usize;
     let (feed, handle) = pool.submit(asked, |ticket| {
         let feed = Arc::new(Feed::new(Arc::clone(ticket), most));

@@ -20,7 +20,7 @@ pub enum JobEnd {
 
 /// One event, ready to be sent.
 #[derive(Clone, Debug)]
-pub struct Message {
+pub struct EventMessage {
     /// Value of `event`.
     pub event: &'static str,
     /// Position in the stream.
@@ -32,8 +32,8 @@ pub struct Message {
 }
 
 #[derive(Debug)]
-struct Inside {
-    waiting: VecDeque<Message>,
+struct OutboxState {
+    waiting: VecDeque<EventMessage>,
     closed: bool,
     /// Since when the first waiting message has been waiting.
     since: Instant,
@@ -42,7 +42,7 @@ struct Inside {
 /// Queue between one job and its one reader.
 #[derive(Debug)]
 pub struct Outbox {
-    inside: Mutex<Inside>,
+    inside: Mutex<OutboxState>,
     changed: Notify,
     most: usize,
 }
@@ -50,16 +50,16 @@ pub struct Outbox {
 impl Outbox {
     /// An empty one that keeps `most` events before steps are dropped.
     pub fn new(most: usize) -> Self {
-        let inside = Inside { waiting: VecDeque::new(), closed: false, since: Instant::now() };
+        let inside = OutboxState { waiting: VecDeque::new(), closed: false, since: Instant::now() };
         Self { inside: Mutex::new(inside), changed: Notify::new(), most }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Inside> {
+    fn lock(&self) -> MutexGuard<'_, OutboxState> {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Puts an event in, unless the last one is in already. True when it was taken.
-    pub fn push(&self, message: Message) -> bool {
+    pub fn push(&self, message: EventMessage) -> bool {
         let mut inside = self.lock();
         if inside.closed {
             return false;
@@ -90,7 +90,7 @@ impl Outbox {
     }
 
     /// The next event; waits for one. `None` after the last.
-    pub async fn next(&self) -> Option<Message> {
+    pub async fn next(&self) -> Option<EventMessage> {
         loop {
             let changed = self.changed.notified();
             {
@@ -110,11 +110,11 @@ impl Outbox {
 
 #[cfg(test)]
 mod tests {
-    use super::{JobEnd, Message, Outbox};
+    use super::{EventMessage, JobEnd, Outbox};
 
-    fn message(event: &'static str, seq: u64) -> Message {
+    fn message(event: &'static str, seq: u64) -> EventMessage {
         let end = (event == "final").then_some(JobEnd::Final);
-        Message { event, seq, json: bytes::Bytes::new(), end }
+        EventMessage { event, seq, json: bytes::Bytes::new(), end }
     }
 
     #[tokio::test]

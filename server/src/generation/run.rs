@@ -4,7 +4,7 @@ use super::events::AcceptedBody;
 use super::feed::Feed;
 use super::outbox::JobEnd;
 use crate::base::{clock, metrics};
-use crate::work::Kind;
+use crate::work::JobKind;
 use api::Problem;
 use api::events::FinalBody;
 use api::generate::{GenerationAnswer, GenerationEvent, GenerationPlan, round_ms};
@@ -22,7 +22,7 @@ pub fn generate(feed: &Feed, generator: &Generator, plan: GenerationPlan, others
     if let Err(problem) = events(feed, generator, plan, queued, &others)
         && feed.fail(problem)
     {
-        metrics::ended(Kind::Generate.name(), "error");
+        metrics::ended(JobKind::Generate.name(), "error");
     }
 }
 
@@ -56,7 +56,7 @@ fn events(
             }
             GenerationEvent::Final(answered) => {
                 if feed.send(final_body(&answered, queued), Some(JobEnd::Final)) {
-                    metrics::ended(Kind::Generate.name(), "final");
+                    metrics::ended(JobKind::Generate.name(), "final");
                 }
             }
         }

@@ -1,9 +1,9 @@
 //! One sequence of events in three representations: SSE, NDJSON, or the last event alone as JSON.
 
 use super::feed::EventReader;
-use super::outbox::{JobEnd, Message};
+use super::outbox::{EventMessage, JobEnd};
 use crate::base::problem::Refusal;
-use crate::http::accept::Form;
+use crate::http::accept::ReplyFormat;
 use crate::work::{Stop, superseded};
 use api::Problem;
 use axum::body::{Body, Bytes};
@@ -23,10 +23,10 @@ pub struct StreamPace {
 }
 
 /// Answers with the events of a job.
-pub async fn reply(reader: EventReader, form: Form, pace: StreamPace) -> Response {
+pub async fn reply(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> Response {
     match form {
-        Form::Json => last(reader).await,
-        Form::Ndjson | Form::Sse => stream(reader, form, pace).await,
+        ReplyFormat::Json => last(reader).await,
+        ReplyFormat::Ndjson | ReplyFormat::Sse => stream(reader, form, pace).await,
     }
 }
 
@@ -35,7 +35,7 @@ async fn last(reader: EventReader) -> Response {
     while let Some(message) = reader.next().await {
         match message.end {
             Some(JobEnd::Final) => {
-                let head = [(header::CONTENT_TYPE, Form::Json.media_type())];
+                let head = [(header::CONTENT_TYPE, ReplyFormat::Json.media_type())];
                 return (head, Body::from(message.json)).into_response();
             }
             Some(JobEnd::Stopped(Stop::Superseded(by))) => {
@@ -50,10 +50,10 @@ async fn last(reader: EventReader) -> Response {
 
 /// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
 /// longer than the heartbeat begins the stream in any case.
-async fn stream(reader: EventReader, form: Form, pace: StreamPace) -> Response {
+async fn stream(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> Response {
     let within = async |time| tokio::time::timeout(time, reader.next()).await.ok().flatten();
     let first = within(pace.heartbeat).await;
-    if let Some(Message { end: Some(JobEnd::Stopped(Stop::Problem(problem))), .. }) = first {
+    if let Some(EventMessage { end: Some(JobEnd::Stopped(Stop::Problem(problem))), .. }) = first {
         return Refusal::from(problem).into_response();
     }
     let waits = first.is_some() && !pace.together.is_zero();
@@ -72,10 +72,10 @@ async fn stream(reader: EventReader, form: Form, pace: StreamPace) -> Response {
 
 struct EventSource {
     reader: EventReader,
-    form: Form,
+    form: ReplyFormat,
     heartbeat: Duration,
     /// What came before the head of the reply was sent.
-    begun: Vec<Message>,
+    begun: Vec<EventMessage>,
     done: bool,
 }
 
@@ -99,18 +99,18 @@ impl EventSource {
 
     fn sign_of_life(&self) -> Bytes {
         match self.form {
-            Form::Sse => Bytes::from_static(b": heartbeat\n\n"),
+            ReplyFormat::Sse => Bytes::from_static(b": heartbeat\n\n"),
             _ => Bytes::from_static(b"{\"event\":\"heartbeat\"}\n"),
         }
     }
 
-    fn write(&self, message: &Message, bytes: &mut Vec<u8>) {
-        if self.form == Form::Sse {
+    fn write(&self, message: &EventMessage, bytes: &mut Vec<u8>) {
+        if self.form == ReplyFormat::Sse {
             bytes.extend_from_slice(
                 format!("event: {}\nid: {}\ndata: ", message.event, message.seq).as_bytes(),
             );
         }
         bytes.extend_from_slice(&message.json);
-        bytes.extend_from_slice(if self.form == Form::Sse { b"\n\n" } else { b"\n" });
+        bytes.extend_from_slice(if self.form == ReplyFormat::Sse { b"\n\n" } else { b"\n" });
     }
 }

@@ -9,7 +9,7 @@ use std::str::FromStr;
 
 /// How a reply is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum ReplyFormat {
     /// The last event.
     Json,
     /// One event a line.
@@ -26,9 +26,9 @@ const OFFERED: &[MediaType<'static>] = &[
     MediaType::new(APPLICATION, X_NDJSON),
     MediaType::new(TEXT, EVENT_STREAM),
 ];
-const FORMS: [Form; 3] = [Form::Json, Form::Ndjson, Form::Sse];
+const FORMS: [ReplyFormat; 3] = [ReplyFormat::Json, ReplyFormat::Ndjson, ReplyFormat::Sse];
 
-impl Form {
+impl ReplyFormat {
     /// Its media type.
     pub fn media_type(self) -> &'static str {
         match self {
@@ -60,27 +60,27 @@ impl Form {
 
 #[cfg(test)]
 mod tests {
-    use super::{FORMS, Form, OFFERED};
+    use super::{FORMS, OFFERED, ReplyFormat};
     use axum::http::{HeaderMap, header};
 
-    fn form(accept: &str) -> Option<Form> {
+    fn form(accept: &str) -> Option<ReplyFormat> {
         let mut headers = HeaderMap::new();
         headers.insert(header::ACCEPT, accept.parse().unwrap());
-        Form::negotiate(&headers).ok()
+        ReplyFormat::negotiate(&headers).ok()
     }
 
     #[test]
     fn accept_is_weighed() {
-        assert_eq!(form("*/*"), Some(Form::Json));
-        assert_eq!(form("text/event-stream"), Some(Form::Sse));
-        assert_eq!(form("application/x-ndjson, application/json;q=0.5"), Some(Form::Ndjson));
-        assert_eq!(form("text/*"), Some(Form::Sse));
-        assert_eq!(form("application/json;q=0, */*"), Some(Form::Ndjson));
+        assert_eq!(form("*/*"), Some(ReplyFormat::Json));
+        assert_eq!(form("text/event-stream"), Some(ReplyFormat::Sse));
+        assert_eq!(form("application/x-ndjson, application/json;q=0.5"), Some(ReplyFormat::Ndjson));
+        assert_eq!(form("text/*"), Some(ReplyFormat::Sse));
+        assert_eq!(form("application/json;q=0, */*"), Some(ReplyFormat::Ndjson));
         assert_eq!(form("image/png"), None);
         assert_eq!(form("application/xml, text/html;q=0.9"), None);
-        assert_eq!(Form::negotiate(&HeaderMap::new()).ok(), Some(Form::Json));
-        assert_eq!(form("application/json;q=0.2, text/*;q=0.3"), Some(Form::Sse));
-        assert_eq!(form("APPLICATION/X-NDJSON"), Some(Form::Ndjson));
+        assert_eq!(ReplyFormat::negotiate(&HeaderMap::new()).ok(), Some(ReplyFormat::Json));
+        assert_eq!(form("application/json;q=0.2, text/*;q=0.3"), Some(ReplyFormat::Sse));
+        assert_eq!(form("APPLICATION/X-NDJSON"), Some(ReplyFormat::Ndjson));
         assert_eq!(form("text/event-stream;q=0"), None);
         assert_eq!(form("nonsense"), None);
     }
@@ -90,7 +90,7 @@ mod tests {
         let mut headers = HeaderMap::new();
         headers.append(header::ACCEPT, "application/json;q=0.1".parse().unwrap());
         headers.append(header::ACCEPT, "text/event-stream".parse().unwrap());
-        assert_eq!(Form::negotiate(&headers).ok(), Some(Form::Sse));
+        assert_eq!(ReplyFormat::negotiate(&headers).ok(), Some(ReplyFormat::Sse));
     }
 
     #[test]

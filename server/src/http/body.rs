@@ -6,7 +6,7 @@
 use super::upload::Upload;
 use crate::base::limits::Limits;
 use crate::base::problem::{ENCODINGS, Refusal};
-use crate::work::{Lane, Pool};
+use crate::work::{Pool, PoolLane};
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRef, FromRequest, Request};
@@ -74,10 +74,10 @@ impl Room {
     ///
     /// # Errors
     /// A defect.
-    pub async fn import(&self, lane: Lane) -> Result<[Option<OwnedSemaphorePermit>; 2], Problem> {
+    pub async fn import(&self, lane: PoolLane) -> Result<[Option<OwnedSemaphorePermit>; 2], Problem> {
         let long = match lane {
-            Lane::Patient => Some(Arc::clone(&self.long_imports).acquire_owned().await),
-            Lane::Quick | Lane::Background | Lane::Document => None,
+            PoolLane::Patient => Some(Arc::clone(&self.long_imports).acquire_owned().await),
+            PoolLane::Quick | PoolLane::Background | PoolLane::Document => None,
         };
         let place = Arc::clone(&self.imports).acquire_owned().await;
         Ok([long.transpose().map_err(Problem::internal)?, Some(place.map_err(Problem::internal)?)])

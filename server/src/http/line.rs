@@ -55,7 +55,7 @@ struct ClientMessage<'a> {
 struct ServerMessage {
     ask: u64,
     #[serde(flatten)]
-    head: Option<Head>,
+    head: Option<ReplyHead>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     last: bool,
 }
@@ -83,13 +83,14 @@ impl ServerMessage {
     fn failed(ask: u64, problem: Problem) -> Result<Message, axum::Error> {
         let refusal = Refusal::from(problem);
         let document = ProblemDoc::of(&refusal.0, None, None).text();
-        Self { ask, head: Some(Head::of(&refusal.into_response())), last: true }.with(document.as_bytes())
+        Self { ask, head: Some(ReplyHead::of(&refusal.into_response())), last: true }
+            .with(document.as_bytes())
     }
 }
 
-/// What a client needs to know of the head of a reply.
+/// Status and headers of a reply that a client needs.
 #[derive(Serialize)]
-struct Head {
+struct ReplyHead {
     status: u16,
     #[serde(skip_serializing_if = "Option::is_none")]
     retry_after_s: Option<u64>,
@@ -97,7 +98,7 @@ struct Head {
     scene: Option<String>,
 }
 
-impl Head {
+impl ReplyHead {
     fn of(reply: &Response) -> Self {
         let field = |name: &str| reply.headers().get(name).and_then(|value| value.to_str().ok());
         Self {
@@ -131,7 +132,7 @@ struct Line {
 }
 
 /// A part of an answer on its way.
-struct Piece {
+struct ReplyPiece {
     ask: u64,
     /// The question itself: numbers are used again.
     task: task::Id,
@@ -168,7 +169,7 @@ impl Questions {
     }
 
     /// Whether a piece belongs to a question that still runs. The last one frees its number.
-    fn takes(&mut self, piece: &Piece) -> bool {
+    fn takes(&mut self, piece: &ReplyPiece) -> bool {
         let runs = self.running.get(&piece.ask).is_some_and(|task| task.id() == piece.task);
         if runs && piece.is_last {
             self.running.remove(&piece.ask);
@@ -273,7 +274,7 @@ impl Line {
         &self,
         text: &str,
         questions: &mut Questions,
-        pieces: &mpsc::Sender<Piece>,
+        pieces: &mpsc::Sender<ReplyPiece>,
     ) -> Result<Option<Message>, String> {
         let reply = match serde_json::from_str(text).map_err(|error| error.to_string())? {
             ClientMessage { ask: Some(number), body: Some(body), end: None } => {
@@ -301,7 +302,7 @@ impl Line {
     }
 
     /// Starts questions that wait, as many as may run at the same time.
-    fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<Piece>) {
+    fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<ReplyPiece>) {
         while (questions.tasks.len() as u64) < self.carrier.limits.line_questions.max(1)
             && let Some((number, body)) = questions.waiting.pop_front()
         {
@@ -321,14 +322,14 @@ impl Line {
 }
 
 /// Asks, and passes the reply on until it is over or given up.
-async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<Piece>) {
+async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let (reply, _busy) = carrier.ask(request).await;
     pass_on(reply, ask, pieces).await;
 }
 
 /// Sends a reply in pieces. Where its body breaks off, the last piece is a problem.
-async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<Piece>) {
-    let mut head = ServerMessage { ask, head: Some(Head::of(&reply)), last: false };
+async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
+    let mut head = ServerMessage { ask, head: Some(ReplyHead::of(&reply)), last: false };
     let mut body = reply.into_body();
     let mut piece = next(&mut body).await;
     while !head.last {
@@ -342,7 +343,7 @@ async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<Piece>) {
             ServerMessage::failed(ask, Problem::internal(error))
         });
         let Ok(message) = message else { return };
-        let part = Piece { ask, task: task::id(), message, is_last: head.last };
+        let part = ReplyPiece { ask, task: task::id(), message, is_last: head.last };
         if pieces.send(part).await.is_err() {
             return;
         }

@@ -31,25 +31,25 @@ const LOOK: Duration = Duration::from_millis(250);
 const ARRIVING_GRACE: Duration = Duration::from_secs(1);
 
 /// One open connection, as the table sees it.
-struct Place {
+struct ConnectionEntry {
     number: u64,
     socket: Arc<Socket>,
     idle_since: Mutex<Instant>,
     /// When the reply under way was last asked for more; `None` without one.
     asked: Mutex<Option<Instant>>,
     /// The body that is arriving.
-    arriving: Mutex<Option<Progress>>,
+    arriving: Mutex<Option<BodyProgress>>,
     close: Notify,
 }
 
-/// How much of a body has come since when.
+/// Bytes of a body so far, and when it began.
 #[derive(Clone, Copy)]
-struct Progress {
+struct BodyProgress {
     began: Instant,
     bytes: u64,
 }
 
-impl Progress {
+impl BodyProgress {
     /// Bytes a second so far; `None` while it is too early to tell.
     fn rate(self) -> Option<u64> {
         let time = self.began.elapsed();
@@ -59,8 +59,8 @@ impl Progress {
 
 /// All open connections.
 #[derive(Default)]
-struct Table {
-    places: Mutex<Vec<Arc<Place>>>,
+struct ConnectionTable {
+    places: Mutex<Vec<Arc<ConnectionEntry>>>,
     next: AtomicU64,
 }
 
@@ -68,26 +68,28 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Place {
+impl ConnectionEntry {
     fn is_busy(&self) -> bool {
         self.socket.requests.load(Ordering::Relaxed) > 0
     }
 }
 
-impl Table {
+impl ConnectionTable {
     /// A place for a new connection: where there is none, that of the one longest idle, else of the one whose
     /// request arrives slowest. `None` when all are taken by requests that are worked on.
-    fn enter(&self, stream: TcpStream, most: usize) -> Option<Arc<Place>> {
+    fn enter(&self, stream: TcpStream, most: usize) -> Option<Arc<ConnectionEntry>> {
         let mut places = lock(&self.places);
         if places.len() >= most {
             let oldest = places.iter().filter(|p| !p.is_busy()).min_by_key(|p| *lock(&p.idle_since));
-            let slow = |p: &Arc<Place>| Some((lock(&p.arriving).and_then(Progress::rate)?, Arc::clone(p)));
+            let slow = |p: &Arc<ConnectionEntry>| {
+                Some((lock(&p.arriving).and_then(BodyProgress::rate)?, Arc::clone(p)))
+            };
             let slowest = || places.iter().filter_map(slow).min_by_key(|(rate, _)| *rate).map(|(_, p)| p);
             let leaves = oldest.cloned().or_else(slowest)?;
             leaves.close.notify_one();
             places.retain(|p| p.number != leaves.number);
         }
-        let place = Arc::new(Place {
+        let place = Arc::new(ConnectionEntry {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             socket: Arc::new(Socket::new(stream)),
             idle_since: Mutex::new(Instant::now()),
@@ -101,14 +103,14 @@ impl Table {
 
     /// Closes connections whose reader has taken nothing of a reply for so long.
     fn close_stalled(&self, limit: Duration) {
-        let stalled = |p: &&Arc<Place>| lock(&p.asked).is_some_and(|asked| asked.elapsed() > limit);
+        let stalled = |p: &&Arc<ConnectionEntry>| lock(&p.asked).is_some_and(|asked| asked.elapsed() > limit);
         lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
     }
 
     /// Closes connections that their clients have ended while a request was worked on. What they sent behind it
     /// keeps hyper from reading on, so that it would not notice.
     fn close_left(&self) {
-        let left = |p: &&Arc<Place>| p.is_busy() && p.socket.is_left();
+        let left = |p: &&Arc<ConnectionEntry>| p.is_busy() && p.socket.is_left();
         lock(&self.places).iter().filter(left).for_each(|p| p.close.notify_one());
     }
 
@@ -118,10 +120,10 @@ impl Table {
 }
 
 /// Counts a request of a connection while it runs.
-pub struct Busy(Arc<Place>);
+pub struct Busy(Arc<ConnectionEntry>);
 
 impl Busy {
-    fn new(place: &Arc<Place>) -> Self {
+    fn new(place: &Arc<ConnectionEntry>) -> Self {
         place.socket.requests.fetch_add(1, Ordering::Relaxed);
         Self(Arc::clone(place))
     }
@@ -140,7 +142,7 @@ impl Drop for Busy {
 pub struct Carrier {
     router: Router,
     connection: Connection,
-    place: Arc<Place>,
+    place: Arc<ConnectionEntry>,
     closing: watch::Receiver<bool>,
     /// Bounds.
     pub limits: Arc<Limits>,
@@ -175,7 +177,7 @@ pub async fn serve(
     stop: impl Future<Output = ()>,
     on_stop: impl FnOnce(),
 ) {
-    let table = Arc::new(Table::default());
+    let table = Arc::new(ConnectionTable::default());
     let (closing, closed) = watch::channel(false);
     // A stream asks again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
@@ -221,7 +223,7 @@ pub async fn serve(
 
 async fn connection(
     router: Router,
-    place: &Arc<Place>,
+    place: &Arc<ConnectionEntry>,
     mut closed: watch::Receiver<bool>,
     limits: &Arc<Limits>,
     patience: Duration,
@@ -250,7 +252,7 @@ async fn connection(
         let place = Arc::clone(&counted);
         let request = request.map(|body| axum::body::Body::new(Arriving { body, place }));
         let reply = tower::ServiceExt::oneshot(router.clone(), request);
-        async move { reply.await.map(|reply| reply.map(|body| Counted { body, busy })) }
+        async move { reply.await.map(|reply| reply.map(|body| CountedBody { body, busy })) }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
     http.timer(TokioTimer::new())
@@ -289,7 +291,7 @@ async fn connection(
 /// A request's body that tells how it gets on.
 struct Arriving {
     body: hyper::body::Incoming,
-    place: Arc<Place>,
+    place: Arc<ConnectionEntry>,
 }
 
 impl hyper::body::Body for Arriving {
@@ -302,7 +304,7 @@ impl hyper::body::Body for Arriving {
     ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, hyper::Error>>> {
         let polled = Pin::new(&mut self.body).poll_frame(context);
         let mut arriving = lock(&self.place.arriving);
-        let progress = arriving.get_or_insert(Progress { began: Instant::now(), bytes: 0 });
+        let progress = arriving.get_or_insert(BodyProgress { began: Instant::now(), bytes: 0 });
         match &polled {
             std::task::Poll::Ready(Some(Ok(frame))) => {
                 progress.bytes += frame.data_ref().map_or(0, |data| data.len() as u64);
@@ -330,12 +332,12 @@ impl Drop for Arriving {
 }
 
 /// A reply's body that keeps its connection marked as busy until it is sent.
-struct Counted {
+struct CountedBody {
     body: axum::body::Body,
     busy: Busy,
 }
 
-impl hyper::body::Body for Counted {
+impl hyper::body::Body for CountedBody {
     type Data = bytes::Bytes;
     type Error = axum::Error;
 

@@ -25,9 +25,9 @@ const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'sel
     font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
 
-/// What is looked at before a handler is.
+/// Checks before a handler runs.
 #[derive(Clone)]
-pub struct Gate {
+pub struct RequestGate {
     /// Who may talk to the server.
     pub guard: Arc<Guard>,
     /// Bounds of a request's head.
@@ -35,7 +35,7 @@ pub struct Gate {
 }
 
 /// Wraps every request.
-pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> Response {
+pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(request.headers());
     let method = request.method().clone();

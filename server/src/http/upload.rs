@@ -99,7 +99,7 @@ impl Read for Unpacking<'_> {
 
 /// A part of an uploaded form.
 #[derive(Debug)]
-pub struct Part {
+pub struct FormPart {
     /// Name of its file, as it was given.
     pub label: Option<String>,
     form: Arc<Upload>,
@@ -120,13 +120,13 @@ pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
     names: [(&str, usize); N],
-) -> Result<[Vec<Part>; N], Problem> {
+) -> Result<[Vec<FormPart>; N], Problem> {
     let boundary = multer::parse_boundary(content_type)
         .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
     let mut found = [const { Vec::new() }; N];
     let mut read = form_of(form, &boundary).map_err(broken)?;
     while let Some(mut field) = now(read.next_field()).map_err(broken)? {
-        let named = |((name, _), _): &(&(&str, usize), &mut Vec<Part>)| Some(*name) == field.name();
+        let named = |((name, _), _): &(&(&str, usize), &mut Vec<FormPart>)| Some(*name) == field.name();
         if let Some((&(name, most), of_name)) = names.iter().zip(&mut found).find(named) {
             if of_name.len() == most {
                 let detail = format!("at most {most} {name} expected; send the others in calls of their own");
@@ -136,7 +136,7 @@ pub fn parts<const N: usize>(
             }
             let label = field.file_name().map(str::to_owned);
             let (form, boundary) = (Arc::clone(form), boundary.clone());
-            of_name.push(Part { label, form, boundary, index: field.index() });
+            of_name.push(FormPart { label, form, boundary, index: field.index() });
         }
         while now(field.chunk()).map_err(broken)?.is_some() {}
     }
@@ -184,7 +184,7 @@ fn now<F: Future>(future: F) -> F::Output {
     }
 }
 
-impl Source for Part {
+impl Source for FormPart {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
         let mut form = form_of(&self.form, &self.boundary)?;
         while let Some(mut field) = now(form.next_field()).map_err(io::Error::other)? {

@@ -4,9 +4,9 @@ use crate::app::App;
 use crate::base::metrics;
 use crate::base::problem::Refusal;
 use crate::http::body::Json;
-use crate::http::extract::{Connection, Id, Params};
+use crate::http::extract::{Connection, Id, QueryParams};
 use crate::scenes::bytes_of;
-use crate::work::{Asked, Kind};
+use crate::work::{JobKind, JobRequest};
 use api::export::{self, MotionChoice};
 use api::{Home, import};
 use axum::extract::State;
@@ -51,7 +51,7 @@ pub async fn stored(
     State(app): State<App>,
     Id(id): Id,
     connection: Connection,
-    Params(params): Params<ExportParams>,
+    QueryParams(params): QueryParams<ExportParams>,
 ) -> Result<Response, Refusal> {
     let opened = app.catalog.open(&id).await?;
     export(&app, connection, opened.scene, params).await
@@ -65,7 +65,7 @@ pub async fn stored(
 pub async fn unsaved(
     State(app): State<App>,
     connection: Connection,
-    Params(params): Params<ExportParams>,
+    QueryParams(params): QueryParams<ExportParams>,
     Json(doc): Json<SceneDoc>,
 ) -> Result<Response, Refusal> {
     let scene = Arc::new(app.catalog.read(doc).await?);
@@ -85,7 +85,7 @@ async fn export(
     let write = move |_: &_| export::write(&scene, &params.format, params.sample, params.mode);
     // Writers take about this long a byte.
     let cost = Duration::from_nanos(20 * bytes as u64);
-    let asked = Asked { kind: Kind::Export, cost, caller: connection.into() };
+    let asked = JobRequest { kind: JobKind::Export, cost, caller: connection.into() };
     let written = app.pool.run(asked, write).await;
     let file = written.inspect_err(|_| metrics::transfer(true, format, "error"))?;
     metrics::transfer(true, format, "done");

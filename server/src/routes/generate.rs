@@ -5,7 +5,7 @@ use crate::base::id::is_id;
 use crate::base::problem::Refusal;
 use crate::generation;
 use crate::generation::stream::{self, StreamPace};
-use crate::http::accept::Form;
+use crate::http::accept::ReplyFormat;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
 use crate::http::line;
@@ -42,13 +42,13 @@ pub async fn generate(
     connection: Connection,
     request: Request,
 ) -> Result<Response, Refusal> {
-    let form = Form::negotiate(request.headers())?;
+    let form = ReplyFormat::negotiate(request.headers())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
     let caller = Caller { connection: Some(connection.number), ..caller_of(&body)? };
     // Opening and preparing a scene costs more than a refusal may.
     app.pool.expects(caller.client.as_ref().map(|client| client.0.as_str()))?;
     let Subject { scene, standings, held } = body.take_scene().open(&app.catalog).await?;
-    let streams = form != Form::Json;
+    let streams = form != ReplyFormat::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
     let prepare = move || {
         let mut plan = body.plan(&scene, &shared.limits.of_a_call(), &shared.generator)?;

@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::body::{Json, JsonText};
 use crate::http::extract::Connection;
-use crate::work::{Asked, Kind};
+use crate::work::{JobKind, JobRequest};
 use api::map::{MapBody, TemplateList};
 use axum::extract::State;
 use std::time::Duration;
@@ -26,7 +26,7 @@ pub async fn make(
     connection: Connection,
     Json(body): Json<MapBody>,
 ) -> Result<JsonText, Refusal> {
-    let asked = Asked { kind: Kind::Map, cost: MAP_COST, caller: connection.into() };
+    let asked = JobRequest { kind: JobKind::Map, cost: MAP_COST, caller: connection.into() };
     Ok(app.pool.run(asked, move |_| JsonText::of(&body.reply()?)).await?)
 }
 

@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::body::JsonText;
 use crate::http::extract::Connection;
-use crate::work::{Asked, Kind};
+use crate::work::{JobKind, JobRequest};
 use api::home::Subject;
 use api::place::{PlaceBody, PlaceReply};
 use axum::extract::State;
@@ -38,6 +38,6 @@ pub async fn place(
     let placer = Arc::clone(&app.placer);
     let work =
         move |cancel: &Cancel| JsonText::of(&PlaceReply::of(&body.run(&scene, &placer, cancel)?, &scene));
-    let asked = Asked { kind: Kind::Place, cost: PLACE_COST, caller: connection.into() };
+    let asked = JobRequest { kind: JobKind::Place, cost: PLACE_COST, caller: connection.into() };
     Ok(app.pool.run(asked, work).await?)
 }

@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::body::JsonText;
 use crate::http::extract::Connection;
-use crate::work::{Asked, Kind};
+use crate::work::{JobKind, JobRequest};
 use api::score::ScoreRequest;
 use axum::extract::State;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ pub async fn score(
     let scene = &about.scene;
     // Measured: 256 road users over 600 steps take half a second.
     let cost = Duration::from_nanos(3_200 * (scene.agents.len() * scene.time.steps) as u64);
-    let asked = Asked { kind: Kind::Score, cost, caller: connection.into() };
+    let asked = JobRequest { kind: JobKind::Score, cost, caller: connection.into() };
     let work = move |_: &_| JsonText::of(&api::score::score(&about, &request, generator.maps())?);
     Ok(app.pool.run(asked, work).await?)
 }

@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A scene as lists show it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "SceneItem")]
-pub struct Item {
+pub struct SceneItem {
     /// Id of the scene.
     pub id: String,
     /// For people.
@@ -81,7 +80,7 @@ pub fn tags_of(row: &SceneSummary) -> Vec<String> {
     serde_json::from_str(&row.tags).unwrap_or_default()
 }
 
-impl From<SceneSummary> for Item {
+impl From<SceneSummary> for SceneItem {
     fn from(row: SceneSummary) -> Self {
         Self {
             facts: serde_json::from_str(&row.meta).unwrap_or_default(),

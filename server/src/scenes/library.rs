@@ -4,7 +4,7 @@
 //! and a few stay in memory.
 
 use super::catalog::held_bytes;
-use super::item::{Facts, Item};
+use super::item::{Facts, SceneItem};
 use crate::base::cache::Cache;
 use crate::base::clock;
 use crate::base::id;
@@ -33,7 +33,7 @@ const MOST_FILES: usize = 5_000;
 const MOST_BYTES: u64 = 256 << 20;
 
 #[derive(Clone, Debug)]
-enum Place {
+enum ScenePlace {
     /// Name of an embedded file.
     Demo(String),
     /// File and the position of the scene in it.
@@ -42,11 +42,11 @@ enum Place {
 
 #[derive(Clone, Debug)]
 struct Entry {
-    item: Item,
-    place: Place,
+    item: SceneItem,
+    place: ScenePlace,
 }
 
-struct Inside {
+struct LibraryState {
     entries: RwLock<BTreeMap<String, Entry>>,
     open: Cache<String, Opened>,
     pool: Arc<Pool>,
@@ -54,7 +54,7 @@ struct Inside {
 
 /// All read-only scenes. Cheap to clone.
 #[derive(Clone)]
-pub struct Library(Arc<Inside>);
+pub struct Library(Arc<LibraryState>);
 
 impl Library {
     /// The demos at once; the folder's files as they are read. Keeps opened scenes in memory, so many bytes at
@@ -63,7 +63,7 @@ impl Library {
     /// # Errors
     /// When the system gives no thread.
     pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached_bytes: usize) -> io::Result<Self> {
-        let inside = Inside { entries: RwLock::default(), open: Cache::new(cached_bytes), pool };
+        let inside = LibraryState { entries: RwLock::default(), open: Cache::new(cached_bytes), pool };
         let library = Self(Arc::new(inside));
         library.add_demos();
         if let Some(folder) = folder.map(Path::to_owned) {
@@ -78,7 +78,7 @@ impl Library {
     }
 
     /// For lists, by id.
-    pub fn items(&self) -> Vec<Item> {
+    pub fn items(&self) -> Vec<SceneItem> {
         self.with(|entries| entries.values().map(|e| e.item.clone()).collect())
     }
 
@@ -123,10 +123,10 @@ impl Library {
         }
     }
 
-    fn add(&self, id: String, scene: &Scene, place: Place, bytes: &[u8], modified: SystemTime) {
+    fn add(&self, id: String, scene: &Scene, place: ScenePlace, bytes: &[u8], modified: SystemTime) {
         let hash = ContentHash::of_bytes(bytes).hex();
         let time = clock::text(modified);
-        let item = Item {
+        let item = SceneItem {
             name: if scene.name.is_empty() { id.clone() } else { scene.name.clone() },
             etag: format!("\"ro-{}\"", hash.get(..16).unwrap_or_default()),
             created_at: time.clone(),
@@ -149,7 +149,7 @@ impl Library {
             let Some(id) = name.strip_suffix(".json").filter(|id| id::is_id(id)) else { continue };
             match native::read(&file.data) {
                 Ok(scene) => {
-                    let place = Place::Demo(name.to_string());
+                    let place = ScenePlace::Demo(name.to_string());
                     self.add(id.to_owned(), &scene, place, &file.data, SystemTime::UNIX_EPOCH);
                 }
                 Err(error) => tracing::error!(%name, %error, "demo scene is broken"),
@@ -188,7 +188,7 @@ impl Library {
                             tracing::warn!(file = %path.display(), "its scene's id is taken");
                             continue;
                         };
-                        self.add(id, scene, Place::File(path.clone(), index), &bytes, modified);
+                        self.add(id, scene, ScenePlace::File(path.clone(), index), &bytes, modified);
                     }
                 }
                 Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
@@ -197,13 +197,13 @@ impl Library {
     }
 }
 
-fn read(place: &Place) -> Result<Scene, Problem> {
+fn read(place: &ScenePlace) -> Result<Scene, Problem> {
     match place {
-        Place::Demo(name) => {
+        ScenePlace::Demo(name) => {
             let file = DemoScenes::get(name).ok_or_else(|| Problem::internal("demo scene is gone"))?;
             Ok(native::read(&file.data)?)
         }
-        Place::File(path, index) => {
+        ScenePlace::File(path, index) => {
             let changed = |error: String| {
                 tracing::info!(file = %path.display(), %error, "gone or changed");
                 Problem::new(

@@ -8,6 +8,6 @@ pub mod record;
 pub mod store;
 
 pub use catalog::{Catalog, bytes_of, map_bytes};
-pub use item::{Counts, Facts, Item, tags_of};
+pub use item::{Counts, Facts, SceneItem, tags_of};
 pub use library::Library;
 pub use preview::preview;

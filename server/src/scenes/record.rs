@@ -77,7 +77,7 @@ pub fn size(map: &LaneMap) -> (usize, usize) {
 /// When the text is no document with a map.
 pub fn with_map(json: &[u8], map: &[u8]) -> Result<Vec<u8>, Problem> {
     let map: &RawValue = serde_json::from_slice(map).map_err(Problem::internal)?;
-    let mut doc: Object<'_> = serde_json::from_slice(json).map_err(Problem::internal)?;
+    let mut doc: OrderedObject<'_> = serde_json::from_slice(json).map_err(Problem::internal)?;
     let slot = doc.0.iter_mut().find(|(name, _)| name == "map");
     let (_, value) = slot.ok_or_else(|| Problem::internal("a stored scene has no map"))?;
     *value = map;
@@ -85,14 +85,14 @@ pub fn with_map(json: &[u8], map: &[u8]) -> Result<Vec<u8>, Problem> {
 }
 
 /// Members of an object in their order, their values as text.
-struct Object<'a>(Vec<(String, &'a RawValue)>);
+struct OrderedObject<'a>(Vec<(String, &'a RawValue)>);
 
-impl<'de> Deserialize<'de> for Object<'de> {
+impl<'de> Deserialize<'de> for OrderedObject<'de> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Members;
+        struct OrderedVisitor;
 
-        impl<'de> Visitor<'de> for Members {
-            type Value = Object<'de>;
+        impl<'de> Visitor<'de> for OrderedVisitor {
+            type Value = OrderedObject<'de>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("an object")
@@ -103,15 +103,15 @@ impl<'de> Deserialize<'de> for Object<'de> {
                 while let Some(member) = access.next_entry()? {
                     members.push(member);
                 }
-                Ok(Object(members))
+                Ok(OrderedObject(members))
             }
         }
 
-        deserializer.deserialize_map(Members)
+        deserializer.deserialize_map(OrderedVisitor)
     }
 }
 
-impl Serialize for Object<'_> {
+impl Serialize for OrderedObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }

@@ -1,7 +1,7 @@
 //! Calls with one answer: a closure in, its result out.
 
-use super::job::{Asked, Caller, Ending, Stop};
-use super::kind::Kind;
+use super::job::{Caller, Ending, JobRequest, Stop};
+use super::kind::JobKind;
 use super::sync::Mutex;
 use super::{Pool, lock};
 use crate::base::metrics;
@@ -14,10 +14,10 @@ use tokio::sync::oneshot;
 /// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
 const SMALL_BYTES: usize = 32 << 10;
 
-/// The place of a call's one answer.
-struct Answer<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
+/// Sender of a call's one reply.
+struct ReplySlot<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
 
-impl<T> Answer<T> {
+impl<T> ReplySlot<T> {
     /// Gives the answer. False when there is one already.
     fn give(&self, result: Result<T, Problem>) -> bool {
         // Nobody may wait for it any more; it is the answer all the same.
@@ -25,7 +25,7 @@ impl<T> Answer<T> {
     }
 }
 
-impl<T: Send> Ending for Answer<T> {
+impl<T: Send> Ending for ReplySlot<T> {
     fn stop(&self, stop: Stop) -> bool {
         self.give(Err(match stop {
             Stop::Problem(problem) => problem,
@@ -51,12 +51,12 @@ impl Pool {
     /// The work's own problem, a full queue, a time limit, or shutdown.
     pub async fn run<T: Send + 'static>(
         self: &Arc<Self>,
-        asked: Asked,
+        asked: JobRequest,
         work: impl FnOnce(&Cancel) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let (sender, receiver) = oneshot::channel();
         let kind = asked.kind;
-        let answer = Arc::new(Answer(Mutex::new(Some(sender))));
+        let answer = Arc::new(ReplySlot(Mutex::new(Some(sender))));
         let (_, _hold) = self.submit(asked, |ticket| {
             let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
             let work = move || {
@@ -85,7 +85,7 @@ impl Pool {
         }
         // Reading takes about this long a byte; the largest are cut where they are unpacked.
         let cost = Duration::from_nanos(10 * bytes.min(64 << 20) as u64);
-        let asked = Asked { kind: Kind::Document, cost, caller: Caller::default() };
+        let asked = JobRequest { kind: JobKind::Document, cost, caller: Caller::default() };
         self.run(asked, move |_| work()).await
     }
 }
@@ -93,15 +93,15 @@ impl Pool {
 #[cfg(test)]
 #[cfg(not(feature = "shuttle"))]
 mod tests {
-    use super::super::{Asked, Caller, Kind, Pool};
+    use super::super::{Caller, JobKind, JobRequest, Pool};
     use crate::base::limits::Limits;
     use api::{Code, Problem};
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::{Arc, Mutex};
     use std::time::Duration;
 
-    fn small(kind: Kind) -> Asked {
-        Asked { kind, cost: Duration::from_millis(1), caller: Caller::default() }
+    fn small(kind: JobKind) -> JobRequest {
+        JobRequest { kind, cost: Duration::from_millis(1), caller: Caller::default() }
     }
 
     fn pool(limits: Limits) -> Arc<Pool> {
@@ -111,13 +111,14 @@ mod tests {
     #[tokio::test]
     async fn a_call_gives_its_answer_its_problem_or_its_panic() {
         let pool = pool(Limits::default());
-        assert_eq!(pool.run(small(Kind::Score), |_| Ok(7)).await.unwrap(), 7);
-        let refused = pool.run::<()>(small(Kind::Score), |_| Err(Problem::new(Code::NotFound, "no"))).await;
+        assert_eq!(pool.run(small(JobKind::Score), |_| Ok(7)).await.unwrap(), 7);
+        let refused =
+            pool.run::<()>(small(JobKind::Score), |_| Err(Problem::new(Code::NotFound, "no"))).await;
         assert_eq!(refused.unwrap_err().code, Code::NotFound);
         #[allow(clippy::panic, reason = "the worker must survive it")]
-        let broken = pool.run::<()>(small(Kind::Score), |_| panic!("on purpose")).await;
+        let broken = pool.run::<()>(small(JobKind::Score), |_| panic!("on purpose")).await;
         assert_eq!(broken.unwrap_err().code, Code::Internal);
-        assert_eq!(pool.run(small(Kind::Score), |_| Ok(8)).await.unwrap(), 8, "the worker goes on");
+        assert_eq!(pool.run(small(JobKind::Score), |_| Ok(8)).await.unwrap(), 8, "the worker goes on");
         pool.stop();
     }
 
@@ -133,13 +134,13 @@ mod tests {
                 }
                 Ok(())
             };
-            tokio::spawn(async move { pool.run(small(Kind::Place), work).await })
+            tokio::spawn(async move { pool.run(small(JobKind::Place), work).await })
         };
         let running = hold(&release);
         tokio::time::sleep(Duration::from_millis(100)).await;
         let waiting = hold(&release);
         tokio::time::sleep(Duration::from_millis(100)).await;
-        let refused = pool.run(small(Kind::Place), |_| Ok(())).await.unwrap_err();
+        let refused = pool.run(small(JobKind::Place), |_| Ok(())).await.unwrap_err();
         assert_eq!(refused.code, Code::Busy);
         assert!(refused.members.retry_after_s.is_some());
         assert_eq!(pool.document(1 << 20, || Ok(3)).await.unwrap(), 3);
@@ -160,7 +161,7 @@ mod tests {
             told.store(true, Ordering::Relaxed);
             Ok(())
         };
-        let late = pool.run(small(Kind::Export), work).await.unwrap_err();
+        let late = pool.run(small(JobKind::Export), work).await.unwrap_err();
         assert_eq!((late.code, late.members.limit), (Code::GenerateTimeout, Some(0)));
         tokio::time::sleep(Duration::from_millis(100)).await;
         assert!(seen.load(Ordering::Relaxed), "the work was told to stop");
@@ -175,7 +176,7 @@ mod tests {
     ) -> tokio::task::JoinHandle<()> {
         let (pool, done) = (Arc::clone(pool), Arc::clone(done));
         let caller = Caller { connection: Some(connection), ..Caller::default() };
-        let asked = Asked { kind: Kind::Place, cost: Duration::from_millis(ms), caller };
+        let asked = JobRequest { kind: JobKind::Place, cost: Duration::from_millis(ms), caller };
         let work = move |_: &experts::Cancel| {
             std::thread::sleep(Duration::from_millis(40));
             done.lock().unwrap().push(name);
@@ -205,7 +206,7 @@ mod tests {
         let pool = pool(Limits { running: 1, ..Limits::default() });
         let call = |background, cost_ms, ms| {
             let caller = Caller { background, ..Caller::default() };
-            let asked = Asked { kind: Kind::Generate, cost: Duration::from_millis(cost_ms), caller };
+            let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_millis(cost_ms), caller };
             let work = move |_: &experts::Cancel| {
                 std::thread::sleep(Duration::from_millis(ms));
                 // Of this thread, on Linux.
@@ -234,9 +235,9 @@ mod tests {
         let done: Arc<Mutex<Vec<&'static str>>> = Arc::default();
         let (own, noting) = (Arc::clone(&pool), Arc::clone(&done));
         let caller = Caller { connection: Some(1), ..Caller::default() };
-        let asked = Asked { kind: Kind::Generate, cost: Duration::from_secs(4), caller };
+        let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_secs(4), caller };
         let (sender, receiver) = tokio::sync::oneshot::channel();
-        let answer = Arc::new(super::Answer(Mutex::new(Some(sender))));
+        let answer = Arc::new(super::ReplySlot(Mutex::new(Some(sender))));
         let (_, hold) = pool
             .submit(asked, |ticket| {
                 let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));

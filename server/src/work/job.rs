@@ -1,6 +1,6 @@
 //! One job: who asked, what is to be done, and its one end.
 
-use super::kind::{Kind, Lane};
+use super::kind::{JobKind, PoolLane};
 use super::lock;
 use super::sync::Mutex;
 use crate::base::metrics;
@@ -26,8 +26,8 @@ pub struct Caller {
 }
 
 impl Caller {
-    /// Who takes turns with others: the client where one is named, else the connection.
-    pub(super) fn party(&self) -> String {
+    /// The name under which callers take turns: the client where one is named, else the connection.
+    pub(super) fn name(&self) -> String {
         match (&self.client, self.connection) {
             (Some((client, _)), _) => client.clone(),
             (None, Some(number)) => format!("#{number}"),
@@ -36,20 +36,20 @@ impl Caller {
     }
 }
 
-/// A call for work.
+/// A request for a job.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct JobRequest {
     /// What is to be done.
-    pub kind: Kind,
+    pub kind: JobKind,
     /// How long it will take one thread, about.
     pub cost: Duration,
     /// Who asks.
     pub caller: Caller,
 }
 
-impl Asked {
+impl JobRequest {
     /// Its queue.
-    pub fn lane(&self) -> Lane {
+    pub fn lane(&self) -> PoolLane {
         self.kind.lane(self.cost, self.caller.background)
     }
 }
@@ -114,10 +114,10 @@ impl Ticket {
 
 /// A job that waits or is worked on.
 pub struct Job {
-    pub(super) kind: Kind,
-    pub(super) lane: Lane,
+    pub(super) kind: JobKind,
+    pub(super) lane: PoolLane,
     pub(super) cost: Duration,
-    pub(super) party: String,
+    pub(super) caller: String,
     pub(super) ticket: Arc<Ticket>,
     ending: Arc<dyn Ending>,
     work: Mutex<Option<Work>>,
@@ -129,16 +129,16 @@ pub struct Job {
 
 impl Job {
     pub(super) fn new(
-        kind: Kind,
-        lane: Lane,
+        kind: JobKind,
+        lane: PoolLane,
         cost: Duration,
-        party: String,
+        caller: String,
         ticket: Arc<Ticket>,
         ending: Arc<dyn Ending>,
         work: Work,
     ) -> Self {
         let (work, began, paused) = (Mutex::new(Some(work)), Mutex::default(), Mutex::default());
-        Self { kind, lane, cost, party, ticket, ending, work, began, paused }
+        Self { kind, lane, cost, caller, ticket, ending, work, began, paused }
     }
 
     /// A worker takes it.

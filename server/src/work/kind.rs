@@ -5,9 +5,9 @@ use std::time::Duration;
 /// Calls that are expected to take longer wait among themselves.
 const PATIENT: Duration = Duration::from_millis(150);
 
-/// Which queue a job waits in.
+/// A queue of the pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lane {
+pub enum PoolLane {
     /// Calls that people wait for.
     Quick,
     /// Calls that take long whoever waits.
@@ -18,7 +18,7 @@ pub enum Lane {
     Document,
 }
 
-impl Lane {
+impl PoolLane {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Quick, Self::Patient, Self::Background, Self::Document];
 
@@ -44,9 +44,9 @@ impl Lane {
     }
 }
 
-/// A sort of work.
+/// A kind of job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum JobKind {
     /// Futures.
     Generate,
     /// Road users on a map.
@@ -63,7 +63,7 @@ pub enum Kind {
     Document,
 }
 
-impl Kind {
+impl JobKind {
     /// Label of metrics.
     pub fn name(self) -> &'static str {
         match self {
@@ -91,12 +91,12 @@ impl Kind {
     }
 
     /// Queue of such work that is expected to take so long, or that nobody waits for.
-    pub fn lane(self, cost: Duration, background: bool) -> Lane {
+    pub fn lane(self, cost: Duration, background: bool) -> PoolLane {
         match self {
-            Self::Document => Lane::Document,
-            _ if cost > PATIENT => Lane::Patient,
-            _ if background => Lane::Background,
-            _ => Lane::Quick,
+            Self::Document => PoolLane::Document,
+            _ if cost > PATIENT => PoolLane::Patient,
+            _ if background => PoolLane::Background,
+            _ => PoolLane::Quick,
         }
     }
 }

@@ -12,6 +12,7 @@
 
 mod call;
 mod clients;
+mod fair_queue;
 mod job;
 mod kind;
 #[cfg(test)]
@@ -19,18 +20,17 @@ mod kind;
 mod schedules;
 mod state;
 mod sync;
-mod turns;
 
 pub use call::superseded;
-pub use job::{Asked, Caller, Ending, Stop, Ticket, Work};
-pub use kind::{Kind, Lane};
+pub use job::{Caller, Ending, JobRequest, Stop, Ticket, Work};
+pub use kind::{JobKind, PoolLane};
 
 use crate::base::id;
 use crate::base::limits::Limits;
 use crate::base::metrics;
 use api::{Code, Problem};
 use job::Job;
-use state::State;
+use state::PoolState;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};
@@ -44,7 +44,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 /// The calling thread, and those that it starts, leave the cores to others as the work of a lane does (nice(2)). On
 /// Linux alone: elsewhere this would be said of the whole process.
-pub fn give_way(lane: Lane) {
+pub fn give_way(lane: PoolLane) {
     #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
     // Where that is not allowed it works as the others do.
     let _ = rustix::process::nice(lane.nice());
@@ -54,9 +54,9 @@ pub fn give_way(lane: Lane) {
 
 /// Shared by handlers and workers.
 pub struct Pool {
-    state: Mutex<State>,
+    state: Mutex<PoolState>,
     /// One for the threads of each lane: whoever is woken for nothing takes a core from whom it was woken by.
-    arrived: [Condvar; Lane::ALL.len()],
+    arrived: [Condvar; PoolLane::ALL.len()],
     limits: Arc<Limits>,
     stopped: AtomicBool,
 }
@@ -68,17 +68,17 @@ impl Pool {
     /// When the system gives no thread.
     pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
         let pool = Arc::new(Self {
-            state: Mutex::new(State::new(limits)),
+            state: Mutex::new(PoolState::new(limits)),
             arrived: Default::default(),
             limits: Arc::clone(limits),
             stopped: AtomicBool::new(false),
         });
         for number in 0..limits.workers() {
             pool.spawn(format!("worker-{number}"), |pool| {
-                give_way(Lane::Quick);
-                pool.work(&[Lane::Quick, Lane::Document]);
+                give_way(PoolLane::Quick);
+                pool.work(&[PoolLane::Quick, PoolLane::Document]);
             })?;
-            for lane in [Lane::Patient, Lane::Background] {
+            for lane in [PoolLane::Patient, PoolLane::Background] {
                 pool.spawn(format!("{}-{number}", lane.name()), move |pool| {
                     give_way(lane);
                     pool.work(&[lane]);
@@ -86,7 +86,7 @@ impl Pool {
             }
         }
         for number in 0..limits.readers() {
-            pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Document]))?;
+            pool.spawn(format!("reader-{number}"), |pool| pool.work(&[PoolLane::Document]))?;
         }
         pool.spawn("watch".into(), Self::watch)?;
         Ok(pool)
@@ -104,14 +104,14 @@ impl Pool {
     /// be tried again.
     pub fn submit<E: Ending + 'static>(
         self: &Arc<Self>,
-        asked: Asked,
+        asked: JobRequest,
         make: impl FnOnce(&Arc<Ticket>) -> (Arc<E>, Work),
     ) -> Result<(Arc<E>, Handle), Problem> {
-        let (lane, party) = (asked.lane(), asked.caller.party());
-        let Asked { kind, cost, caller } = asked;
+        let (lane, caller_name) = (asked.lane(), asked.caller.name());
+        let JobRequest { kind, cost, caller } = asked;
         let mut state = lock(&self.state);
         // Documents of calls that are under way are still read and written while the server closes.
-        let refused = state.closing && lane != Lane::Document;
+        let refused = state.closing && lane != PoolLane::Document;
         if refused || self.stopped.load(Ordering::Relaxed) {
             return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
         }
@@ -135,22 +135,22 @@ impl Pool {
         let ticket = Arc::new(Ticket::new(id, caller.client, before));
         let (ending, work) = make(&ticket);
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
-        let job = Arc::new(Job::new(kind, lane, cost, party, ticket, end, work));
+        let job = Arc::new(Job::new(kind, lane, cost, caller_name, ticket, end, work));
         state.arrived(&job);
         // A worker reads documents too, while all readers are at it or have been called for others already.
-        let reads = lane == Lane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
-        let wakes = if reads { Lane::Quick } else { lane };
+        let reads = lane == PoolLane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
+        let wakes = if reads { PoolLane::Quick } else { lane };
         drop(state);
         self.arrived[wakes as usize].notify_one();
         Ok((ending, Handle { job, pool: Arc::clone(self) }))
     }
 
-    fn check_room(&self, state: &mut State, lane: Lane, client: Option<&str>) -> Result<(), Problem> {
+    fn check_room(&self, state: &mut PoolState, lane: PoolLane, client: Option<&str>) -> Result<(), Problem> {
         let waiting = state.waiting_beside(lane, client);
         if (waiting as u64) < self.limits.queue {
             return Ok(());
         }
-        let threads = if lane == Lane::Document { self.limits.readers() } else { self.limits.workers() };
+        let threads = if lane == PoolLane::Document { self.limits.readers() } else { self.limits.workers() };
         let wait_s = state.lane(lane).wait_s(threads).ceil().clamp(1.0, 60.0);
         let detail = format!("{waiting} calls are waiting already.");
         Err(Problem::new(Code::Busy, detail).retry_after(wait_s as u64))
@@ -162,7 +162,7 @@ impl Pool {
     /// # Errors
     /// `busy`.
     pub fn expects(&self, client: Option<&str>) -> Result<(), Problem> {
-        self.check_room(&mut lock(&self.state), Lane::Quick, client)
+        self.check_room(&mut lock(&self.state), PoolLane::Quick, client)
     }
 
     /// Cancels a job by its id; unknown ids are nothing to do.
@@ -177,7 +177,7 @@ impl Pool {
     /// True when another call would be queued.
     pub fn has_room(&self) -> bool {
         let mut state = lock(&self.state);
-        !state.closing && (state.lane(Lane::Quick).queue.len() as u64) < self.limits.queue
+        !state.closing && (state.lane(PoolLane::Quick).queue.len() as u64) < self.limits.queue
     }
 
     /// Takes no more long work.
@@ -196,14 +196,14 @@ impl Pool {
     }
 
     /// Works on jobs of these lanes, the first one first, until the pool stops.
-    fn work(&self, lanes: &[Lane]) {
+    fn work(&self, lanes: &[PoolLane]) {
         while let Some(job) = self.take(lanes) {
             self.perform(&job);
         }
     }
 
     /// The next job to work on; `None` when the pool has stopped.
-    fn take(&self, lanes: &[Lane]) -> Option<Arc<Job>> {
+    fn take(&self, lanes: &[PoolLane]) -> Option<Arc<Job>> {
         let mut state = lock(&self.state);
         loop {
             if self.stopped.load(Ordering::Relaxed) {
@@ -241,9 +241,9 @@ impl Pool {
     pub fn let_smaller_go(&self, ticket: &Ticket) {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
         let began = Instant::now();
-        let goes = |job: &Job| job.party != own.party && 4 * job.cost <= own.cost;
-        while own.lane == Lane::Patient && !self.stopped.load(Ordering::Relaxed) {
-            let Some(job) = lock(&self.state).next(Lane::Patient, goes) else { break };
+        let goes = |job: &Job| job.caller != own.caller && 4 * job.cost <= own.cost;
+        while own.lane == PoolLane::Patient && !self.stopped.load(Ordering::Relaxed) {
+            let Some(job) = lock(&self.state).next(PoolLane::Patient, goes) else { break };
             self.perform(&job);
         }
         own.paused(began.elapsed());

@@ -4,8 +4,8 @@
 //!
 //! `SCHEDULES` says how many orders of each drama are gone through by each of two ways to draw them.
 
-use super::job::{Asked, Caller, Ending, Stop, Ticket, Work};
-use super::kind::{Kind, Lane};
+use super::job::{Caller, Ending, JobRequest, Stop, Ticket, Work};
+use super::kind::{JobKind, PoolLane};
 use super::sync::{Condvar, Mutex, thread};
 use super::{Handle, Pool, lock};
 use crate::base::limits::Limits;
@@ -101,24 +101,24 @@ fn pool(running: u64, queue: u64) -> Arc<Pool> {
     Pool::start(&Arc::new(Limits { running, queue, ..Limits::default() })).unwrap()
 }
 
-fn asked(kind: Kind, cost_ms: u64, id: &str, party: u64) -> Asked {
-    let caller = Caller { job: Some(id.to_owned()), connection: Some(party), ..Caller::default() };
-    Asked { kind, cost: Duration::from_millis(cost_ms), caller }
+fn asked(kind: JobKind, cost_ms: u64, id: &str, connection: u64) -> JobRequest {
+    let caller = Caller { job: Some(id.to_owned()), connection: Some(connection), ..Caller::default() };
+    JobRequest { kind, cost: Duration::from_millis(cost_ms), caller }
 }
 
-fn quick(id: &str, party: u64) -> Asked {
-    asked(Kind::Score, 1, id, party)
+fn quick(id: &str, connection: u64) -> JobRequest {
+    asked(JobKind::Score, 1, id, connection)
 }
 
-fn revision(number: u64) -> Asked {
+fn revision(number: u64) -> JobRequest {
     let caller = Caller { client: Some(("hand".into(), number)), ..quick(&format!("r{number}"), 1).caller };
-    Asked { caller, ..quick("", 1) }
+    JobRequest { caller, ..quick("", 1) }
 }
 
 type Call = (Arc<End>, Handle);
 
 /// Asks for work that takes a few steps and looks between them whether it is still wanted.
-fn ask(pool: &Arc<Pool>, asked: Asked, step: impl Fn(&Ticket) + Send + 'static) -> Result<Call, Code> {
+fn ask(pool: &Arc<Pool>, asked: JobRequest, step: impl Fn(&Ticket) + Send + 'static) -> Result<Call, Code> {
     let call = pool.submit(asked, |ticket| {
         let end = Arc::new(End::default());
         let (own, ticket) = (Arc::clone(&end), Arc::clone(ticket));
@@ -148,9 +148,9 @@ fn holds(pool: &Pool) {
     if state.closing {
         return;
     }
-    let waiting: usize = Lane::ALL.into_iter().map(|lane| state.lane(lane).queue.len()).sum();
+    let waiting: usize = PoolLane::ALL.into_iter().map(|lane| state.lane(lane).queue.len()).sum();
     assert_eq!(state.jobs.len(), waiting + state.running(), "each call waits or is worked on");
-    for lane in Lane::ALL {
+    for lane in PoolLane::ALL {
         assert!(state.lane(lane).queue.len() as u64 <= pool.limits.queue, "{lane:?} is over its bound");
     }
 }
@@ -159,7 +159,7 @@ fn holds(pool: &Pool) {
 fn close(pool: &Arc<Pool>) {
     loop {
         let mut state = lock(&pool.state);
-        let waiting: usize = Lane::ALL.into_iter().map(|lane| state.lane(lane).queue.len()).sum();
+        let waiting: usize = PoolLane::ALL.into_iter().map(|lane| state.lane(lane).queue.len()).sum();
         if state.running() == 0 {
             assert_eq!((waiting, state.jobs.len()), (0, 0), "nothing is left behind");
             break;
@@ -175,11 +175,11 @@ fn a_crowd(generate_s: u64) {
     let limits = Limits { running: 1, queue: 2, generate_s, ..Limits::default() };
     let pool = Pool::start(&Arc::new(limits)).unwrap();
     let callers: Vec<_> = (0..3)
-        .map(|party| {
+        .map(|connection| {
             let pool = Arc::clone(&pool);
             thread::spawn(move || {
                 for k in 0..2 {
-                    match ask(&pool, quick(&format!("{party}-{k}"), party), steps) {
+                    match ask(&pool, quick(&format!("{connection}-{k}"), connection), steps) {
                         Ok((end, _hold)) => match end.wait() {
                             How::Done => assert_eq!(end.runs(), 1),
                             other => assert_eq!(other, How::Refused(Code::GenerateTimeout)),
@@ -295,7 +295,7 @@ fn giving_up_meets_working_at_any_moment() {
 }
 
 /// Calls that wait for each other: they only end where all of them are worked on at the same time.
-fn side_by_side(pool: &Arc<Pool>, calls: &[(Kind, u64)]) {
+fn side_by_side(pool: &Arc<Pool>, calls: &[(JobKind, u64)]) {
     let doors: Vec<Arc<Door>> = calls.iter().map(|_| Arc::default()).collect();
     let mut held = Vec::new();
     for (own, (kind, cost_ms)) in calls.iter().enumerate() {
@@ -315,7 +315,7 @@ fn all_threads_work_while_there_is_work_for_them() {
         let pool = pool(2, 8);
         side_by_side(
             &pool,
-            &[(Kind::Score, 1), (Kind::Score, 1), (Kind::Generate, 900), (Kind::Document, 1)],
+            &[(JobKind::Score, 1), (JobKind::Score, 1), (JobKind::Generate, 900), (JobKind::Document, 1)],
         );
         close(&pool);
     });
@@ -326,7 +326,7 @@ fn a_worker_reads_what_the_readers_cannot() {
     explore(|| {
         let pool = pool(1, 8);
         let readers = pool.limits.readers();
-        side_by_side(&pool, &vec![(Kind::Document, 1); readers + 1]);
+        side_by_side(&pool, &vec![(JobKind::Document, 1); readers + 1]);
         close(&pool);
     });
 }
@@ -337,14 +337,14 @@ fn a_long_call_lets_smaller_ones_go_and_comes_back() {
         let pool = pool(1, 8);
         let own = Arc::clone(&pool);
         let let_go = move |ticket: &Ticket| own.let_smaller_go(ticket);
-        let (long, _hold) = ask(&pool, asked(Kind::Generate, 4_000, "long", 1), let_go).unwrap();
+        let (long, _hold) = ask(&pool, asked(JobKind::Generate, 4_000, "long", 1), let_go).unwrap();
         let callers: Vec<_> = (2..4)
-            .map(|party| {
+            .map(|connection| {
                 let pool = Arc::clone(&pool);
                 thread::spawn(move || {
-                    let small = asked(Kind::Generate, 500, &format!("small-{party}"), party);
+                    let small = asked(JobKind::Generate, 500, &format!("small-{connection}"), connection);
                     let (end, hold) = ask(&pool, small, steps).unwrap();
-                    if party == 2 {
+                    if connection == 2 {
                         drop(hold);
                         assert!(matches!(end.wait(), How::Done | How::Refused(Code::Cancelled)));
                         return;
@@ -364,9 +364,9 @@ fn a_stop_ends_everybody_once() {
     explore(|| {
         let pool = pool(1, 2);
         let callers: Vec<_> = (0..3)
-            .map(|party| {
+            .map(|connection| {
                 let pool = Arc::clone(&pool);
-                thread::spawn(move || match ask(&pool, quick(&format!("{party}"), party), steps) {
+                thread::spawn(move || match ask(&pool, quick(&format!("{connection}"), connection), steps) {
                     Ok((end, _hold)) => {
                         let how = end.wait();
                         assert!(matches!(how, How::Done | How::Refused(Code::ShuttingDown)), "{how:?}");

@@ -1,9 +1,9 @@
 //! What the pool knows: who waits in which lane, who is worked on, and whose turn it is.
 
 use super::clients::Clients;
+use super::fair_queue::FairQueue;
 use super::job::{Job, Stop};
-use super::kind::Lane;
-use super::turns::Turns;
+use super::kind::PoolLane;
 use crate::base::limits::Limits;
 use crate::base::metrics;
 use std::collections::{HashMap, VecDeque};
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// Jobs of one lane.
 #[derive(Default)]
-pub struct Traffic {
+pub struct LaneQueue {
     /// In the order of their arrival.
     pub queue: VecDeque<Arc<Job>>,
     /// How many are worked on.
@@ -21,7 +21,7 @@ pub struct Traffic {
     pace: Option<f64>,
 }
 
-impl Traffic {
+impl LaneQueue {
     /// How long a new job would wait for one of so many threads, seconds.
     pub fn wait_s(&self, threads: usize) -> f64 {
         let waiting: f64 = self.queue.iter().map(|job| job.cost.as_secs_f64()).sum();
@@ -37,20 +37,20 @@ impl Traffic {
 }
 
 /// All lanes and jobs.
-pub struct State {
-    lanes: [Traffic; Lane::ALL.len()],
+pub struct PoolState {
+    lanes: [LaneQueue; PoolLane::ALL.len()],
     /// By id: those that wait and those that are worked on.
     pub jobs: HashMap<String, Arc<Job>>,
     /// Revisions of clients.
     pub clients: Clients,
-    turns: Turns,
+    fair_queue: FairQueue,
     /// Threads that wait, by the first lane that they take.
-    pub idle: [usize; Lane::ALL.len()],
+    pub idle: [usize; PoolLane::ALL.len()],
     /// No more calls are taken.
     pub closing: bool,
 }
 
-impl State {
+impl PoolState {
     /// Nobody is there.
     pub fn new(limits: &Limits) -> Self {
         let idle = Duration::from_secs(limits.client_idle_s);
@@ -58,14 +58,14 @@ impl State {
             lanes: Default::default(),
             jobs: HashMap::new(),
             clients: Clients::new(limits.clients as usize, idle),
-            turns: Turns::default(),
-            idle: [0; Lane::ALL.len()],
+            fair_queue: FairQueue::default(),
+            idle: [0; PoolLane::ALL.len()],
             closing: false,
         }
     }
 
     /// Jobs of a lane.
-    pub fn lane(&mut self, lane: Lane) -> &mut Traffic {
+    pub fn lane(&mut self, lane: PoolLane) -> &mut LaneQueue {
         &mut self.lanes[lane as usize]
     }
 
@@ -75,7 +75,7 @@ impl State {
     }
 
     /// How many wait in a lane beside those of this client, which a newer revision of it would end.
-    pub fn waiting_beside(&mut self, lane: Lane, client: Option<&str>) -> usize {
+    pub fn waiting_beside(&mut self, lane: PoolLane, client: Option<&str>) -> usize {
         let own = |job: &&Arc<Job>| client.is_some() && job.client() == client;
         let queue = &self.lane(lane).queue;
         queue.len() - queue.iter().filter(own).count()
@@ -88,13 +88,13 @@ impl State {
         self.show();
     }
 
-    /// Takes the job of a lane out of its queue whose party was served longest ago, among those that fit.
-    pub fn next(&mut self, lane: Lane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
+    /// Takes the job out of a lane's queue whose caller was served longest ago, among those that fit.
+    pub fn next(&mut self, lane: PoolLane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
-        let (at, _) = fitting.min_by_key(|(_, job)| self.turns.last(&job.party))?;
+        let (at, _) = fitting.min_by_key(|(_, job)| self.fair_queue.last_turn(&job.caller))?;
         let job = self.lane(lane).queue.remove(at)?;
-        self.turns.serve(&job.party);
+        self.fair_queue.serve(&job.caller);
         self.lane(lane).running += 1;
         self.show();
         Some(job)
@@ -130,7 +130,7 @@ impl State {
 
     /// Tells the metrics.
     pub fn show(&self) {
-        for (lane, traffic) in Lane::ALL.iter().zip(&self.lanes) {
+        for (lane, traffic) in PoolLane::ALL.iter().zip(&self.lanes) {
             metrics::load(lane.name(), traffic.queue.len(), traffic.running);
         }
     }

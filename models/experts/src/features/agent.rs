@@ -11,7 +11,7 @@ use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::world::{AgentAtStart, Waypoint, World};
 use crate::planning::{INSTANT_S, INSTANTS, MODES};
 use scene::geometry::obb::OrientedBox;
-use scene::motion::{Kind, MotionModel, Target};
+use scene::motion::{MotionKind, MotionModel, Target};
 use scene::score::Drivable;
 use scene::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use std::sync::Arc;
@@ -138,7 +138,7 @@ impl AgentPlan {
 /// See [`AgentPlan::ground`].
 /// On wheels it fades after a goal with a place, by e in `fading_s` seconds; on foot nobody keeps to a lane.
 fn aside_share(model: &MotionModel, target: &Target, fading_s: f64) -> [f64; INSTANTS] {
-    let fades = model.kind == Kind::Drive && target.position.is_some();
+    let fades = model.kind == MotionKind::Drive && target.position.is_some();
     std::array::from_fn(|i| {
         let past_s = (i + 1) as f64 * INSTANT_S - target.step as f64 * STEP_S;
         if fades && past_s > 0.0 { (-past_s / fading_s).exp() } else { 1.0 }

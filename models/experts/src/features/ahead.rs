@@ -3,7 +3,7 @@
 use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::direction;
-use scene::routes::{Beside, LaneGraph, Leg, Route, speed};
+use scene::routes::{AdjacentLane, LaneGraph, Leg, Route, speed};
 use scene::{SignalState, wrap_angle};
 
 /// Standing road users this far ahead count as a queue, metres.
@@ -104,7 +104,7 @@ fn junction(route: &Route, graph: &LaneGraph) -> Option<JunctionAhead> {
 fn beside(route: &Route, graph: &LaneGraph) -> [usize; 3] {
     let Some(leg) = route.legs.first() else { return [0; 3] };
     let lane = &graph.lanes()[leg.lane];
-    let count = |side: &[Beside], same_way: bool| {
+    let count = |side: &[AdjacentLane], same_way: bool| {
         side.iter().filter(|b| b.same_direction == same_way && b.across(leg.from_m).is_some()).count()
     };
     [count(&lane.left, true), count(&lane.right, true), count(&lane.left, false)]

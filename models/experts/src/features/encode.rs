@@ -1,11 +1,10 @@
 //! A road user, its neighbours and its anchors as rows of the tables.
 
-use super::NEIGHBOURS;
 use super::ahead::{LightAhead, PathFacts};
 use super::block::{encoded, flag};
 use super::tables::{
-    ANCHOR, AnchorInputs, BASE_STEPS, BaseInstant, KindFlags, LightFlags, NEIGHBOUR, Neighbour, OWN, Own,
-    PATH_POINTS, PathFlags, PathPoint,
+    ANCHOR, AnchorInputs, BASE_STEPS, BaseInstant, KindFlags, LightFlags, NEIGHBOUR, NEIGHBOURS, Neighbour,
+    OWN, Own, PATH_POINTS, PathFlags, PathPoint,
 };
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, PathKind};

@@ -13,14 +13,12 @@ mod tangent;
 mod tests;
 
 pub use tables::{
-    ANCHOR, NEIGHBOUR, NEIGHBOUR_GOAL, OWN, OWN_CONDITION, OWN_GOAL, OWN_GOAL_POSITION, OWN_GOAL_VALUES,
+    ANCHOR, NEIGHBOUR, NEIGHBOUR_GOAL, NEIGHBOURS, OWN, OWN_CONDITION, OWN_GOAL, OWN_GOAL_POSITION,
+    OWN_GOAL_VALUES,
 };
 
 use crate::planning::{INSTANTS, MODES};
 use scene::KNOTS;
-
-/// Most other road users seen.
-pub const NEIGHBOURS: usize = 16;
 
 /// Share of standing road users that get a training record, so that moving ones are not drowned.
 pub const STANDING_SHARE: f64 = 0.06;

@@ -3,12 +3,14 @@
 //! The order of the fields is the order of the inputs; the weights' header holds a hash of these tables. A changed
 //! name, unit, scale or order asks for weights that were trained on it. `docs/features.md` is made from here.
 
-use super::NEIGHBOURS;
 use super::block::{Block, Feature, block, described, index_of};
 use crate::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::ContentHash;
 use std::fmt::Write;
 use std::ops::Range;
+
+/// Most other road users seen.
+pub const NEIGHBOURS: usize = 16;
 
 block! {
     /// What kind of road user somebody is; all zero for any other.

@@ -8,7 +8,7 @@ use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::tuning::SpeedTuning;
 use crate::tuning::fixed::actor::BESIDE_LANE_M;
 use scene::geometry::direction;
-use scene::motion::{Gear, Kind};
+use scene::motion::{Gear, MotionKind};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
 
 /// A road user that gets new futures.
@@ -97,7 +97,7 @@ impl PlannedActor {
         self.stays_parked = parked && plan.is_free();
         let start = &plan.present.start;
         let ahead_mps = start.velocity().dot(&direction(start.heading_rad));
-        if plan.model.kind == Kind::Drive && ahead_mps < -1e-3 {
+        if plan.model.kind == MotionKind::Drive && ahead_mps < -1e-3 {
             plan.model = plan.model.in_gear(Gear::Reverse);
         }
     }

@@ -228,14 +228,14 @@ mod tests {
 
     #[test]
     fn a_missed_goal_is_worse() {
-        use scene::motion::{GoalError, Limiting, Reach};
+        use scene::motion::{Limiting, Reach, TargetError};
         let mut all = [
             at(0.0, 0.5, CandidateOrigin::Mode(Slot::new(0))),
             at(0.0, 0.5, CandidateOrigin::Mode(Slot::new(1))),
         ];
         let nearest = all[0].motion.states[0];
         all[0].motion.reach = Reach::Unreachable {
-            residuals: GoalError::default(),
+            residuals: TargetError::default(),
             nearest,
             limiting: Limiting::Speed,
             needs: None,

@@ -12,7 +12,7 @@ use crate::planning::profile::{Caps, approaching};
 use crate::planning::{ALONG_SCALE, INSTANTS, MODES, Modes, PER_INSTANT, Residual};
 use crate::tuning::DuplicateTuning;
 use nalgebra::{SMatrix, SVector};
-use scene::motion::Kind;
+use scene::motion::MotionKind;
 use scene::{AgentType, KNOTS, Vec2};
 use std::sync::LazyLock;
 
@@ -119,8 +119,8 @@ fn pace(plan: &AgentPlan, slot: Slot, rule: &Rule, speed_mps: f64) -> [f32; KNOT
     });
     let anchor = &plan.anchors[slot.index()];
     let caps = match plan.model.kind {
-        Kind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
-        Kind::Walk => Caps::new(&[0.0], &[f64::INFINITY]),
+        MotionKind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+        MotionKind::Walk => Caps::new(&[0.0], &[f64::INFINITY]),
     };
     let v0 = plan.model.start_speed_mps();
     // A road user that is faster than the pace of going keeps its own speed.

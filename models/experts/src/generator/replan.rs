@@ -11,7 +11,7 @@ use crate::tuning::ReplanTuning;
 use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
-use scene::motion::{Gear, Kind, Trajectory};
+use scene::motion::{Gear, MotionKind, Trajectory};
 use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::score::CLOSE_M;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
@@ -365,7 +365,7 @@ impl<'a> ShiftSearch<'a> {
     /// Progress never falls, and wheels go aside only as they roll.
     fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
         let way_m = way_m + f64::from(ahead) * AHEAD_M;
-        let rolls = self.plan.model.kind == Kind::Drive;
+        let rolls = self.plan.model.kind == MotionKind::Drive;
         way_m >= 0.0 && (!rolls || f64::from(aside.abs()) * ASIDE_M <= SLOPE * way_m + 1e-9)
     }
 }

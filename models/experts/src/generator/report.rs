@@ -11,7 +11,7 @@ use crate::sentences::{self, Need, Speed, kind};
 use crate::tuning::fixed::report::OFF_ROAD_M;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::message::Message;
-use scene::motion::{Kind, Limiting, MotionState, Reach};
+use scene::motion::{Limiting, MotionKind, MotionState, Reach};
 use scene::via::passings;
 use scene::{AgentId, AgentType, Conditions, Passing, STEP_S, State, Via, wrap_angle};
 
@@ -127,7 +127,7 @@ pub(super) fn reach_report(
             };
             ReachReport::Unreachable {
                 nearest: nearest.into(),
-                limiting: (*limiting).into(),
+                limiting: *limiting,
                 needs: *needs,
                 words: message.to_string(),
                 message,
@@ -155,7 +155,7 @@ fn reason(
     let start = planned.present.start;
     let most_m = (nearest.position - start.position()).norm();
     let goal_m = planned.target.position.map(|p| (p - start.position()).norm());
-    let start_mps = Speed { mps: start.speed_mps(), on_foot: planned.model.kind == Kind::Walk };
+    let start_mps = Speed { mps: start.speed_mps(), on_foot: planned.model.kind == MotionKind::Walk };
     let need = |unit| Need { amount: needs, unit };
     match (limiting, goal_m) {
         (Limiting::Acceleration | Limiting::Speed, Some(goal_m)) if goal_m > most_m => {

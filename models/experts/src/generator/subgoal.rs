@@ -2,7 +2,7 @@
 
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::NearestState;
-use scene::motion::{Kind, MotionModel};
+use scene::motion::{MotionKind, MotionModel};
 use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};
 use scene::{Goal, HORIZON_STEPS, STEP_S, Vec2, Via};
 
@@ -105,11 +105,11 @@ fn on_the_way(
 
 /// The goal of a window that ends in a state on the way: without a place to go to, where it goes
 /// stays free, and its heading too while there is time to turn later.
-pub(super) fn as_goal(state: &NearestState, kind: Kind, goal: &Goal, left: usize, time_s: f64) -> Goal {
+pub(super) fn as_goal(state: &NearestState, kind: MotionKind, goal: &Goal, left: usize, time_s: f64) -> Goal {
     let placed = goal.position.is_some();
     let turns = goal.heading_rad.is_some() && left < HORIZON_STEPS + TURN_STEPS;
     // Feet turn where they walk; wheels have to be led onto the way.
-    let led = if placed { kind == Kind::Drive } else { turns };
+    let led = if placed { kind == MotionKind::Drive } else { turns };
     Goal {
         position: placed.then(|| state.position()),
         heading_rad: led.then_some(state.heading_rad),
@@ -135,7 +135,7 @@ fn path_to(
     position: Vec2,
 ) -> Polyline {
     let straight = || Polyline::new([who.start.position(), position]);
-    if model.kind == Kind::Walk {
+    if model.kind == MotionKind::Walk {
         return straight();
     }
     let v0 = model.start_speed_mps();

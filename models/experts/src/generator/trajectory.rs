@@ -14,8 +14,8 @@ use crate::tuning::fixed::trajectory::{
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
-    Gear, GoalError, Kind, Knots, Limiting, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit,
-    project, refit_after,
+    Gear, Knots, Limiting, MotionKind, MotionState, Projection, Reach, Sampled, Target, TargetError,
+    Trajectory, fit, project, refit_after,
 };
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -210,7 +210,7 @@ pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_the
     let target = if gets_there { projected_onto(plan) } else { free };
     let motion = project(&plan.model, &knots, &target, None);
     let nearest = motion.trajectory[plan.target.step];
-    let residuals = GoalError::of(&nearest, &plan.target);
+    let residuals = TargetError::of(&nearest, &plan.target);
     let reach = if residuals.is_met() {
         Reach::Reached(residuals)
     } else {
@@ -313,7 +313,7 @@ fn backing(plan: &AgentPlan) -> Rollout {
 fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let goal = plan.target.position?;
     let local = plan.model.to_local(goal);
-    let may = plan.model.kind == Kind::Drive
+    let may = plan.model.kind == MotionKind::Drive
         && plan.model.start.velocity().dot(&direction(plan.model.start.heading_rad)) < 0.5
         && local.x < 1.0
         && local.norm() < 30.0;
@@ -323,7 +323,7 @@ fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let model = plan.model.in_gear(Gear::Reverse);
     let backwards = project(&model, &model.coasting(), &plan.target, None);
     let better = |p: &Projection| {
-        let r = GoalError::of(&p.trajectory[plan.target.step], &plan.target);
+        let r = TargetError::of(&p.trajectory[plan.target.step], &plan.target);
         r.position_m + 5.0 * r.heading_rad + r.speed_mps
     };
     (better(&backwards) < better(forwards)).then(|| backwards.into())
@@ -338,7 +338,7 @@ fn still(plan: &AgentPlan) -> MotionState {
 /// Exact rest at the start pose.
 pub(super) fn rest(plan: &AgentPlan) -> Rollout {
     let still = still(plan);
-    let error = GoalError::of(&still, &plan.target);
+    let error = TargetError::of(&still, &plan.target);
     Rollout { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
 }
 
@@ -349,7 +349,7 @@ pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
         .map(|s| MotionState { position: s.position(), heading_rad: s.heading_rad, velocity: s.velocity() })
         .collect();
     let due = states.get(plan.target.step).or(states.last()).copied().unwrap_or_default();
-    Rollout { reach: Reach::Reached(GoalError::of(&due, &plan.target)), states }
+    Rollout { reach: Reach::Reached(TargetError::of(&due, &plan.target)), states }
 }
 
 /// A road user that stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in the whole
@@ -367,7 +367,7 @@ pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
     let standing_mps = if window == 0 { 0.3 } else { 0.05 };
     plan.vias.is_empty()
         && plan.present.start.speed_mps() < standing_mps
-        && GoalError::of(&still(plan), &plan.target).is_met()
+        && TargetError::of(&still(plan), &plan.target).is_met()
 }
 
 #[cfg(test)]

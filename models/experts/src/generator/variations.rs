@@ -14,7 +14,7 @@ pub(super) use crate::tuning::fixed::variations::HURRY;
 use crate::tuning::fixed::variations::{CLEAR_M, GAPS_S, OVER_KERB_M};
 use nalgebra::{DMatrix, DVector};
 use scene::judge::{Trace, crossing};
-use scene::motion::Kind;
+use scene::motion::MotionKind;
 use scene::{AgentType, KNOT_S, KNOTS, STEP_S, Vec2};
 use std::cell::OnceCell;
 
@@ -95,8 +95,8 @@ impl<'a> DraftView<'a> {
         let plan = &self.actor.plan;
         let anchor = &plan.anchors[self.slot.index()];
         let caps = match plan.model.kind {
-            Kind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
-            Kind::Walk => Caps::new(&[0.0], &[2.2]),
+            MotionKind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+            MotionKind::Walk => Caps::new(&[0.0], &[2.2]),
         };
         let v0 = plan.model.start_speed_mps();
         let (mine, theirs) = (self.speeds(), from.speeds());

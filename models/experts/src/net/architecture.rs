@@ -3,7 +3,7 @@
 use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
-use super::NetError;
+use super::error::NetError;
 use crate::features::NEIGHBOURS;
 use crate::features::tables::tables_hash;
 use crate::planning::MODES;

@@ -3,9 +3,9 @@
 
 use candle_core::{Result, Tensor};
 
-use super::NetError;
 use super::architecture::Architecture;
-use super::inputs::Inputs;
+use super::error::NetError;
+use super::inputs::InputTensors;
 use super::layers::{Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;
 use super::params::Params;
@@ -130,7 +130,7 @@ impl ContextEncoder {
     ///
     /// # Errors
     /// When the shapes do not fit.
-    pub fn forward(&self, inputs: &Inputs) -> Result<Context> {
+    pub fn forward(&self, inputs: &InputTensors) -> Result<Context> {
         let batch = inputs.own.dim(0)?;
         let own = self.own.forward(&inputs.own)?;
         let plain_anchors = self.anchor.forward(&inputs.anchors)?;

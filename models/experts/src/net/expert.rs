@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, HashMap};
 use candle_core::{Device, Tensor, Var};
 use serde::{Deserialize, Serialize};
 
-use super::NetError;
 use super::architecture::Architecture;
 use super::encoder::{Context, ContextEncoder};
+use super::error::NetError;
 use super::initializer::{Initial, Initializer};
-use super::inputs::Inputs;
+use super::inputs::InputTensors;
 use super::params::Params;
 use super::refiner::{Prepared, Refiner};
 use crate::features::AgentFeatures;
@@ -179,7 +179,7 @@ impl Expert {
     /// # Errors
     /// When the tensor library fails.
     pub fn encode(&self, agents: &[&AgentFeatures]) -> Result<Context, NetError> {
-        Ok(self.context.forward(&Inputs::stack(agents, &self.device)?)?)
+        Ok(self.context.forward(&InputTensors::stack(agents, &self.device)?)?)
     }
 
     /// First futures of a batch as tensors.

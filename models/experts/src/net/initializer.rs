@@ -2,9 +2,9 @@
 
 use candle_core::{D, Result, Tensor};
 
-use super::NetError;
 use super::architecture::Architecture;
 use super::encoder::Context;
+use super::error::NetError;
 use super::layers::{CrossBlock, Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;
 use super::params::{Init, Params};

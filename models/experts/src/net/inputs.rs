@@ -10,7 +10,7 @@ use crate::planning::{MODES, RESIDUAL};
 pub const NO: f32 = -1e4;
 
 /// Road users as tensors.
-pub struct Inputs {
+pub struct InputTensors {
     /// [batch, OWN]
     pub own: Tensor,
     /// [batch, NEIGHBOURS, NEIGHBOUR]
@@ -23,7 +23,7 @@ pub struct Inputs {
     pub tangent: Tensor,
 }
 
-impl Inputs {
+impl InputTensors {
     /// Stacks road users.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use candle_core::{Result, Tensor};
 
-use super::NetError;
+use super::error::NetError;
 use super::ops;
 use super::params::{Init, Params};
 

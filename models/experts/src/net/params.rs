@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use candle_core::{DType, Device, Tensor, Var};
 use scene::random::{Key, Stream};
 
-use super::NetError;
+use super::error::NetError;
 
 /// First value of a parameter.
 #[derive(Clone, Copy, Debug)]

@@ -5,9 +5,9 @@
 
 use candle_core::{Result, Tensor};
 
-use super::NetError;
 use super::architecture::Architecture;
 use super::encoder::Context;
+use super::error::NetError;
 use super::layers::{Linear, Mlp, MlpBlock, Norm, RELU_GAIN};
 use super::params::Params;
 use super::{ops, schedule, smooth};

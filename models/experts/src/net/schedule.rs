@@ -26,7 +26,7 @@ pub fn ddim(start: usize, steps: usize) -> Vec<(usize, usize)> {
 
 /// What a DDIM step multiplies: `r' = denoised * x0 + drawn * r + fresh * noise`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct DenoisingStep {
     /// Of the denoised residual.
     pub denoised: f64,
     /// Of the residual before the step.
@@ -36,14 +36,14 @@ pub struct Step {
 }
 
 /// The step between two levels; with `eta` 0 it is deterministic, with 1 it draws as the full chain.
-pub fn step(from: usize, to: usize, eta: f64) -> Step {
+pub fn step(from: usize, to: usize, eta: f64) -> DenoisingStep {
     let (a, b) = (signal(from), signal(to));
     if from == 0 || to == 0 {
-        return Step { denoised: b.sqrt(), residual: 0.0, noise: 0.0 };
+        return DenoisingStep { denoised: b.sqrt(), residual: 0.0, noise: 0.0 };
     }
     let noise = eta * ((1.0 - b) / (1.0 - a) * (1.0 - a / b).max(0.0)).sqrt();
     let direction = (1.0 - b - noise * noise).max(0.0).sqrt() / (1.0 - a).sqrt();
-    Step { denoised: b.sqrt() - direction * a.sqrt(), residual: direction, noise }
+    DenoisingStep { denoised: b.sqrt() - direction * a.sqrt(), residual: direction, noise }
 }
 
 #[cfg(test)]

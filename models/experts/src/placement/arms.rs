@@ -1,9 +1,8 @@
 //! Arms: where roads come into a map, or into a drawn part of it. Their lanes are grouped by heading and
 //! nearness, so that a road is one arm whatever it is called in the file.
 
-use super::driving::allowed_mps;
+use super::driving::{SpeedRange, allowed_mps};
 use super::region::Region;
-use super::request::SpeedRange;
 use super::stop_lines::{ShownLights, straightest};
 use crate::tuning::placing::arms::{
     BEHIND_M, FREE_SHARE, LONGEST_M, RAGGED_M, SAME_ROAD_M, SAME_ROAD_RAD, SHORTEST_M,

@@ -425,8 +425,9 @@ fn known(found: &[Arm]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::placement::driving::SpeedRange;
     use crate::placement::region::Region;
-    use crate::placement::request::{Amount, PlaceRequest, Placement, SpeedRange};
+    use crate::placement::request::{Amount, PlaceRequest, Placement};
     use scene::map::{Lane, LaneMap};
     use scene::routes::LaneGraph;
     use scene::{Scene, Signal, SignalState};

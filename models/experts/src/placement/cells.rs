@@ -4,7 +4,6 @@
 mod build;
 
 use super::context::SpeedContext;
-use super::model::cell_kinds;
 use super::region::{Region, in_ring};
 use super::stop_lines::{LineAhead, ShownLights};
 use scene::routes::Polyline;
@@ -40,6 +39,16 @@ pub enum CellKind {
     Pavement,
     /// Parked in a driveway.
     Driveway,
+}
+
+/// Kinds of cells where a type is looked for.
+pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
+    match agent_type {
+        AgentType::Vehicle => &[CellKind::Lane, CellKind::Kerb, CellKind::Driveway],
+        AgentType::Pedestrian => &[CellKind::Crosswalk, CellKind::Pavement],
+        AgentType::Cyclist => &[CellKind::Lane, CellKind::Crosswalk, CellKind::Pavement],
+        AgentType::Other => &[],
+    }
 }
 
 impl CellKind {

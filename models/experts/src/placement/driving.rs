@@ -9,6 +9,14 @@ use scene::routes::speed::{Leader, Obstacle, leader};
 use scene::routes::{LaneGraph, Polyline};
 use scene::{AgentType, Vec2};
 
+/// Between which speeds those start who drive and do not stand, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct SpeedRange {
+    pub min_mps: f64,
+    pub max_mps: f64,
+}
+
 /// Speed that limit and bends allow at a place of a lane, m/s.
 pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: AgentType) -> f64 {
     let most = if agent_type == AgentType::Cyclist { CYCLIST_MPS } else { f64::INFINITY };

@@ -5,8 +5,7 @@
 //! observations and microscopic simulations", Physical Review E 62), with red lights as standing leaders.
 
 use super::arms::ArmPath;
-use super::driving::allowed_mps;
-use super::request::SpeedRange;
+use super::driving::{SpeedRange, allowed_mps};
 use crate::tuning::placing::following::{
     BESIDE_M, BRAKING_MPS2, HARDEST_MPS2, HEADWAY_S, LOOK_M, SPEEDING_UP_MPS2, STANDING_GAP_M,
 };

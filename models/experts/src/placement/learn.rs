@@ -15,12 +15,10 @@ use scene::routes::speed::Obstacle;
 use scene::{Agent, AgentType, Scene, State, Vec2};
 use std::collections::BTreeMap;
 
-pub use super::cells::CellKind;
+pub use super::cells::{CellKind, cell_kinds};
 pub use super::context::{LeaderGap, LeaderPace, PoseContext, RoadAhead, SpeedContext};
 pub use super::driving::speed_class;
-pub use super::model::{
-    FORMAT, Histogram, PlacementModel, Rate, SPEED_CLASSES, TypeModel, VERSION, cell_kinds,
-};
+pub use super::model::{FORMAT, Histogram, PlacementModel, Rate, SPEED_CLASSES, TypeModel, VERSION};
 pub use super::pose::{heading_classes, lateral_classes};
 
 /// Half a side of the square about the ego in which everybody is recorded, metres. Synthetic windows keep

@@ -27,11 +27,12 @@ mod speeds;
 mod stop_lines;
 
 pub use arms::{Arm, ArmLane};
+pub use driving::SpeedRange;
 pub use model::{PlacementInfo, PlacementModel};
 pub use place::place;
 pub use placer::Placer;
 pub use region::{Region, map_bounds, ring_area_m2};
 pub use request::{
     Amount, ArmTraffic, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
-    MAX_SPEED_MPS, Method, Parked, PlaceRequest, Placement, SpeedRange,
+    MAX_SPEED_MPS, Parked, PlaceRequest, Placement, PlacementMethod,
 };

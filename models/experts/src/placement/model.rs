@@ -112,16 +112,6 @@ impl Rate {
     }
 }
 
-/// Kinds of cells where a type is looked for.
-pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
-    match agent_type {
-        AgentType::Vehicle => &[CellKind::Lane, CellKind::Kerb, CellKind::Driveway],
-        AgentType::Pedestrian => &[CellKind::Crosswalk, CellKind::Pavement],
-        AgentType::Cyclist => &[CellKind::Lane, CellKind::Crosswalk, CellKind::Pavement],
-        AgentType::Other => &[],
-    }
-}
-
 impl PlacementModel {
     /// Reads a weights file.
     ///

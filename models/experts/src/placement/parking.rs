@@ -36,9 +36,9 @@ struct ParkingPlace {
     kerb: Option<f64>,
 }
 
-/// What came of parking.
+/// Result of placing parked cars.
 #[derive(Default)]
-pub(super) struct ParkedCars {
+pub(super) struct ParkingResult {
     /// Places that there are; `None` where nobody asked.
     pub(super) places: Option<usize>,
     pub(super) unplaced: usize,
@@ -47,8 +47,8 @@ pub(super) struct ParkedCars {
 
 impl Sampler<'_> {
     /// Parks cars at kerbs and in lots. `free` is what the scene holds.
-    pub(super) fn park(&mut self, free: &mut usize, cancel: &Cancel) -> Result<ParkedCars, GenerateError> {
-        let Some(asked) = self.request.parked else { return Ok(ParkedCars::default()) };
+    pub(super) fn park(&mut self, free: &mut usize, cancel: &Cancel) -> Result<ParkingResult, GenerateError> {
+        let Some(asked) = self.request.parked else { return Ok(ParkingResult::default()) };
         let places = self.places();
         let share = match asked {
             Parked::Share(share) => share,
@@ -57,7 +57,7 @@ impl Sampler<'_> {
         let wanted = (share * places.len() as f64).round() as usize;
         if places.is_empty() {
             let none = "the map has no room for parked cars at its kerbs and no lots".to_owned();
-            return Ok(ParkedCars { places: Some(0), unplaced: 0, reason: (share > 0.0).then_some(none) });
+            return Ok(ParkingResult { places: Some(0), unplaced: 0, reason: (share > 0.0).then_some(none) });
         }
         // Each place has a draw of its own: with more cars those that stand stay.
         let mut order: Vec<(f64, usize)> = (0..places.len())
@@ -84,7 +84,7 @@ impl Sampler<'_> {
         let why = if full { "a scene holds no more road users" } else { "no free place to park" };
         let reason =
             (unplaced > 0).then(|| format!("{why}: {} fewer", counted(unplaced, AgentType::Vehicle)));
-        Ok(ParkedCars { places: Some(places.len()), unplaced, reason })
+        Ok(ParkingResult { places: Some(places.len()), unplaced, reason })
     }
 
     /// A car that stands in a place, where it touches nobody.

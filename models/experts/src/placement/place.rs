@@ -7,7 +7,7 @@ use super::model::{PlacementModel, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_pose, draw_size};
 use super::random::{self, WeightTree, stream_name};
-use super::request::{Method, PlaceRequest, Placement, counted, reason};
+use super::request::{PlaceRequest, Placement, PlacementMethod, counted, reason};
 use super::speeds::StartSpeeds;
 use crate::planning::world::AgentAtStart;
 use crate::request::{Cancel, GenerateError};
@@ -95,7 +95,7 @@ pub fn place(
         agents,
         unplaced,
         reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
-        method: if model.is_some() { Method::Model } else { Method::LaneSampler },
+        method: if model.is_some() { PlacementMethod::Model } else { PlacementMethod::LaneSampler },
         arms: traffic.arms,
         parking_places: parked.places,
     })

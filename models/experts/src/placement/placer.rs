@@ -1,6 +1,8 @@
 //! Placement with its weights and the maps that it knows.
 
-use super::{PlaceRequest, Placement, PlacementInfo, PlacementModel, place};
+use super::model::{PlacementInfo, PlacementModel};
+use super::place::place;
+use super::request::{PlaceRequest, Placement};
 use crate::maps::Maps;
 use crate::request::{Cancel, GenerateError};
 use crate::weights::WeightsError;

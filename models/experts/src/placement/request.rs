@@ -1,6 +1,7 @@
 //! What placing is asked for, and its answer.
 
 use super::arms::Arm;
+use super::driving::SpeedRange;
 use super::region::Region;
 use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -19,14 +20,6 @@ pub const MAX_PER_HOUR: f64 = 20_000.0;
 pub const MAX_PARKED_PER_100M: f64 = 20.0;
 /// Highest starting speed that may be asked for, m/s: the top speed of cars.
 pub const MAX_SPEED_MPS: f64 = 40.0;
-
-/// Between which speeds those start who drive and do not stand, m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct SpeedRange {
-    pub min_mps: f64,
-    pub max_mps: f64,
-}
 
 /// Traffic that is to come in by an arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,9 +67,8 @@ pub enum Amount {
 
 /// How road users are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-#[schemars(rename = "PlacementMethod")]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum PlacementMethod {
     /// By learned rates and distributions.
     Model,
     /// Even along lanes, at the speed limit: where there are no weights, and to compare with.
@@ -141,7 +133,7 @@ pub struct Placement {
     /// Why, in one sentence; `None` when all were placed.
     pub reason: Option<String>,
     /// How they were placed.
-    pub method: Method,
+    pub method: PlacementMethod,
     /// All arms of the map or region, with what was made of them.
     pub arms: Vec<ArmTraffic>,
     /// Places where a car could park; `None` where nobody asked.

@@ -3,11 +3,10 @@
 
 use super::cells::Cells;
 use super::context::SpeedContext;
-use super::driving::{allowed_mps, bend_mps, leader_ahead, usual_mps};
+use super::driving::{SpeedRange, allowed_mps, bend_mps, leader_ahead, usual_mps};
 use super::model::{PlacementModel, SPEED_STEP, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
-use super::request::SpeedRange;
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 use crate::tuning::placing::speeds::{BRAKE_MPS2, FOLLOW_AFTER_S, FOLLOW_MPS2, UNKNOWN_LEADER_MPS};
 use scene::limits::Limits;

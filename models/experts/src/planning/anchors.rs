@@ -10,7 +10,7 @@ use super::to_goal::anchors_to_goal;
 use super::way::{SLOTS, paths_ahead};
 use super::world::{AgentAtStart, World};
 use scene::STEP_S;
-use scene::motion::{Kind, MotionModel, Target};
+use scene::motion::{MotionKind, MotionModel, Target};
 
 pub use super::way::{Anchor, PathKind};
 
@@ -41,10 +41,10 @@ fn anchors_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, tar
                     let sag = (share - 0.5) * 0.5 * v0.max(speed).max(1.0);
                     reaching_speed(v0, speed, seconds, sag, &caps)
                 }
-                (None, Kind::Drive) => {
+                (None, MotionKind::Drive) => {
                     cruising(v0, share * world.tuning.anchors.over_limit * candidate.limit_mps.max(v0), &caps)
                 }
-                (None, Kind::Walk) => cruising(v0, walking_speed(v0, timing, count), &caps),
+                (None, MotionKind::Walk) => cruising(v0, walking_speed(v0, timing, count), &caps),
             };
             out.push(candidate.anchor(base, (timing, count)));
         }

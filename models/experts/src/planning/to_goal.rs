@@ -9,7 +9,7 @@ use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use crate::tuning::fixed::to_goal::{AFTER_GOAL_M, ARRIVING_M, PRESSED, PRESSED_SHARE};
 use scene::geometry::direction;
-use scene::motion::{Kind, MotionModel, Projection, Target, Tension, project};
+use scene::motion::{MotionKind, MotionModel, Projection, Target, Tension, project};
 use scene::routes::{
     EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, best_route_ahead, further_routes_to_goal,
     routes_to_goal,
@@ -87,7 +87,7 @@ pub(super) fn paths_to_goal(
     goal: Vec2,
     goes_on: bool,
 ) -> Vec<UntimedPath> {
-    if model.kind == Kind::Walk {
+    if model.kind == MotionKind::Walk {
         let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
         let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
         return by_crosswalk.into_iter().chain([straight]).collect();
@@ -292,7 +292,7 @@ fn smooth_to(
     tuning: &AnchorTuning,
 ) -> Option<UntimedPath> {
     let from = (who.start.position(), who.start.velocity());
-    let relax_s = if model.kind == Kind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
+    let relax_s = if model.kind == MotionKind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
     let curve = Tension::to_target(from, target, relax_s)?;
     let mut pace = [0.0; HORIZON_STEPS + 1];
     let mut points = vec![from.0];

@@ -5,7 +5,7 @@ use super::profile::Progress;
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use scene::geometry::direction;
-use scene::motion::{Kind, MotionModel};
+use scene::motion::{MotionKind, MotionModel};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{AgentType, HORIZON_STEPS, Vec2};
 
@@ -71,7 +71,7 @@ pub(super) struct UntimedPath {
 pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<UntimedPath> {
     let v0 = model.start_speed_mps();
     let graph = &world.graph;
-    let walking = model.kind == Kind::Walk;
+    let walking = model.kind == MotionKind::Walk;
     let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
     let routes = if world.planning.routes {
         routes_ahead(graph, who.pose(), who.agent_type, length)
@@ -111,8 +111,9 @@ fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &An
     let start = who.start.position();
     let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
     // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
-    let aside =
-        model.kind == Kind::Walk && velocity.norm() > 0.3 && velocity.dot(&faces) < 0.5 * velocity.norm();
+    let aside = model.kind == MotionKind::Walk
+        && velocity.norm() > 0.3
+        && velocity.dot(&faces) < 0.5 * velocity.norm();
     let ahead = if aside { velocity.normalize() } else { faces };
     let n = length.ceil().max(2.0) as usize;
     let path = Polyline::new((0..=n).map(|i| start + ahead * i as f64));

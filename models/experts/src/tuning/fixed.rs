@@ -3,7 +3,6 @@
 //! All were set by hand between 2026-11-21 and 2026-11-26, on recorded and made scenes that showed what was wrong
 //! without them. They are part of [`Tuning::hash`](super::Tuning::hash).
 
-use super::numbers;
 use scene::routes::SpeedRules;
 use scene::score::CLOSE_M;
 

@@ -6,9 +6,6 @@
 //! in every answer; `dragtraffic eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
 //! and no call varies stands in [`fixed`], and for placement in [`placing`].
 
-pub(crate) mod fixed;
-pub(crate) mod placing;
-
 use scene::ContentHash;
 use std::fmt::Write;
 
@@ -87,7 +84,10 @@ macro_rules! numbers {
         )*)*];
     };
 }
-pub(crate) use numbers;
+
+// Behind the macro, which both are written with.
+pub(crate) mod fixed;
+pub(crate) mod placing;
 
 tuning! {
     /// Where anchors lead and how fast.

@@ -3,8 +3,6 @@
 //! All were set by hand between 2026-11-21 and 2026-11-26; what was counted on recorded scenes is a table beside the
 //! weights. No generated future depends on them, so they are no part of [`Tuning::hash`](super::Tuning::hash).
 
-use super::numbers;
-
 numbers! {
     /// Of `placement::arms`.
     arms {

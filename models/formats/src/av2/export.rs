@@ -1,7 +1,7 @@
 //! From a scene to the rows of a scenario.
 
 use super::{AV, CITY, FOCAL, FRAGMENT, NOTE, SCORED, UNSCORED};
-use crate::columnar::{self, Column, Values};
+use crate::columnar::{self, Column, ColumnValues};
 use crate::format::{EGO, Exported, ExportedMotion};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
@@ -39,31 +39,35 @@ pub(super) fn write(scene: &Scene, motion: ExportedMotion) -> io::Result<Exporte
         .flat_map(|track| track.states.iter().map(move |(step, state)| (track, *step, *state)))
         .collect();
     let text = |of: &dyn Fn(&Track<'_>) -> String| {
-        Values::Text(rows.iter().map(|(track, ..)| Some(of(track))).collect())
+        ColumnValues::Text(rows.iter().map(|(track, ..)| Some(of(track))).collect())
     };
-    let number =
-        |of: fn(&State) -> f64| Values::Number(rows.iter().map(|(.., state)| Some(of(state))).collect());
-    let same = |value: &str| Values::Text(vec![Some(value.to_owned()); rows.len()]);
+    let number = |of: fn(&State) -> f64| {
+        ColumnValues::Number(rows.iter().map(|(.., state)| Some(of(state))).collect())
+    };
+    let same = |value: &str| ColumnValues::Text(vec![Some(value.to_owned()); rows.len()]);
     let id = scene.meta.source_id.as_ref().or(scene.id.as_ref()).unwrap_or(&scene.name);
     let (start, end) = times(scene, steps);
     let city = scene.meta.tags.iter().find_map(|tag| tag.strip_prefix(CITY)).unwrap_or("unknown");
     let focal_id = tracks.iter().find(|track| track.category == FOCAL).map_or("", |track| &track.id);
     let observed = rows.iter().map(|(_, step, _)| Some(*step <= scene.time.now_step)).collect();
     let columns = [
-        ("observed", Values::Flag(observed)),
+        ("observed", ColumnValues::Flag(observed)),
         ("track_id", text(&|track| track.id.to_string())),
         ("object_type", text(&|track| track.object_type.to_owned())),
-        ("object_category", Values::Whole(rows.iter().map(|(track, ..)| Some(track.category)).collect())),
-        ("timestep", Values::Whole(rows.iter().map(|(_, step, _)| Some(*step as i64)).collect())),
+        (
+            "object_category",
+            ColumnValues::Whole(rows.iter().map(|(track, ..)| Some(track.category)).collect()),
+        ),
+        ("timestep", ColumnValues::Whole(rows.iter().map(|(_, step, _)| Some(*step as i64)).collect())),
         ("position_x", number(|s| s.x_m)),
         ("position_y", number(|s| s.y_m)),
         ("heading", number(|s| s.heading_rad)),
         ("velocity_x", number(|s| s.vx_mps)),
         ("velocity_y", number(|s| s.vy_mps)),
         ("scenario_id", same(id)),
-        ("start_timestamp", Values::Number(vec![Some(start); rows.len()])),
-        ("end_timestamp", Values::Number(vec![Some(end); rows.len()])),
-        ("num_timestamps", Values::Whole(vec![Some(steps as i64); rows.len()])),
+        ("start_timestamp", ColumnValues::Number(vec![Some(start); rows.len()])),
+        ("end_timestamp", ColumnValues::Number(vec![Some(end); rows.len()])),
+        ("num_timestamps", ColumnValues::Whole(vec![Some(steps as i64); rows.len()])),
         ("focal_track_id", same(focal_id)),
         ("city", same(city)),
     ];

@@ -2,11 +2,11 @@
 
 use super::map::Place;
 use super::{AV, CITY, FOCAL, LICENCE, NOTE, SCORED};
-use crate::columnar::{Table, Value};
+use crate::columnar::{ColumnValue, ParquetTable};
 use crate::format::EGO;
 use crate::limits::MAX_STEPS;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
-use crate::recording::{MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::recording::{MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedState, Recording, Said, kind_of};
 use crate::sentences;
 use crate::source::Source;
 use scene::{AgentType, Meta, Origin, STEP_S, Subtype, Timing, Vec2};
@@ -37,15 +37,15 @@ const OPTIONAL: [&str; 7] = [
 const MAX_METRES: f64 = 1e7;
 
 /// The columns of a file.
-struct Rows {
-    table: Table,
+struct TrackRows {
+    table: ParquetTable,
     /// Position in the file by name.
     at: HashMap<&'static str, usize>,
 }
 
-impl Rows {
+impl TrackRows {
     fn open(file: &dyn Source) -> Result<Self, ReadError> {
-        let mut table = Table::open(file)?;
+        let mut table = ParquetTable::open(file)?;
         let place = |name: &str| table.names().iter().position(|found| found == name);
         let mut at = HashMap::new();
         for name in NEEDED {
@@ -62,8 +62,8 @@ impl Rows {
         Ok(Self { table, at })
     }
 
-    fn value(&self, name: &str) -> Value<'_> {
-        self.at.get(name).map_or(Value::Nothing, |at| self.table.value(*at))
+    fn value(&self, name: &str) -> ColumnValue<'_> {
+        self.at.get(name).map_or(ColumnValue::Nothing, |at| self.table.value(*at))
     }
 
     fn fault(&self, name: &str, expected: &str) -> ReadError {
@@ -74,16 +74,16 @@ impl Rows {
 
     fn text(&self, name: &str) -> String {
         match self.value(name) {
-            Value::Text(text) => text.chars().take(256).collect(),
-            Value::Whole(whole) => whole.to_string(),
+            ColumnValue::Text(text) => text.chars().take(256).collect(),
+            ColumnValue::Whole(whole) => whole.to_string(),
             _ => String::new(),
         }
     }
 
     fn number(&self, name: &str, most: f64) -> Result<f64, ReadError> {
         let number = match self.value(name) {
-            Value::Number(number) => number,
-            Value::Whole(whole) => whole as f64,
+            ColumnValue::Number(number) => number,
+            ColumnValue::Whole(whole) => whole as f64,
             _ => f64::NAN,
         };
         let expected = || self.fault(name, "a finite number that is not too large");
@@ -112,9 +112,9 @@ pub(super) fn read(
     place: Option<Place>,
     licence: Option<String>,
 ) -> Result<Imported, ReadError> {
-    let mut rows = Rows::open(file)?;
+    let mut rows = TrackRows::open(file)?;
     let mut first: Option<First> = None;
-    let (mut users, mut index): (Vec<User>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
+    let (mut users, mut index): (Vec<RecordedAgent>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
     let (mut count, mut last_step, mut now_step) = (0, 0, None);
     let mut predicted = Vec::new();
     while rows.table.advance()? {
@@ -136,7 +136,7 @@ pub(super) fn read(
             return Err(rows.fault("timestep", "a whole number from 0 on"));
         }
         last_step = last_step.max(step as usize);
-        if rows.value("observed") == Value::Flag(true) {
+        if rows.value("observed") == ColumnValue::Flag(true) {
             now_step = now_step.max(Some(step as usize));
         }
         let id = rows.text("track_id");
@@ -151,12 +151,12 @@ pub(super) fn read(
                 let (agent_type, subtype) = kind.unwrap_or((AgentType::Other, Subtype::Unknown));
                 let role = (id == AV).then(|| EGO.to_owned());
                 let (size_m, samples) = ([None; 3], Vec::new());
-                users.push(User { id: id.clone(), agent_type, subtype, role, size_m, samples });
+                users.push(RecordedAgent { id: id.clone(), agent_type, subtype, role, size_m, samples });
                 index.insert(id, users.len() - 1);
                 users.len() - 1
             }
         };
-        let sample = Sample {
+        let sample = RecordedState {
             time_s: step * STEP_S,
             at: Vec2::new(rows.number("position_x", MAX_METRES)?, rows.number("position_y", MAX_METRES)?),
             heading_rad: rows.number("heading", 1e6)?,
@@ -182,7 +182,7 @@ pub(super) fn read(
             map
         }
         None => {
-            warnings.push(Warning::new("no-map", sentences::map_missing()));
+            warnings.push(ImportWarning::new("no-map", sentences::map_missing()));
             Default::default()
         }
     };
@@ -223,10 +223,12 @@ pub(super) fn read(
 }
 
 /// The recording vehicle's place at the present, else that of whoever comes first, in whole metres.
-fn origin(users: &[User], now_step: usize) -> Vec2 {
+fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
     let ego = users.iter().find(|user| user.id == AV).or(users.first());
     let now_s = now_step as f64 * STEP_S;
-    let near = |a: &&Sample, b: &&Sample| (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs());
+    let near = |a: &&RecordedState, b: &&RecordedState| {
+        (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs())
+    };
     let sample = ego.and_then(|user| user.samples.iter().min_by(near));
     sample.map_or_else(Vec2::zeros, |sample| sample.at.map(f64::round))
 }

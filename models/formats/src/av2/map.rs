@@ -1,6 +1,6 @@
 //! The map of a place: `log_map_archive_*.json`.
 
-use crate::problem::{ReadError, Warning};
+use crate::problem::{ImportWarning, ReadError};
 use crate::sentences;
 use crate::source::Source;
 use crate::surface;
@@ -125,7 +125,7 @@ impl Place {
     }
 
     /// The map about a point of it.
-    pub fn lane_map(&self, origin: Vec2) -> (LaneMap, Vec<Warning>) {
+    pub fn lane_map(&self, origin: Vec2) -> (LaneMap, Vec<ImportWarning>) {
         let mut map = LaneMap::default();
         let mut broken = 0;
         let mut segments = Vec::new();
@@ -158,10 +158,11 @@ impl Place {
         let (whole, far) = self.ground(origin, &mut map);
         bounds::by_edges(&mut map);
         let mut warnings = Vec::new();
-        let unusable = || Warning::new("lanes-dropped", sentences::lane_segments_unusable(broken));
+        let unusable = || ImportWarning::new("lanes-dropped", sentences::lane_segments_unusable(broken));
         warnings.extend((broken > 0).then(unusable));
-        warnings.extend((!whole).then(|| Warning::new("edges-dropped", sentences::crossing_areas())));
-        let far_areas = || Warning::new("areas-dropped", sentences::areas_too_far(far, MAX_COORDINATE_M));
+        warnings.extend((!whole).then(|| ImportWarning::new("edges-dropped", sentences::crossing_areas())));
+        let far_areas =
+            || ImportWarning::new("areas-dropped", sentences::areas_too_far(far, MAX_COORDINATE_M));
         warnings.extend((far > 0).then(far_areas));
         (map, warnings)
     }

@@ -9,5 +9,5 @@ mod thrift;
 mod vet;
 mod write;
 
-pub(crate) use read::{Table, Value, is_parquet, names_in};
-pub(crate) use write::{Column, Values, write};
+pub(crate) use read::{ColumnValue, ParquetTable, is_parquet, names_in};
+pub(crate) use write::{Column, ColumnValues, write};

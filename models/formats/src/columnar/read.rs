@@ -1,6 +1,6 @@
 //! Flat columns of a Parquet file, row by row.
 
-use super::vet::{self, Chunk, MAGIC};
+use super::vet::{self, ColumnChunk, MAGIC};
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::source::Source;
@@ -41,9 +41,9 @@ pub(crate) fn names_in(bytes: &[u8], names: &[&str]) -> bool {
     is_parquet(bytes) && names.iter().all(has)
 }
 
-/// A value of a row.
+/// A value of a row, held by the reader.
 #[derive(Clone, Debug, PartialEq)]
-enum Cell {
+enum OwnedValue {
     Nothing,
     Flag(bool),
     Whole(i64),
@@ -53,7 +53,7 @@ enum Cell {
 
 /// A value of a row, as readers of tables take it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Value<'a> {
+pub(crate) enum ColumnValue<'a> {
     Nothing,
     Flag(bool),
     Whole(i64),
@@ -62,7 +62,7 @@ pub(crate) enum Value<'a> {
 }
 
 /// A Parquet file that is being read.
-pub(crate) struct Table {
+pub(crate) struct ParquetTable {
     file: Bytes,
     reader: SerializedFileReader<Bytes>,
     names: Vec<String>,
@@ -72,7 +72,7 @@ pub(crate) struct Table {
     group: usize,
     readers: Vec<ColumnReader>,
     left: usize,
-    batch: Vec<Vec<Cell>>,
+    batch: Vec<Vec<OwnedValue>>,
     at: usize,
     row: u64,
 }
@@ -87,7 +87,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadErro
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(ended)
 }
 
-impl Table {
+impl ParquetTable {
     /// Reads a file as a whole, and looks at what it says of itself.
     ///
     /// # Errors
@@ -165,7 +165,7 @@ impl Table {
                     _ => 0,
                 };
                 let range = start..start.saturating_add(chunk.compressed_size().max(0));
-                let chunk = Chunk { range, least, rows: group.num_rows() };
+                let chunk = ColumnChunk { range, least, rows: group.num_rows() };
                 together = together.saturating_add(vet::pages(&self.file, &chunk)?);
             }
             if together > MAX_PAGES + self.file.len() as u64 {
@@ -214,13 +214,13 @@ impl Table {
     }
 
     /// Value of the row that was gone to, by position in the list of those that were chosen.
-    pub fn value(&self, column: usize) -> Value<'_> {
+    pub fn value(&self, column: usize) -> ColumnValue<'_> {
         match self.batch.get(column).and_then(|cells| cells.get(self.at)) {
-            None | Some(Cell::Nothing) => Value::Nothing,
-            Some(Cell::Flag(flag)) => Value::Flag(*flag),
-            Some(Cell::Whole(whole)) => Value::Whole(*whole),
-            Some(Cell::Number(number)) => Value::Number(*number),
-            Some(Cell::Text(text)) => text.as_utf8().map_or(Value::Nothing, Value::Text),
+            None | Some(OwnedValue::Nothing) => ColumnValue::Nothing,
+            Some(OwnedValue::Flag(flag)) => ColumnValue::Flag(*flag),
+            Some(OwnedValue::Whole(whole)) => ColumnValue::Whole(*whole),
+            Some(OwnedValue::Number(number)) => ColumnValue::Number(*number),
+            Some(OwnedValue::Text(text)) => text.as_utf8().map_or(ColumnValue::Nothing, ColumnValue::Text),
         }
     }
 
@@ -251,7 +251,7 @@ impl Table {
 }
 
 /// Reads so many values of a column.
-fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<Cell>) -> Result<(), ParquetError> {
+fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<OwnedValue>) -> Result<(), ParquetError> {
     macro_rules! read {
         ($reader:expr, $cell:expr) => {{
             let (mut values, mut levels) = (Vec::new(), Vec::new());
@@ -260,17 +260,17 @@ fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<Cell>) -> Resul
             // Without levels every value is there.
             let present = (0..records).map(|i| levels.get(i).is_none_or(|level| *level > 0));
             cells.extend(
-                present.map(|there| if there { values.next() } else { None }.unwrap_or(Cell::Nothing)),
+                present.map(|there| if there { values.next() } else { None }.unwrap_or(OwnedValue::Nothing)),
             );
         }};
     }
     match reader {
-        ColumnReader::BoolColumnReader(reader) => read!(reader, Cell::Flag),
-        ColumnReader::Int32ColumnReader(reader) => read!(reader, |v| Cell::Whole(i64::from(v))),
-        ColumnReader::Int64ColumnReader(reader) => read!(reader, Cell::Whole),
-        ColumnReader::FloatColumnReader(reader) => read!(reader, |v| Cell::Number(f64::from(v))),
-        ColumnReader::DoubleColumnReader(reader) => read!(reader, Cell::Number),
-        ColumnReader::ByteArrayColumnReader(reader) => read!(reader, Cell::Text),
+        ColumnReader::BoolColumnReader(reader) => read!(reader, OwnedValue::Flag),
+        ColumnReader::Int32ColumnReader(reader) => read!(reader, |v| OwnedValue::Whole(i64::from(v))),
+        ColumnReader::Int64ColumnReader(reader) => read!(reader, OwnedValue::Whole),
+        ColumnReader::FloatColumnReader(reader) => read!(reader, |v| OwnedValue::Number(f64::from(v))),
+        ColumnReader::DoubleColumnReader(reader) => read!(reader, OwnedValue::Number),
+        ColumnReader::ByteArrayColumnReader(reader) => read!(reader, OwnedValue::Text),
         ColumnReader::Int96ColumnReader(_) | ColumnReader::FixedLenByteArrayColumnReader(_) => {}
     }
     Ok(())

@@ -8,18 +8,18 @@ const STRUCT: u8 = 12;
 
 /// A field of a struct.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Field {
+pub(super) struct ThriftField {
     pub id: i16,
     kind: u8,
 }
 
-/// Reads from the beginning of a slice; nothing where it breaks off or lies.
-pub(super) struct Reader<'a> {
+/// Reads from the beginning of a slice; `None` where the slice is short or contradicts itself.
+pub(super) struct ThriftReader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ThriftReader<'a> {
     pub fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0 }
     }
@@ -60,11 +60,15 @@ impl<'a> Reader<'a> {
 
     /// Calls `take` for each field of the struct that begins here; `take` gives whether it has read the value, which
     /// is passed over otherwise.
-    pub fn each(&mut self, mut take: impl FnMut(&mut Self, Field) -> Option<bool>) -> Option<()> {
+    pub fn each(&mut self, mut take: impl FnMut(&mut Self, ThriftField) -> Option<bool>) -> Option<()> {
         self.fields(0, &mut take)
     }
 
-    fn fields(&mut self, depth: usize, take: &mut dyn FnMut(&mut Self, Field) -> Option<bool>) -> Option<()> {
+    fn fields(
+        &mut self,
+        depth: usize,
+        take: &mut dyn FnMut(&mut Self, ThriftField) -> Option<bool>,
+    ) -> Option<()> {
         let mut id: i16 = 0;
         loop {
             let head = self.byte()?;
@@ -77,14 +81,14 @@ impl<'a> Reader<'a> {
             } else {
                 id.checked_add(i16::from(delta))?
             };
-            if !take(self, Field { id, kind })? {
+            if !take(self, ThriftField { id, kind })? {
                 self.skip(kind, depth)?;
             }
         }
     }
 
     /// The whole number of a field; nothing where it is something else.
-    pub fn whole(&mut self, field: Field) -> Option<i64> {
+    pub fn whole(&mut self, field: ThriftField) -> Option<i64> {
         match field.kind {
             3 => self.byte().map(|byte| i64::from(byte as i8)),
             4..=6 => self.signed(),
@@ -93,7 +97,7 @@ impl<'a> Reader<'a> {
     }
 
     /// How many structs the list of a field has; their fields follow.
-    pub fn structs(&mut self, field: Field) -> Option<u64> {
+    pub fn structs(&mut self, field: ThriftField) -> Option<u64> {
         let (kind, count) = if field.kind == 9 { self.list()? } else { return None };
         (kind == STRUCT || count == 0).then_some(count)
     }
@@ -147,7 +151,7 @@ mod tests {
         // 1: i32 = 5, 2: "ab", 4: list of one struct {1: i32 = -1}, 5: true.
         let bytes = [0x15, 10, 0x18, 2, b'a', b'b', 0x29, 0x1c, 0x15, 1, 0, 0x11, 0];
         let mut found = Vec::new();
-        let mut reader = Reader::new(&bytes);
+        let mut reader = ThriftReader::new(&bytes);
         let all = reader.each(|reader, field| match field.id {
             1 => {
                 found.push(reader.whole(field)?);
@@ -169,7 +173,7 @@ mod tests {
 
     #[test]
     fn lies_and_depth_are_refused() {
-        let passed = |bytes: &[u8]| Reader::new(bytes).each(|_, _| Some(false));
+        let passed = |bytes: &[u8]| ThriftReader::new(bytes).each(|_, _| Some(false));
         assert_eq!(passed(&[0x18, 200, 1]), None);
         assert_eq!(passed(&[0x19, 0xfc, 255, 255, 255, 15]), None);
         assert_eq!(passed(&[0x1c; 100]), None);

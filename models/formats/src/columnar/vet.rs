@@ -1,6 +1,6 @@
 //! What a Parquet file says of itself, looked at before anything is reserved or decoded by it.
 
-use super::thrift::Reader;
+use super::thrift::ThriftReader;
 use crate::problem::{ReadError, code};
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ const MAX_CHUNKS: u64 = 50_000;
 const MAX_PAGE: i64 = 8 << 20;
 
 /// A column's part of a row group.
-pub(super) struct Chunk {
+pub(super) struct ColumnChunk {
     /// Where its pages lie.
     pub range: Range<i64>,
     /// Bytes that a value takes at least in a dictionary.
@@ -50,7 +50,7 @@ pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
     };
     let footer = rest.get(start..).unwrap_or_default();
     let mut chunks = 0;
-    let seen = Reader::new(footer).each(|reader, field| {
+    let seen = ThriftReader::new(footer).each(|reader, field| {
         if field.id != 4 {
             return Some(false);
         }
@@ -81,7 +81,7 @@ pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
 ///
 /// # Errors
 /// `malformed-file`, `decoded-too-large`.
-pub(super) fn pages(bytes: &[u8], chunk: &Chunk) -> Result<u64, ReadError> {
+pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError> {
     let broken = |offset: usize, detail: &str| ReadError::malformed(offset as u64, detail);
     let ends = (usize::try_from(chunk.range.start), usize::try_from(chunk.range.end));
     let (Ok(mut at), Ok(end)) = ends else { return Err(broken(0, "a column lies before the file")) };
@@ -131,7 +131,7 @@ pub(super) fn pages(bytes: &[u8], chunk: &Chunk) -> Result<u64, ReadError> {
 }
 
 /// What the header of a page says.
-struct Page {
+struct ColumnPage {
     header: usize,
     kind: i64,
     is_dictionary: bool,
@@ -141,8 +141,8 @@ struct Page {
     encoding: i64,
 }
 
-fn page(bytes: &[u8]) -> Option<Page> {
-    let mut page = Page {
+fn page(bytes: &[u8]) -> Option<ColumnPage> {
+    let mut page = ColumnPage {
         header: 0,
         kind: -1,
         is_dictionary: false,
@@ -151,7 +151,7 @@ fn page(bytes: &[u8]) -> Option<Page> {
         values: -1,
         encoding: -1,
     };
-    let mut reader = Reader::new(bytes);
+    let mut reader = ThriftReader::new(bytes);
     reader.each(|reader, field| {
         match field.id {
             1 => page.kind = reader.whole(field)?,

@@ -15,7 +15,7 @@ use std::sync::Arc;
 const ZSTD_LEVEL: i32 = 3;
 
 /// Values of a column; `None` is null where the column may have none.
-pub(crate) enum Values {
+pub(crate) enum ColumnValues {
     Text(Vec<Option<String>>),
     Whole(Vec<Option<i64>>),
     Number(Vec<Option<f64>>),
@@ -27,7 +27,7 @@ pub(crate) struct Column {
     pub name: &'static str,
     /// Every row has a value.
     pub required: bool,
-    pub values: Values,
+    pub values: ColumnValues,
 }
 
 #[cfg(not(target_family = "wasm"))]
@@ -75,12 +75,12 @@ pub(crate) fn write(
 fn schema(columns: &[Column]) -> String {
     let field = |column: &Column| {
         let kind = match column.values {
-            Values::Text(_) => "BYTE_ARRAY",
-            Values::Whole(_) => "INT64",
-            Values::Number(_) => "DOUBLE",
-            Values::Flag(_) => "BOOLEAN",
+            ColumnValues::Text(_) => "BYTE_ARRAY",
+            ColumnValues::Whole(_) => "INT64",
+            ColumnValues::Number(_) => "DOUBLE",
+            ColumnValues::Flag(_) => "BOOLEAN",
         };
-        let note = if matches!(column.values, Values::Text(_)) { " (STRING)" } else { "" };
+        let note = if matches!(column.values, ColumnValues::Text(_)) { " (STRING)" } else { "" };
         let need = if column.required { "REQUIRED" } else { "OPTIONAL" };
         format!("{need} {kind} {}{note};", column.name)
     };
@@ -92,13 +92,13 @@ type Group<'a, 'b> = SerializedRowGroupWriter<'a, &'b mut Vec<u8>>;
 fn put(group: &mut Group<'_, '_>, column: Column) -> Result<(), ParquetError> {
     let required = column.required;
     match column.values {
-        Values::Text(list) => {
+        ColumnValues::Text(list) => {
             let text = |text: Option<String>| text.map(|text| ByteArray::from(text.into_bytes()));
             put_typed::<ByteArrayType>(group, required, list.into_iter().map(text))
         }
-        Values::Whole(list) => put_typed::<Int64Type>(group, required, list.into_iter()),
-        Values::Number(list) => put_typed::<DoubleType>(group, required, list.into_iter()),
-        Values::Flag(list) => put_typed::<BoolType>(group, required, list.into_iter()),
+        ColumnValues::Whole(list) => put_typed::<Int64Type>(group, required, list.into_iter()),
+        ColumnValues::Number(list) => put_typed::<DoubleType>(group, required, list.into_iter()),
+        ColumnValues::Flag(list) => put_typed::<BoolType>(group, required, list.into_iter()),
     }
 }
 

@@ -5,9 +5,9 @@ use super::words::VERSIONS;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::source::Source;
-use crate::tree::Node;
+use crate::tree::XmlNode;
 use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Event, Scanner};
+use crate::xml::{Element, Scanner, XmlEvent};
 use scene::{Origin, Vec2};
 use std::collections::HashMap;
 
@@ -63,7 +63,7 @@ pub(super) struct Sign {
 
 /// A light.
 #[derive(Debug)]
-pub(super) struct Light {
+pub(super) struct TrafficLight {
     /// Colours with how many steps they last.
     pub cycle: Vec<(String, u64)>,
     pub offset: i64,
@@ -73,7 +73,7 @@ pub(super) struct Light {
 
 /// Where an obstacle is at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Timed {
+pub(super) struct ObstacleState {
     /// Steps of the file.
     pub step: i64,
     pub at: Vec2,
@@ -92,7 +92,7 @@ pub(super) struct Obstacle {
     /// Without one nobody knows how large it is.
     pub shape: Option<Shape>,
     /// In the order of the file.
-    pub states: Vec<Timed>,
+    pub states: Vec<ObstacleState>,
     /// What it may occupy, and not where it goes.
     pub sets: bool,
 }
@@ -113,15 +113,15 @@ pub(super) struct GoalState {
 
 /// A planning problem.
 #[derive(Debug)]
-pub(super) struct Problem {
+pub(super) struct PlanningProblem {
     pub id: i64,
-    pub start: Timed,
+    pub start: ObstacleState,
     pub goals: Vec<GoalState>,
 }
 
 /// A file.
 #[derive(Debug, Default)]
-pub(super) struct Document {
+pub(super) struct CommonRoadDocument {
     pub name: String,
     pub source: String,
     pub step_s: f64,
@@ -129,11 +129,11 @@ pub(super) struct Document {
     pub origin: Origin,
     pub lanelets: Vec<Lanelet>,
     pub signs: HashMap<i64, Sign>,
-    pub lights: HashMap<i64, Light>,
+    pub lights: HashMap<i64, TrafficLight>,
     /// Lanelets through junctions by where they turn.
     pub turns: Vec<(&'static str, i64)>,
     pub obstacles: Vec<Obstacle>,
-    pub problems: Vec<Problem>,
+    pub problems: Vec<PlanningProblem>,
     /// Elements that a scene has no place for.
     pub others: usize,
 }
@@ -143,18 +143,18 @@ pub(super) struct Document {
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or an
 /// unknown version, `invalid-field` for what is missing or no number, `map-too-large`, `too-many-agents`.
-pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
+pub(super) fn read(file: &dyn Source) -> Result<CommonRoadDocument, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.map_err(|error| unpack::fault(&error, 0))?;
     let mut scanner = Scanner::new(input, MAX_TAG).with_texts();
     let mut document = match scanner.next()? {
-        Some(Event::Start(root)) => head(&root)?,
-        _ => Document::default(),
+        Some(XmlEvent::Start(root)) => head(&root)?,
+        _ => CommonRoadDocument::default(),
     };
     let (mut points, mut states, mut others) = (0, 0, 0);
     while let Some(event) = scanner.next()? {
-        let Event::Start(element) = event else { continue };
-        let node = Node::read(&mut scanner, element)?;
+        let XmlEvent::Start(element) = event else { continue };
+        let node = XmlNode::read(&mut scanner, element)?;
         match node.name() {
             "lanelet" => {
                 let lanelet = lanelet(&node)?;
@@ -206,7 +206,7 @@ fn word(text: &str) -> String {
     text.trim().chars().take(MAX_WORD).collect()
 }
 
-fn head(root: &Element) -> Result<Document, ReadError> {
+fn head(root: &Element) -> Result<CommonRoadDocument, ReadError> {
     let refused = |detail: String| ReadError::from(FieldProblem::new("", code::CANNOT_REPRESENT, detail));
     if root.name != ROOT {
         return Err(refused(format!("expected <{ROOT}>, found <{}>", word(&root.name))));
@@ -224,17 +224,17 @@ fn head(root: &Element) -> Result<Document, ReadError> {
         return Err(FieldProblem::new("", code::INVALID_FIELD, detail).into());
     };
     let get = |name: &str| word(root.get(name).unwrap_or_default());
-    Ok(Document {
+    Ok(CommonRoadDocument {
         name: get("benchmarkID"),
         source: get("source"),
         tags: get("tags").split_whitespace().map(str::to_owned).collect(),
         step_s,
-        ..Document::default()
+        ..CommonRoadDocument::default()
     })
 }
 
 /// Where the frame of the file lies.
-fn origin(node: &Node) -> Result<Origin, ReadError> {
+fn origin(node: &XmlNode) -> Result<Origin, ReadError> {
     let Some(place) = node.child("geoTransformation") else { return Ok(Origin::default()) };
     let crs = place.child("geoReference").map(|text| word(&text.text)).filter(|text| !text.is_empty());
     let number = |name: &str| match place.at(&["additionalTransformation", name]) {
@@ -246,15 +246,15 @@ fn origin(node: &Node) -> Result<Origin, ReadError> {
 }
 
 /// References to others.
-fn refs(node: &Node, name: &str) -> Result<Vec<i64>, ReadError> {
+fn refs(node: &XmlNode, name: &str) -> Result<Vec<i64>, ReadError> {
     node.all(name).map(|node| node.whole("ref")).collect()
 }
 
-fn words(node: &Node, name: &str) -> Vec<String> {
+fn words(node: &XmlNode, name: &str) -> Vec<String> {
     node.all(name).map(|node| word(&node.text)).collect()
 }
 
-fn side(node: &Node, bound: &str, adjacent: &str) -> Result<Side, ReadError> {
+fn side(node: &XmlNode, bound: &str, adjacent: &str) -> Result<Side, ReadError> {
     let line = node.required(bound)?;
     let points = line.all("point").map(shapes::point).collect::<Result<Vec<_>, _>>()?;
     if points.len() < 2 {
@@ -268,12 +268,12 @@ fn side(node: &Node, bound: &str, adjacent: &str) -> Result<Side, ReadError> {
     Ok(Side { points, marking, beside: beside.transpose()? })
 }
 
-fn lanelet(node: &Node) -> Result<Lanelet, ReadError> {
+fn lanelet(node: &XmlNode) -> Result<Lanelet, ReadError> {
     let stop = node.child("stopLine").map(|line| {
         let ends = line.all("point").map(shapes::point).collect::<Result<Vec<_>, _>>()?;
         Ok(if let [a, b] = ends.as_slice() { Some((*a, *b)) } else { None })
     });
-    let speed_mps = node.child("speedLimit").map(Node::number).transpose()?;
+    let speed_mps = node.child("speedLimit").map(XmlNode::number).transpose()?;
     Ok(Lanelet {
         id: node.whole("id")?,
         left: side(node, "leftBound", "adjacentLeft")?,
@@ -290,7 +290,7 @@ fn lanelet(node: &Node) -> Result<Lanelet, ReadError> {
     })
 }
 
-fn sign(node: &Node) -> Result<Sign, ReadError> {
+fn sign(node: &XmlNode) -> Result<Sign, ReadError> {
     let elements = node.all("trafficSignElement").map(|element| {
         let kind = element.child("trafficSignID").map(|id| word(&id.text)).unwrap_or_default();
         let value = element.child("additionalValue").and_then(|value| value.number().ok());
@@ -300,8 +300,8 @@ fn sign(node: &Node) -> Result<Sign, ReadError> {
     Ok(Sign { elements: elements.take(64).collect(), position })
 }
 
-fn light(node: &Node) -> Result<Light, ReadError> {
-    let steps = |node: &Node| match node.text.parse::<i64>() {
+fn light(node: &XmlNode) -> Result<TrafficLight, ReadError> {
+    let steps = |node: &XmlNode| match node.text.parse::<i64>() {
         Ok(steps) => Ok(steps),
         Err(_) => Err(node.wrong(&node.text, "a number of steps")),
     };
@@ -316,10 +316,10 @@ fn light(node: &Node) -> Result<Light, ReadError> {
     let offset = node.at(&["cycle", "timeOffset"]).map(steps).transpose()?.unwrap_or(0);
     let active = node.child("active").is_none_or(|node| node.text != "false");
     let direction = node.child("direction").map(|node| word(&node.text)).unwrap_or_default();
-    Ok(Light { cycle, offset, direction, active })
+    Ok(TrafficLight { cycle, offset, direction, active })
 }
 
-fn turns(node: &Node, turns: &mut Vec<(&'static str, i64)>) -> Result<(), ReadError> {
+fn turns(node: &XmlNode, turns: &mut Vec<(&'static str, i64)>) -> Result<(), ReadError> {
     let ways = [("successorsLeft", "left"), ("successorsStraight", "straight"), ("successorsRight", "right")];
     for incoming in node.all("incoming") {
         for (name, turn) in ways {
@@ -330,13 +330,13 @@ fn turns(node: &Node, turns: &mut Vec<(&'static str, i64)>) -> Result<(), ReadEr
 }
 
 /// A number, or the middle of two between which it lies; that it is one.
-fn value(node: &Node) -> Result<(f64, bool), ReadError> {
+fn value(node: &XmlNode) -> Result<(f64, bool), ReadError> {
     let (from, to) = range(node)?;
     Ok(((from + to) / 2.0, from != to))
 }
 
 /// Between which numbers it lies.
-fn range(node: &Node) -> Result<Range, ReadError> {
+fn range(node: &XmlNode) -> Result<Range, ReadError> {
     if let Some(exact) = node.child("exact") {
         return exact.number().map(|value| (value, value));
     }
@@ -344,7 +344,7 @@ fn range(node: &Node) -> Result<Range, ReadError> {
 }
 
 /// A state; nothing where its place is not a place.
-fn state(node: &Node) -> Result<Option<Timed>, ReadError> {
+fn state(node: &XmlNode) -> Result<Option<ObstacleState>, ReadError> {
     let places = shapes::all(node.required("position")?)?;
     let Some(place) = places.first() else { return Ok(None) };
     let optional = |name: &str| node.child(name).map(value).transpose();
@@ -363,10 +363,10 @@ fn state(node: &Node) -> Result<Option<Timed>, ReadError> {
         let side = scene::geometry::direction(heading + std::f64::consts::FRAC_PI_2);
         along + side * across.map_or(0.0, |(across, _)| across)
     });
-    Ok(Some(Timed { step: time.round() as i64, at: place.centre, heading_rad, velocity, uncertain }))
+    Ok(Some(ObstacleState { step: time.round() as i64, at: place.centre, heading_rad, velocity, uncertain }))
 }
 
-fn obstacle(node: &Node) -> Result<Obstacle, ReadError> {
+fn obstacle(node: &XmlNode) -> Result<Obstacle, ReadError> {
     let role = node.child("role").map_or("", |role| role.text.as_str());
     let shape = node.child("shape").map(|shape| shapes::all(shape).map(|all| shapes::enclosing(&all)));
     let mut states = Vec::new();
@@ -384,10 +384,10 @@ fn obstacle(node: &Node) -> Result<Obstacle, ReadError> {
     })
 }
 
-fn problem(node: &Node) -> Result<Problem, ReadError> {
+fn problem(node: &XmlNode) -> Result<PlanningProblem, ReadError> {
     let initial = node.required("initialState")?;
     let start = state(initial)?.ok_or_else(|| initial.wrong("no place", "a position"))?;
-    let goal = |node: &Node| -> Result<GoalState, ReadError> {
+    let goal = |node: &XmlNode| -> Result<GoalState, ReadError> {
         let between = |name: &str| node.child(name).map(range).transpose();
         let position = node.child("position");
         Ok(GoalState {
@@ -399,5 +399,5 @@ fn problem(node: &Node) -> Result<Problem, ReadError> {
         })
     };
     let goals = node.all("goalState").take(64).map(goal).collect::<Result<Vec<_>, _>>()?;
-    Ok(Problem { id: node.whole("id")?, start, goals })
+    Ok(PlanningProblem { id: node.whole("id")?, start, goals })
 }

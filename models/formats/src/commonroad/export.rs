@@ -1,7 +1,7 @@
 //! From a scene to a scenario in a file.
 
-use super::export_map::Drawn;
-use super::export_motion::{self, Problem, User};
+use super::export_map::MapElements;
+use super::export_motion::{self, PlanningTask, ScenarioAgent};
 use super::import::LICENCE;
 use super::words::{TAGS, VERSION};
 use crate::format::{ExportOptions, Exported};
@@ -28,8 +28,8 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let own = own.chain(map.stop_signs.iter().map(|sign| &sign.id)).chain(scene.agents.iter().map(|a| &a.id));
     let mut ids = Numbers::of(own);
     let (shown, steps) = options.motion.all(scene);
-    let drawn = Drawn::of(scene, steps, &mut ids, &mut losses);
-    let problem = Problem::of(scene, &shown);
+    let drawn = MapElements::of(scene, steps, &mut ids, &mut losses);
+    let problem = PlanningTask::of(scene, &shown);
     let name = benchmark_id(scene);
     let mut out = Markup::new();
     let licence = scene.licence().map(|licence| format!("{LICENCE}{licence}")).unwrap_or_default();
@@ -59,8 +59,9 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let numbers: Vec<i64> = scene.agents.iter().map(|agent| ids.take(&agent.id)).collect();
     let fixed = |agent: &Agent| unwritten::is_fixed(scene, agent, options.motion);
     let users = scene.agents.iter().zip(&shown).zip(&numbers);
-    let users: Vec<User<'_>> =
-        users.map(|((agent, shown), id)| User { agent, shown, id: *id, is_fixed: fixed(agent) }).collect();
+    let users: Vec<ScenarioAgent<'_>> = users
+        .map(|((agent, shown), id)| ScenarioAgent { agent, shown, id: *id, is_fixed: fixed(agent) })
+        .collect();
     export_motion::write(scene, &users, problem.as_ref(), &mut out, &mut losses);
     if ids.renumbered {
         let detail = "ids that are no whole numbers above zero, or not unique among all that is in a scenario, got new ones";

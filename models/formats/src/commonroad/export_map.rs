@@ -14,8 +14,8 @@ const HALF: f64 = 0.5;
 /// How a side is marked where a road edge runs.
 const CURB: &str = "curb";
 
-/// What a map is in a scenario.
-pub(super) struct Drawn<'a> {
+/// Elements of a scenario that a map is written as.
+pub(super) struct MapElements<'a> {
     scene: &'a Scene,
     /// How long signals go on.
     steps: usize,
@@ -34,7 +34,7 @@ pub(super) struct Drawn<'a> {
     obeys: HashMap<&'a str, (Vec<usize>, Vec<usize>)>,
 }
 
-impl<'a> Drawn<'a> {
+impl<'a> MapElements<'a> {
     /// Gives numbers to all that is drawn, and says what is not; signals go on for so many steps.
     pub fn of(scene: &'a Scene, steps: usize, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;

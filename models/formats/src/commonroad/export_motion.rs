@@ -16,8 +16,8 @@ const GOAL_M: f64 = 1.0;
 /// How far heading, speed and time of a goal may be off, radians, m/s and steps.
 const OFF: (f64, f64, usize) = (0.1, 0.5, 5);
 
-/// A road user on its way out.
-pub(super) struct User<'a> {
+/// A road user as the scenario has it.
+pub(super) struct ScenarioAgent<'a> {
     pub agent: &'a Agent,
     /// As the file has it.
     pub shown: &'a Shown<'a>,
@@ -27,8 +27,8 @@ pub(super) struct User<'a> {
     pub is_fixed: bool,
 }
 
-/// The road user whose way is to be planned.
-pub(super) struct Problem {
+/// The road user that a planner drives, with its start and goal.
+pub(super) struct PlanningTask {
     /// Place in the list of road users.
     agent: usize,
     first_step: usize,
@@ -36,7 +36,7 @@ pub(super) struct Problem {
     goal: Goal,
 }
 
-impl Problem {
+impl PlanningTask {
     /// Of the ego, else of the first road user with a goal; nothing where nobody has a start. `shown` are the road
     /// users of the scene as the file has them.
     pub fn of(scene: &Scene, shown: &[Shown<'_>]) -> Option<Self> {
@@ -62,8 +62,8 @@ impl Problem {
 /// Writes all road users.
 pub(super) fn write(
     scene: &Scene,
-    users: &[User<'_>],
-    problem: Option<&Problem>,
+    users: &[ScenarioAgent<'_>],
+    problem: Option<&PlanningTask>,
     out: &mut Markup,
     losses: &mut BTreeSet<Loss>,
 ) {
@@ -89,7 +89,7 @@ struct Lost {
 }
 
 impl Lost {
-    fn tell(&self, scene: &Scene, problem: Option<&Problem>, losses: &mut BTreeSet<Loss>) {
+    fn tell(&self, scene: &Scene, problem: Option<&PlanningTask>, losses: &mut BTreeSet<Loss>) {
         let agents = &scene.agents;
         let ego = problem.and_then(|problem| agents.get(problem.agent));
         let fixed = ego.is_some_and(|ego| {
@@ -142,8 +142,8 @@ impl Lost {
     }
 }
 
-fn obstacle(user: &User<'_>, out: &mut Markup, lost: &mut Lost) {
-    let User { agent, shown, id, is_fixed } = user;
+fn obstacle(user: &ScenarioAgent<'_>, out: &mut Markup, lost: &mut Lost) {
+    let ScenarioAgent { agent, shown, id, is_fixed } = user;
     lost.conditions |= *is_fixed;
     let known = known(&shown.track, agent);
     let states = filled(&known);
@@ -263,7 +263,7 @@ fn interval(name: &'static str, (from, to): (f64, f64), out: &mut Markup) {
     out.close();
 }
 
-fn planning_problem(problem: &Problem, id: i64, out: &mut Markup) {
+fn planning_problem(problem: &PlanningTask, id: i64, out: &mut Markup) {
     out.open("planningProblem", &[("id", &id.to_string())]);
     out.open("initialState", &[]);
     let start = &problem.start;

@@ -1,6 +1,6 @@
 //! Planning problems as road users with goals.
 
-use super::document::{GoalState, Problem, Range};
+use super::document::{GoalState, PlanningProblem, Range};
 use super::map::Lanes;
 use super::motion::Clock;
 use crate::limits::MAX_GOAL_DISTANCE_M;
@@ -13,7 +13,11 @@ const MAX_SPEED_MPS: f64 = 60.0;
 const DUE_S: (f64, f64) = (0.5, 80.0);
 
 /// The road user that a problem is about: where it starts, and what it must reach; whether that was a region.
-pub(super) fn agent(problem: &Problem, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Agent, bool) {
+pub(super) fn agent(
+    problem: &PlanningProblem,
+    (map, lanes): (&LaneMap, &Lanes),
+    clock: Clock,
+) -> (Agent, bool) {
     let start = &problem.start;
     let velocity = start.velocity.unwrap_or_default();
     let heading_rad = start.heading_rad.unwrap_or(0.0);

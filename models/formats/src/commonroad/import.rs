@@ -1,13 +1,13 @@
 //! From a scenario to a scene.
 
-use super::document::{self, Document};
+use super::document::{self, CommonRoadDocument};
 use super::motion::{Changed, Clock};
 use super::{goals, map, motion, signals};
 use crate::describe;
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences;
 use crate::settle;
 use crate::source::Source;
@@ -92,7 +92,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
 }
 
 /// All places of a document.
-fn places(document: &mut Document) -> impl Iterator<Item = &mut Vec2> {
+fn places(document: &mut CommonRoadDocument) -> impl Iterator<Item = &mut Vec2> {
     let lanelets = document.lanelets.iter_mut().flat_map(|lanelet| {
         let stop = lanelet.stop.iter_mut().flatten().flat_map(|(a, b)| [a, b]);
         lanelet.left.points.iter_mut().chain(&mut lanelet.right.points).chain(stop)
@@ -108,7 +108,7 @@ fn places(document: &mut Document) -> impl Iterator<Item = &mut Vec2> {
 }
 
 /// Moves all places so that a scene can have them, by whole metres; most files lie about their origin already.
-fn about_the_middle(document: &mut Document) -> Result<Vec2, ReadError> {
+fn about_the_middle(document: &mut CommonRoadDocument) -> Result<Vec2, ReadError> {
     let corners = places(document).fold(None, |corners: Option<(Vec2, Vec2)>, p| {
         Some(corners.map_or((*p, *p), |(low, high)| (low.inf(p), high.sup(p))))
     });
@@ -126,7 +126,7 @@ fn about_the_middle(document: &mut Document) -> Result<Vec2, ReadError> {
 
 /// The steps of the scene: to the last state or the end of the first goal, from the zero of the file where that is
 /// not too long before, else from the first state.
-fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
+fn clock(document: &CommonRoadDocument, warnings: &mut Vec<ImportWarning>) -> Clock {
     let moving = document.obstacles.iter().filter(|obstacle| !obstacle.fixed);
     let starts = document.problems.iter().map(|problem| problem.start.step);
     let states = moving.flat_map(|obstacle| &obstacle.states).map(|state| state.step);
@@ -142,22 +142,22 @@ fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
     let all_s = clock.seconds(last as f64);
     let steps = clock.step(last) + 1;
     if steps > MAX_STEPS {
-        warnings.push(Warning::new("steps-dropped", sentences::steps_beyond_limit(all_s, MAX_STEPS)));
+        warnings.push(ImportWarning::new("steps-dropped", sentences::steps_beyond_limit(all_s, MAX_STEPS)));
     }
     if !clock.is_even() {
-        warnings.push(Warning::new("time-resampled", sentences::time_interpolated(document.step_s)));
+        warnings.push(ImportWarning::new("time-resampled", sentences::time_interpolated(document.step_s)));
     }
     Clock { steps: steps.min(MAX_STEPS), ..clock }
 }
 
 /// The road users that a scene has room for. Of two with one id the first.
-fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<Warning>) -> Vec<Agent> {
+fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<ImportWarning>) -> Vec<Agent> {
     let count = agents.len();
     let mut ids = HashSet::new();
     agents.retain(|agent| ids.insert(agent.id.clone()));
     if agents.len() < count {
         let message = sentences::agents_with_used_id(count - agents.len());
-        warnings.push(Warning::new("agents-dropped", message));
+        warnings.push(ImportWarning::new("agents-dropped", message));
     }
     warnings.extend(settle::nearest(&mut agents, 0));
     agents
@@ -165,15 +165,15 @@ fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<Warning>) -> Vec<Agent> {
 
 /// What had to be changed or left out.
 fn tell(
-    document: &Document,
+    document: &CommonRoadDocument,
     changed: &Changed,
     (regions, sizes): (usize, usize),
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) {
     let further: usize = document.problems.iter().map(|problem| problem.goals.len().saturating_sub(1)).sum();
     let mut warn = |count: usize, code, message: fn(usize) -> Message| {
         if count > 0 {
-            warnings.push(Warning::new(code, message(count)));
+            warnings.push(ImportWarning::new(code, message(count)));
         }
     };
     warn(regions, "goal-interval", sentences::goals_are_regions);
@@ -186,6 +186,6 @@ fn tell(
     warn(changed.cut, "obstacles-empty", sentences::obstacles_absent);
     warn(document.others, "elements-dropped", sentences::elements_unread);
     if document.lanelets.is_empty() {
-        warnings.push(Warning::new("no-map", sentences::map_lacks_lanelets()));
+        warnings.push(ImportWarning::new("no-map", sentences::map_lacks_lanelets()));
     }
 }

@@ -1,12 +1,13 @@
 //! Lanelets as a lane map.
 
-use super::document::{Document, Lanelet, Side};
-use super::words::{INTERSECTION, Kind, MAX_SPEED_SIGNS, STOP_SIGNS, lane_kind, line_type};
+use super::document::{CommonRoadDocument, Lanelet, Side};
+use super::words::{INTERSECTION, MAX_SPEED_SIGNS, STOP_SIGNS, lane_kind, line_type};
 use crate::map_file::AGAINST;
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences;
+use crate::sides::{self, LaneletKind};
 use crate::surface::{self, Strip};
-use crate::{bounds, polyline, sides};
+use crate::{bounds, polyline};
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TYPES, StopSign, TypedLine};
 use scene::{MAX_POLYLINE_POINTS, Vec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -18,13 +19,13 @@ const BESIDE_M: f64 = 0.5;
 pub(super) type Lanes = HashMap<i64, Vec<usize>>;
 
 /// A map of the lanelets, and which lanes are theirs.
-pub(super) fn lane_map(document: &Document, warnings: &mut Vec<Warning>) -> (LaneMap, Lanes) {
+pub(super) fn lane_map(document: &CommonRoadDocument, warnings: &mut Vec<ImportWarning>) -> (LaneMap, Lanes) {
     let mut map = LaneMap::default();
     let lanes = draw(document, &mut map, warnings);
     link(&document.lanelets, &lanes, &mut map);
     paint(&document.lanelets, &lanes, &mut map);
     if !ground(&document.lanelets, &lanes, &mut map) {
-        warnings.push(Warning::new("edges-dropped", sentences::crossing_lanelets()));
+        warnings.push(ImportWarning::new("edges-dropped", sentences::crossing_lanelets()));
     }
     bounds::by_edges(&mut map);
     stop_signs(document, &lanes, &mut map);
@@ -32,7 +33,7 @@ pub(super) fn lane_map(document: &Document, warnings: &mut Vec<Warning>) -> (Lan
 }
 
 /// Draws lanes and crosswalks.
-fn draw(document: &Document, map: &mut LaneMap, warnings: &mut Vec<Warning>) -> Lanes {
+fn draw(document: &CommonRoadDocument, map: &mut LaneMap, warnings: &mut Vec<ImportWarning>) -> Lanes {
     let through: HashSet<i64> = document.turns.iter().map(|(_, id)| *id).collect();
     let mut lanes = Lanes::new();
     let mut twice = 0;
@@ -43,7 +44,7 @@ fn draw(document: &Document, map: &mut LaneMap, warnings: &mut Vec<Warning>) -> 
         }
         let drawn = lanes.entry(lanelet.id).or_default();
         let users: Vec<String> = lanelet.one_way.iter().chain(&lanelet.both_ways).cloned().collect();
-        let Kind::Lane(lane_type) = lane_kind(&lanelet.types, &users) else {
+        let LaneletKind::Lane(lane_type) = lane_kind(&lanelet.types, &users) else {
             let mut ring: Vec<Vec2> =
                 lanelet.right.points.iter().chain(lanelet.left.points.iter().rev()).copied().collect();
             ring.dedup();
@@ -74,7 +75,7 @@ fn draw(document: &Document, map: &mut LaneMap, warnings: &mut Vec<Warning>) -> 
         }
     }
     if twice > 0 {
-        warnings.push(Warning::new("lanes-dropped", sentences::lanelets_with_used_id(twice)));
+        warnings.push(ImportWarning::new("lanes-dropped", sentences::lanelets_with_used_id(twice)));
     }
     lanes
 }
@@ -92,7 +93,7 @@ fn centre(lanelet: &Lanelet) -> (Vec<Vec2>, f64) {
     sides::middle(left, right)
 }
 
-fn speed_limit(document: &Document, lanelet: &Lanelet) -> Option<f64> {
+fn speed_limit(document: &CommonRoadDocument, lanelet: &Lanelet) -> Option<f64> {
     let signs = lanelet.signs.iter().filter_map(|id| document.signs.get(id)).flat_map(|sign| &sign.elements);
     let limits = signs.filter(|(kind, _)| MAX_SPEED_SIGNS.contains(&kind.as_str())).filter_map(|(_, v)| *v);
     let limit = limits.reduce(f64::min).or(lanelet.speed_mps);
@@ -232,7 +233,7 @@ pub(super) fn stop(lanelet: &Lanelet, lane: &Lane) -> Option<Vec2> {
     line.or_else(|| lane.points.xy.last().copied())
 }
 
-fn stop_signs(document: &Document, lanes: &Lanes, map: &mut LaneMap) {
+fn stop_signs(document: &CommonRoadDocument, lanes: &Lanes, map: &mut LaneMap) {
     let mut signs: BTreeMap<i64, StopSign> = BTreeMap::new();
     for lanelet in &document.lanelets {
         let Some(&lane) = lanes.get(&lanelet.id).and_then(|own| own.first()) else { continue };

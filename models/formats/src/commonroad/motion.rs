@@ -1,6 +1,6 @@
 //! Obstacles as road users, with a state each 0.1 s.
 
-use super::document::{Obstacle, Timed};
+use super::document::{Obstacle, ObstacleState};
 use super::shapes::Shape;
 use super::words::road_user;
 use crate::limits::MAX_STEPS;
@@ -79,15 +79,15 @@ pub(super) fn agent(obstacle: &Obstacle, clock: Clock, changed: &mut Changed) ->
 }
 
 /// States of the middle of the box, by rising step of the file. What is missing is worked out from the places.
-fn states(timed: &[Timed], shape: Shape) -> Vec<(i64, State)> {
-    let mut sorted: Vec<Timed> = timed.to_vec();
+fn states(timed: &[ObstacleState], shape: Shape) -> Vec<(i64, State)> {
+    let mut sorted: Vec<ObstacleState> = timed.to_vec();
     sorted.sort_by_key(|state| state.step);
     sorted.dedup_by_key(|state| state.step);
     let way = |i: usize| -> Vec2 {
         let (from, to) = (&sorted[i.saturating_sub(1)], &sorted[(i + 1).min(sorted.len() - 1)]);
         to.at - from.at
     };
-    let state = |(i, timed): (usize, &Timed)| {
+    let state = |(i, timed): (usize, &ObstacleState)| {
         let along = || Some(way(i)).filter(|way| way.norm() > 0.1).map_or(0.0, |way| way.y.atan2(way.x));
         let heading = timed.heading_rad.unwrap_or_else(along);
         let at = timed.at + rotate(shape.centre, heading);

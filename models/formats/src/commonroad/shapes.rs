@@ -1,7 +1,7 @@
 //! Shapes of obstacles and places of goals, as boxes.
 
 use crate::problem::ReadError;
-use crate::tree::Node;
+use crate::tree::XmlNode;
 use scene::geometry::rotate;
 use scene::{Vec2, wrap_angle};
 
@@ -25,7 +25,7 @@ pub(super) struct Shape {
 ///
 /// # Errors
 /// `invalid-field`.
-pub(super) fn point(node: &Node) -> Result<Vec2, ReadError> {
+pub(super) fn point(node: &XmlNode) -> Result<Vec2, ReadError> {
     let coordinate = |name: &str| {
         let node = node.required(name)?;
         let value = node.number()?;
@@ -41,7 +41,7 @@ pub(super) fn point(node: &Node) -> Result<Vec2, ReadError> {
 ///
 /// # Errors
 /// `invalid-field`.
-pub(super) fn all(node: &Node) -> Result<Vec<Shape>, ReadError> {
+pub(super) fn all(node: &XmlNode) -> Result<Vec<Shape>, ReadError> {
     let mut shapes = Vec::new();
     for child in &node.children {
         shapes.extend(shape(child)?);
@@ -49,7 +49,7 @@ pub(super) fn all(node: &Node) -> Result<Vec<Shape>, ReadError> {
     Ok(shapes)
 }
 
-fn shape(node: &Node) -> Result<Option<Shape>, ReadError> {
+fn shape(node: &XmlNode) -> Result<Option<Shape>, ReadError> {
     let centre = || node.child("center").map_or(Ok(Vec2::zeros()), point);
     let plain = Shape {
         centre: Vec2::zeros(),
@@ -67,7 +67,7 @@ fn shape(node: &Node) -> Result<Option<Shape>, ReadError> {
         "point" => Shape { centre: point(node)?, is_area: false, ..plain },
         "rectangle" => Shape {
             centre: centre()?,
-            heading_rad: wrap_angle(node.child("orientation").map_or(Ok(0.0), Node::number)?),
+            heading_rad: wrap_angle(node.child("orientation").map_or(Ok(0.0), XmlNode::number)?),
             length_m: size("length")?,
             width_m: size("width")?,
             ..plain

@@ -1,10 +1,10 @@
 //! Lights with their cycles as signals over the steps of a scene.
 
-use super::document::{Document, Light};
+use super::document::{CommonRoadDocument, TrafficLight};
 use super::map::{Lanes, stop};
 use super::words::signal_state;
 use crate::limits::MAX_SIGNALS;
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::map::LaneMap;
 use scene::{STEP_S, Signal, SignalState};
@@ -12,11 +12,11 @@ use std::collections::{HashMap, HashSet};
 
 /// A signal for each lane that a light rules, over `steps` steps from `first` of the file on.
 pub(super) fn signals(
-    document: &Document,
+    document: &CommonRoadDocument,
     (map, lanes): (&LaneMap, &Lanes),
     first: i64,
     steps: usize,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) -> Vec<Signal> {
     let turns: HashMap<i64, &'static str> = document.turns.iter().map(|(turn, id)| (*id, *turn)).collect();
     let mut shown: HashMap<i64, Vec<(usize, SignalState)>> = HashMap::new();
@@ -56,21 +56,22 @@ pub(super) fn signals(
         }
     }
     if dropped > 0 {
-        warnings.push(Warning::new("signals-dropped", sentences::signals_over_limit(dropped, MAX_SIGNALS)));
+        warnings
+            .push(ImportWarning::new("signals-dropped", sentences::signals_over_limit(dropped, MAX_SIGNALS)));
     }
     signals
 }
 
-fn is_for_all(light: &Light) -> bool {
+fn is_for_all(light: &TrafficLight) -> bool {
     matches!(light.direction.as_str(), "" | "all")
 }
 
-fn covers(light: &Light, turn: &str) -> bool {
+fn covers(light: &TrafficLight, turn: &str) -> bool {
     light.direction.to_ascii_lowercase().contains(turn)
 }
 
 /// What a light shows over the steps of a scene. Empty where its cycle has no length.
-fn runs(light: &Light, step_s: f64, first: i64, steps: usize) -> Vec<(usize, SignalState)> {
+fn runs(light: &TrafficLight, step_s: f64, first: i64, steps: usize) -> Vec<(usize, SignalState)> {
     let length: u64 = light.cycle.iter().fold(0, |sum, (_, duration)| sum.saturating_add(*duration));
     if length == 0 {
         return Vec::new();
@@ -100,7 +101,7 @@ mod tests {
     fn a_cycle_goes_on_over_the_scene() {
         let cycle = [("red", 30), ("redYellow", 5), ("green", 20), ("yellow", 5)];
         let cycle = cycle.map(|(color, steps)| (color.to_owned(), steps)).to_vec();
-        let light = Light { cycle, offset: 10, direction: "all".into(), active: true };
+        let light = TrafficLight { cycle, offset: 10, direction: "all".into(), active: true };
         use SignalState::{Caution, Go, Stop};
         assert_eq!(
             runs(&light, 0.1, 0, 91),
@@ -108,7 +109,7 @@ mod tests {
         );
         // Steps of 0.2 s last twice as long; a later beginning is later in the cycle.
         assert_eq!(runs(&light, 0.2, 5, 31), [(0, Caution), (10, Stop)]);
-        let empty = Light { cycle: vec![("red".into(), 0)], ..light };
+        let empty = TrafficLight { cycle: vec![("red".into(), 0)], ..light };
         assert_eq!(runs(&empty, 0.1, 0, 91), []);
     }
 }

@@ -1,5 +1,6 @@
 //! The words of CommonRoad beside those of a scene.
 
+use crate::sides::LaneletKind;
 use scene::map::LaneType;
 use scene::{AgentType, SignalState, Subtype};
 
@@ -8,34 +9,27 @@ pub(super) const VERSIONS: [&str; 2] = ["2018b", "2020a"];
 /// The version that is written.
 pub(super) const VERSION: &str = "2020a";
 
-/// What a lanelet is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Lane(LaneType),
-    Crosswalk,
-}
-
 /// Words of a lanelet's types, those that say most first.
-const LANE_TYPES: [(&str, Kind); 18] = [
-    ("crosswalk", Kind::Crosswalk),
-    ("sidewalk", Kind::Lane(LaneType::Sidewalk)),
-    ("bicycleLane", Kind::Lane(LaneType::BikeLane)),
-    ("busLane", Kind::Lane(LaneType::BusLane)),
-    ("parking", Kind::Lane(LaneType::Parking)),
+const LANE_TYPES: [(&str, LaneletKind); 18] = [
+    ("crosswalk", LaneletKind::Crosswalk),
+    ("sidewalk", LaneletKind::Lane(LaneType::Sidewalk)),
+    ("bicycleLane", LaneletKind::Lane(LaneType::BikeLane)),
+    ("busLane", LaneletKind::Lane(LaneType::BusLane)),
+    ("parking", LaneletKind::Lane(LaneType::Parking)),
     // Ground that nobody drives along.
-    ("shoulder", Kind::Lane(LaneType::Parking)),
-    ("border", Kind::Lane(LaneType::Parking)),
-    ("restricted", Kind::Lane(LaneType::Parking)),
-    ("restricted_area", Kind::Lane(LaneType::Parking)),
-    ("busStop", Kind::Lane(LaneType::Parking)),
-    ("highway", Kind::Lane(LaneType::Freeway)),
-    ("interstate", Kind::Lane(LaneType::Freeway)),
-    ("mainCarriageWay", Kind::Lane(LaneType::Freeway)),
-    ("accessRamp", Kind::Lane(LaneType::Freeway)),
-    ("exitRamp", Kind::Lane(LaneType::Freeway)),
-    ("urban", Kind::Lane(LaneType::SurfaceStreet)),
-    ("country", Kind::Lane(LaneType::SurfaceStreet)),
-    ("driveWay", Kind::Lane(LaneType::SurfaceStreet)),
+    ("shoulder", LaneletKind::Lane(LaneType::Parking)),
+    ("border", LaneletKind::Lane(LaneType::Parking)),
+    ("restricted", LaneletKind::Lane(LaneType::Parking)),
+    ("restricted_area", LaneletKind::Lane(LaneType::Parking)),
+    ("busStop", LaneletKind::Lane(LaneType::Parking)),
+    ("highway", LaneletKind::Lane(LaneType::Freeway)),
+    ("interstate", LaneletKind::Lane(LaneType::Freeway)),
+    ("mainCarriageWay", LaneletKind::Lane(LaneType::Freeway)),
+    ("accessRamp", LaneletKind::Lane(LaneType::Freeway)),
+    ("exitRamp", LaneletKind::Lane(LaneType::Freeway)),
+    ("urban", LaneletKind::Lane(LaneType::SurfaceStreet)),
+    ("country", LaneletKind::Lane(LaneType::SurfaceStreet)),
+    ("driveWay", LaneletKind::Lane(LaneType::SurfaceStreet)),
 ];
 /// Type of what leads through a junction.
 pub(super) const INTERSECTION: &str = "intersection";
@@ -43,17 +37,19 @@ pub(super) const INTERSECTION: &str = "intersection";
 pub(super) const UNKNOWN: &str = "unknown";
 
 /// What a lanelet with these types and users is for.
-pub(super) fn lane_kind(types: &[String], users: &[String]) -> Kind {
+pub(super) fn lane_kind(types: &[String], users: &[String]) -> LaneletKind {
     let only = |word: &str| !users.is_empty() && users.iter().all(|user| user == word);
     let has = |word: &str| types.iter().any(|found| found == word);
     let said = LANE_TYPES.iter().find(|(word, _)| has(word)).map(|(_, kind)| *kind);
     match said {
-        Some(kind @ (Kind::Crosswalk | Kind::Lane(LaneType::Sidewalk | LaneType::BikeLane))) => kind,
-        _ if only("pedestrian") => Kind::Lane(LaneType::Sidewalk),
-        _ if only("bicycle") => Kind::Lane(LaneType::BikeLane),
+        Some(
+            kind @ (LaneletKind::Crosswalk | LaneletKind::Lane(LaneType::Sidewalk | LaneType::BikeLane)),
+        ) => kind,
+        _ if only("pedestrian") => LaneletKind::Lane(LaneType::Sidewalk),
+        _ if only("bicycle") => LaneletKind::Lane(LaneType::BikeLane),
         Some(kind) => kind,
-        None if has(UNKNOWN) => Kind::Lane(LaneType::Undefined),
-        None => Kind::Lane(LaneType::SurfaceStreet),
+        None if has(UNKNOWN) => LaneletKind::Lane(LaneType::Undefined),
+        None => LaneletKind::Lane(LaneType::SurfaceStreet),
     }
 }
 
@@ -204,7 +200,7 @@ mod tests {
             LaneType::Parking,
         ];
         for lane_type in types {
-            assert_eq!(lane_kind(&[lane_word(lane_type).to_owned()], &[]), Kind::Lane(lane_type));
+            assert_eq!(lane_kind(&[lane_word(lane_type).to_owned()], &[]), LaneletKind::Lane(lane_type));
         }
         for (word, agent_type, subtype) in &ROAD_USERS[..5] {
             assert_eq!(road_user_word(*agent_type, *subtype), (*word, true));
@@ -217,7 +213,7 @@ mod tests {
             assert_eq!(line_type(marking(line)).unwrap_or("unknown"), white);
         }
         let users = |word: &str| vec![word.to_owned()];
-        assert_eq!(lane_kind(&[], &users("pedestrian")), Kind::Lane(LaneType::Sidewalk));
-        assert_eq!(lane_kind(&users("crosswalk"), &users("pedestrian")), Kind::Crosswalk);
+        assert_eq!(lane_kind(&[], &users("pedestrian")), LaneletKind::Lane(LaneType::Sidewalk));
+        assert_eq!(lane_kind(&users("crosswalk"), &users("pedestrian")), LaneletKind::Crosswalk);
     }
 }

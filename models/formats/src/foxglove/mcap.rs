@@ -85,7 +85,7 @@ struct Chunk {
 }
 
 /// A file that is being written.
-pub(super) struct Writer {
+pub(super) struct McapWriter {
     bytes: Vec<u8>,
     /// Schemas and channels, once more for the end of the file.
     known: Vec<u8>,
@@ -102,7 +102,7 @@ fn with(times_ns: Option<(u64, u64)>, time_ns: u64) -> Option<(u64, u64)> {
     Some(times_ns.map_or((time_ns, time_ns), |(first, last)| (first.min(time_ns), last.max(time_ns))))
 }
 
-impl Writer {
+impl McapWriter {
     pub fn new(library: &str) -> Self {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(Content::default().text("").text(library).record(0x01));

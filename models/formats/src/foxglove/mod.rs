@@ -9,7 +9,7 @@ use crate::format::{
 };
 use crate::loss::{Loss, code};
 use crate::source::Source;
-use mcap::Writer;
+use mcap::McapWriter;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -68,14 +68,14 @@ fn time(step: usize) -> Value {
 }
 
 fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
-    let mut file = Writer::new(concat!("dragtraffic ", env!("CARGO_PKG_VERSION")));
+    let mut file = McapWriter::new(concat!("dragtraffic ", env!("CARGO_PKG_VERSION")));
     let update = file.schema("foxglove.SceneUpdate", SCENE_UPDATE);
     let transform = file.schema("foxglove.FrameTransform", FRAME_TRANSFORM);
     let frames = file.channel("/tf", transform);
     let map = file.channel("/map", update);
     let signals = file.channel("/signals", update);
     let users = file.channel("/road_users", update);
-    let put = |file: &mut Writer, channel: u16, step: usize, message: &Value| {
+    let put = |file: &mut McapWriter, channel: u16, step: usize, message: &Value| {
         file.message(channel, step as u64 * STEP_NS, message.to_string().as_bytes())
     };
     put(&mut file, frames, 0, &scene_update::transform(scene))?;

@@ -22,7 +22,7 @@ const UNSEEN: f64 = -10_000.0;
 /// Those of JSON, which has no place for what is no number.
 pub(super) fn write(scene: &Scene, options: &ExportOptions, flavour: Flavour) -> io::Result<Exported> {
     let mut losses = BTreeSet::new();
-    let frame = Frame { origin: &scene.meta.origin, flat: flavour == Flavour::Nocturne };
+    let frame = SourceFrame { origin: &scene.meta.origin, flat: flavour == Flavour::Nocturne };
     let (shown, steps) = options.motion.all(scene);
     losses.extend(unwritten::length(scene, steps));
     let mut ids = Numbers::of(scene.agents.iter().map(|agent| &agent.id));
@@ -64,13 +64,13 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions, flavour: Flavour) ->
 
 /// Places and directions as the source has them.
 #[derive(Clone, Copy)]
-struct Frame<'a> {
+struct SourceFrame<'a> {
     origin: &'a Origin,
     /// Without heights, ids and kinds of map elements; headings in degrees.
     flat: bool,
 }
 
-impl Frame<'_> {
+impl SourceFrame<'_> {
     fn turn(self, v: Vec2) -> Vec2 {
         if self.origin.rotation_rad == 0.0 { v } else { rotate(v, self.origin.rotation_rad) }
     }
@@ -92,7 +92,7 @@ impl Frame<'_> {
     }
 }
 
-fn object(agent: &Agent, shown: &Shown<'_>, id: i64, steps: usize, frame: Frame<'_>) -> Object {
+fn object(agent: &Agent, shown: &Shown<'_>, id: i64, steps: usize, frame: SourceFrame<'_>) -> Object {
     let unseen = Point { x: UNSEEN, y: UNSEEN, z: (!frame.flat).then_some(UNSEEN) };
     let plane = Point { z: None, ..unseen };
     let height = |step: usize| {
@@ -128,7 +128,7 @@ fn object(agent: &Agent, shown: &Shown<'_>, id: i64, steps: usize, frame: Frame<
 }
 
 /// The map, the numbers of its lanes, and whether some of it got other numbers than its ids.
-fn roads(scene: &Scene, frame: Frame<'_>) -> (Vec<Road>, HashMap<String, i64>, bool) {
+fn roads(scene: &Scene, frame: SourceFrame<'_>) -> (Vec<Road>, HashMap<String, i64>, bool) {
     let map = &scene.map;
     let lines = || map.road_lines.iter().chain(&map.road_edges);
     let areas = || map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways);
@@ -187,7 +187,7 @@ fn lights(
     signals: &[Signal],
     lanes: &HashMap<String, i64>,
     steps: usize,
-    frame: Frame<'_>,
+    frame: SourceFrame<'_>,
 ) -> Vec<(String, Light)> {
     let mut lights: Vec<(String, Light)> = Vec::new();
     for signal in signals {

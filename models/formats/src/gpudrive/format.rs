@@ -9,7 +9,7 @@ use scene::Scene;
 use std::io;
 
 /// Scenarios of one of the two engines. Both are read by either; they are written as their engine reads them.
-pub(crate) struct Engine {
+pub(crate) struct EngineFormat {
     id: &'static str,
     name: &'static str,
     flavour: Flavour,
@@ -26,7 +26,7 @@ pub(super) enum Flavour {
 }
 
 /// GPUDrive.
-pub(crate) static GPUDRIVE: Engine = Engine {
+pub(crate) static GPUDRIVE: EngineFormat = EngineFormat {
     id: "gpudrive",
     name: "GPUDrive scenario (JSON)",
     flavour: Flavour::GpuDrive,
@@ -35,7 +35,7 @@ pub(crate) static GPUDRIVE: Engine = Engine {
          written in radians, with heights and ids.",
 };
 /// Nocturne.
-pub(crate) static NOCTURNE: Engine = Engine {
+pub(crate) static NOCTURNE: EngineFormat = EngineFormat {
     id: "nocturne",
     name: "Nocturne scenario (JSON)",
     flavour: Flavour::Nocturne,
@@ -57,7 +57,7 @@ fn flavour(head: &[u8]) -> Option<Flavour> {
     Some(if has("\"z\"") || has("\"scenario_id\"") { Flavour::GpuDrive } else { Flavour::Nocturne })
 }
 
-impl Format for Engine {
+impl Format for EngineFormat {
     fn info(&self) -> Info {
         Info {
             id: self.id,

@@ -2,7 +2,7 @@
 
 use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
@@ -40,7 +40,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
         && document.objects.iter().flat_map(|object| &object.position).all(|p| p.z.is_none());
     let degrees = in_degrees(&document.objects, flat);
     if degrees {
-        warnings.push(Warning::new("headings-in-degrees", sentences::headings_in_degrees()));
+        warnings.push(ImportWarning::new("headings-in-degrees", sentences::headings_in_degrees()));
     }
     let mut ids = Ids::default();
     let mut agents = Vec::new();
@@ -61,7 +61,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     }
     let map = lane_map(&document.roads, &mut warnings);
     if !map.lanes.is_empty() {
-        warnings.push(Warning::new("no-lane-graph", sentences::lane_links_derived()));
+        warnings.push(ImportWarning::new("no-lane-graph", sentences::lane_links_derived()));
     }
     let signals =
         document.tl_states.0.iter().filter_map(|(lane, light)| signal(lane, light, steps)).collect();
@@ -171,7 +171,7 @@ fn word(words: &[&'static str], number: Option<i64>, first: i64) -> String {
     place.and_then(|place| words.get(place)).copied().unwrap_or("unknown").to_owned()
 }
 
-fn lane_map(roads: &[Road], warnings: &mut Vec<Warning>) -> LaneMap {
+fn lane_map(roads: &[Road], warnings: &mut Vec<ImportWarning>) -> LaneMap {
     let mut map = LaneMap::default();
     let mut ids: [Ids; 3] = Default::default();
     let mut dropped = 0;
@@ -210,7 +210,7 @@ fn lane_map(roads: &[Road], warnings: &mut Vec<Warning>) -> LaneMap {
     }
     ids.iter().for_each(|ids| warnings.extend(ids.warning(subject::MAP_FEATURES)));
     if dropped > 0 {
-        warnings.push(Warning::new("features-dropped", sentences::features_unread(dropped)));
+        warnings.push(ImportWarning::new("features-dropped", sentences::features_unread(dropped)));
     }
     map
 }

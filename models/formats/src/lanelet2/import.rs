@@ -1,12 +1,13 @@
 //! From a Lanelet2 map to a scene about the origin.
 
-use super::lanelets::{Kind, Lanelet, is, lanelets};
+use super::lanelets::{Lanelet, is, lanelets};
 use super::osm::{self, Osm, Tags};
 use crate::format::MAP_TIMING;
-use crate::lights::{self, Head, heading_at};
+use crate::lights::{self, SignalHead, heading_at};
 use crate::map_file::{self, MapRead};
-use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
 use crate::sentences;
+use crate::sides::LaneletKind;
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, polyline};
@@ -39,9 +40,9 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let heads = rules(&osm, &lanelets, &lanes, &mut map);
     let (signals, made) = lights::signals(&map, heads, MAP_TIMING.steps);
     let mut warnings = Vec::new();
-    let unusable = || Warning::new("lanes-dropped", sentences::lanelets_unusable(broken));
+    let unusable = || ImportWarning::new("lanes-dropped", sentences::lanelets_unusable(broken));
     warnings.extend((broken > 0).then(unusable));
-    warnings.extend((!whole).then(|| Warning::new("edges-dropped", sentences::crossing_lanelets())));
+    warnings.extend((!whole).then(|| ImportWarning::new("edges-dropped", sentences::crossing_lanelets())));
     warnings.extend(made);
     let crs = osm.projection.map(|projection| projection.name());
     let origin = Origin { x_m: origin.x, y_m: origin.y, crs, ..Origin::default() };
@@ -71,7 +72,7 @@ fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
     let mut lanes = Vec::new();
     for lanelet in lanelets {
         let mut drawn = Vec::new();
-        let Kind::Lane(lane_type) = lanelet.kind else {
+        let LaneletKind::Lane(lane_type) = lanelet.kind else {
             let ring: Vec<Vec2> = lanelet.right.iter().chain(lanelet.left.iter().rev()).copied().collect();
             let area = Area { id: lanelet.id.to_string(), polygon: ring.into(), holes: Vec::new() };
             map.crosswalks.extend((!map.crosswalks.iter().any(|other| other.id == area.id)).then_some(area));
@@ -222,7 +223,7 @@ fn ground(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> bool {
     let (mut strips, mut ways) = (Vec::new(), Vec::new());
     for lanelet in lanelets {
         let Some(lane) = by_id.get(&lanelet.id.to_string()).map(|i| &map.lanes[*i]) else { continue };
-        let Kind::Lane(kind) = lanelet.kind else { continue };
+        let LaneletKind::Lane(kind) = lanelet.kind else { continue };
         if !kind.carries_vehicles() && kind != scene::map::LaneType::BikeLane {
             continue;
         }
@@ -244,15 +245,15 @@ fn ground(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> bool {
 }
 
 /// Finds heads of lights, and draws stop signs.
-fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) -> Vec<Head> {
+fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) -> Vec<SignalHead> {
     let all = osm.relations.iter().filter(|r| is(&r.tags, "type", "regulatory_element"));
-    let by_id: HashMap<i64, &osm::Relation> = all.map(|rule| (rule.id, rule)).collect();
+    let by_id: HashMap<i64, &osm::OsmRelation> = all.map(|rule| (rule.id, rule)).collect();
     let middle = |way: i64| {
         let nodes = &osm.ways.get(&way)?.nodes;
         let points: Vec<Vec2> = nodes.iter().filter_map(|node| osm.nodes.get(node).copied()).collect();
         (!points.is_empty()).then(|| points.iter().sum::<Vec2>() / points.len() as f64)
     };
-    let mut heads: Vec<Head> = Vec::new();
+    let mut heads: Vec<SignalHead> = Vec::new();
     let mut places: Vec<Vec2> = Vec::new();
     let mut signs: BTreeMap<i64, StopSign> = BTreeMap::new();
     for (lanelet, drawn) in lanelets.iter().zip(lanes) {
@@ -276,7 +277,13 @@ fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut La
                     places.len() - 1
                 });
                 let heading_rad = heading_at(points, stop);
-                heads.push(Head { lane, stop, heading_rad, junction: format!("{junction:06}"), group: None });
+                heads.push(SignalHead {
+                    lane,
+                    stop,
+                    heading_rad,
+                    junction: format!("{junction:06}"),
+                    group: None,
+                });
             }
             let sign_type = rule.tags.get("sign_type").map_or("", String::as_str);
             if subtype == "traffic_sign" && matches!(sign_type, "de206" | "usR1-1" | "stop_sign") {

@@ -1,7 +1,7 @@
 //! Lanelets: their sides in the direction of travel, their middle, what they are for.
 
-use super::osm::{Osm, Relation, Tags};
-use crate::sides;
+use super::osm::{Osm, OsmRelation, Tags};
+use crate::sides::{self, LaneletKind};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::LaneType;
@@ -15,15 +15,8 @@ pub(super) struct Lanelet<'a> {
     pub ends: [(i64, i64); 2],
     pub left: Vec<Vec2>,
     pub right: Vec<Vec2>,
-    pub relation: &'a Relation,
-    pub kind: Kind,
-}
-
-/// What a lanelet is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Lane(LaneType),
-    Crosswalk,
+    pub relation: &'a OsmRelation,
+    pub kind: LaneletKind,
 }
 
 impl Lanelet<'_> {
@@ -60,7 +53,7 @@ pub(super) fn is(tags: &Tags, key: &str, value: &str) -> bool {
     tags.get(key).is_some_and(|found| found == value)
 }
 
-fn lanelet<'a>(osm: &Osm, relation: &'a Relation) -> Option<Lanelet<'a>> {
+fn lanelet<'a>(osm: &Osm, relation: &'a OsmRelation) -> Option<Lanelet<'a>> {
     let ways = [relation.member("left")?, relation.member("right")?];
     let line = |id: &i64| -> Option<(Vec<i64>, Vec<Vec2>)> {
         let nodes = &osm.ways.get(id)?.nodes;
@@ -97,17 +90,17 @@ fn lanelet<'a>(osm: &Osm, relation: &'a Relation) -> Option<Lanelet<'a>> {
     })
 }
 
-fn kind(tags: &Tags) -> Option<Kind> {
+fn kind(tags: &Tags) -> Option<LaneletKind> {
     let yes = |key: &str| is(tags, key, "yes");
     let on_foot = yes("participant:pedestrian") && !yes("participant:vehicle");
     Some(match tags.get("subtype").map_or("road", String::as_str) {
-        "crosswalk" => Kind::Crosswalk,
-        "highway" => Kind::Lane(LaneType::Freeway),
-        "bus_lane" => Kind::Lane(LaneType::BusLane),
-        "bicycle_lane" => Kind::Lane(LaneType::BikeLane),
-        "walkway" | "shared_walkway" | "pedestrian_lane" => Kind::Lane(LaneType::Sidewalk),
+        "crosswalk" => LaneletKind::Crosswalk,
+        "highway" => LaneletKind::Lane(LaneType::Freeway),
+        "bus_lane" => LaneletKind::Lane(LaneType::BusLane),
+        "bicycle_lane" => LaneletKind::Lane(LaneType::BikeLane),
+        "walkway" | "shared_walkway" | "pedestrian_lane" => LaneletKind::Lane(LaneType::Sidewalk),
         "stairs" | "exit" | "rail" => return None,
-        _ if on_foot => Kind::Lane(LaneType::Sidewalk),
-        _ => Kind::Lane(LaneType::SurfaceStreet),
+        _ if on_foot => LaneletKind::Lane(LaneType::Sidewalk),
+        _ => LaneletKind::Lane(LaneType::SurfaceStreet),
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::osm_items::{Member, each};
 use crate::problem::{FieldProblem, ReadError, at_most};
-use crate::projection::Projection;
+use crate::projection::TransverseMercator;
 use crate::source::Source;
 use scene::Vec2;
 use std::collections::HashMap;
@@ -39,20 +39,20 @@ pub(super) type Tags = HashMap<&'static str, String>;
 
 /// A line of points.
 #[derive(Debug, Default)]
-pub(super) struct Way {
+pub(super) struct OsmWay {
     pub nodes: Vec<i64>,
     pub tags: Tags,
 }
 
 /// A relation: a lanelet, a rule.
 #[derive(Debug, Default)]
-pub(super) struct Relation {
+pub(super) struct OsmRelation {
     pub id: i64,
     pub members: Vec<Member>,
     pub tags: Tags,
 }
 
-impl Relation {
+impl OsmRelation {
     /// The first member in a role.
     pub fn member(&self, role: &str) -> Option<i64> {
         self.members.iter().find(|member| member.role == role).map(|member| member.id)
@@ -64,11 +64,11 @@ impl Relation {
 pub(super) struct Osm {
     /// Metres, in the frame of the file or of [`Osm::projection`].
     pub nodes: HashMap<i64, Vec2>,
-    pub ways: HashMap<i64, Way>,
+    pub ways: HashMap<i64, OsmWay>,
     /// In the order of the file.
-    pub relations: Vec<Relation>,
+    pub relations: Vec<OsmRelation>,
     /// Where the file gives nothing but degrees.
-    pub projection: Option<Projection>,
+    pub projection: Option<TransverseMercator>,
 }
 
 /// Reads a file, plain or gzip.
@@ -92,8 +92,8 @@ pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
                     degrees.insert(item.id, p);
                 }
             }
-            "way" => drop(osm.ways.insert(item.id, Way { nodes: item.nodes, tags })),
-            _ => osm.relations.push(Relation { id: item.id, members: item.members, tags }),
+            "way" => drop(osm.ways.insert(item.id, OsmWay { nodes: item.nodes, tags })),
+            _ => osm.relations.push(OsmRelation { id: item.id, members: item.members, tags }),
         }
         at_most(local.len() + degrees.len(), MAX_NODES, "points")?;
         at_most(osm.ways.len(), MAX_WAYS, "lines")?;
@@ -102,7 +102,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
     })?;
     osm.nodes = local;
     // Points without metres are placed only where none has them: two frames do not mix.
-    let projection = Projection::about(degrees.values().copied()).filter(|_| osm.nodes.is_empty());
+    let projection = TransverseMercator::about(degrees.values().copied()).filter(|_| osm.nodes.is_empty());
     if let Some(projection) = projection {
         osm.nodes = degrees.iter().map(|(id, (lat, lon))| (*id, projection.metres(*lat, *lon))).collect();
         osm.projection = Some(projection);

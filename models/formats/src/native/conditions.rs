@@ -9,7 +9,7 @@ use serde_json::json;
 /// Frame of a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Frame {
+pub enum GoalFrame {
     /// `x_m`, `y_m`, `heading_rad`.
     #[default]
     Scene,
@@ -208,5 +208,5 @@ pub struct ConditionsDoc {
     /// Frame of the goal; replies are always in `scene`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "frames")]
-    pub frame: Option<Frame>,
+    pub frame: Option<GoalFrame>,
 }

@@ -60,10 +60,10 @@ impl<'a> Long<'a> {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn open(&self) -> io::Result<BufReader<Values<Box<dyn Read + Send + 'a>>>> {
+    pub fn open(&self) -> io::Result<BufReader<ValueLimiter<Box<dyn Read + Send + 'a>>>> {
         let room = memory_for(self.0.encoded_len()).saturating_sub(WHOLE_MEMORY) / VALUE_MEMORY;
         let most = room.min(MAX_DOCUMENT_VALUES);
-        Ok(BufReader::with_capacity(64 << 10, Values { inner: self.0.open()?, commas: 0, most }))
+        Ok(BufReader::with_capacity(64 << 10, ValueLimiter { inner: self.0.open()?, commas: 0, most }))
     }
 
     /// As [`from_json`].
@@ -77,13 +77,13 @@ impl<'a> Long<'a> {
 }
 
 /// Ends a text that has more values than a scene: there is a comma between any two of a list.
-pub(super) struct Values<R> {
+pub(super) struct ValueLimiter<R> {
     inner: R,
     commas: u64,
     most: u64,
 }
 
-impl<R: Read> Read for Values<R> {
+impl<R: Read> Read for ValueLimiter<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.inner.read(buffer)?;
         let text = buffer.get(..count).unwrap_or_default();
@@ -123,7 +123,7 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
 }
 
-/// The message without serde_json's own " at line 1 column 2", which `Kind` carries as numbers.
+/// The message without serde_json's own " at line 1 column 2", which `RefusalKind` carries as numbers.
 fn reason(error: &serde_json::Error) -> String {
     let text = error.to_string();
     match text.rfind(" at line ") {

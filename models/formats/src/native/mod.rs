@@ -18,7 +18,7 @@ mod value;
 
 pub use agent::{AgentDoc, TrackDoc};
 pub use any::{AnyDoc, MAX_VALUES};
-pub use conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc, ViaDoc};
+pub use conditions::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc, VelocityDoc, ViaDoc};
 pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, SignalDoc, TimeDoc, VERSION};
 pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
 pub use json::from_json;
@@ -29,7 +29,7 @@ pub use map::{
 pub use resolve::{Context, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, Ranges, Window, check_goal_time};
 pub use value::{MAX_MEMBERS, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};
 
-use crate::problem::{Kind, ReadError};
+use crate::problem::{ReadError, RefusalKind};
 use crate::source::Source;
 use scene::Scene;
 use serde::Deserialize;
@@ -69,13 +69,13 @@ pub fn read_from(file: &dyn Source) -> Result<Scene, ReadError> {
 }
 
 #[derive(Deserialize)]
-struct Head {
+struct VersionHead {
     version: u64,
 }
 
 /// Says of a document with unknown members that it is of a later version, where it is.
-fn of_version(error: ReadError, head: impl FnOnce() -> Option<Head>) -> ReadError {
-    if error.kind != Kind::Invalid {
+fn of_version(error: ReadError, head: impl FnOnce() -> Option<VersionHead>) -> ReadError {
+    if error.kind != RefusalKind::Invalid {
         return error;
     }
     head().and_then(|head| document::check_version(head.version).err()).unwrap_or(error)

@@ -1,6 +1,6 @@
 //! Conditions from document to domain: every field checked, goals turned into the scene frame.
 
-use super::conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc, ViaDoc};
+use super::conditions::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc, VelocityDoc, ViaDoc};
 use crate::problem::{FieldProblem, Problems, code};
 use scene::geometry::rotate;
 use scene::{
@@ -83,7 +83,7 @@ impl ConditionsDoc {
         if self.agent_type == Some(AgentType::Other) {
             problems.invalid(format!("{pointer}/type"), "vehicle, pedestrian or cyclist expected");
         }
-        let reader = Reader { ranges: Ranges::of(self.agent_type.unwrap_or(context.agent_type)) };
+        let reader = ConditionReader { ranges: Ranges::of(self.agent_type.unwrap_or(context.agent_type)) };
         let size = |name: &str, value: Option<f64>, range, problems: &mut Problems| {
             value.filter(|v| problems.range(&format!("{pointer}/{name}"), range, *v))
         };
@@ -100,7 +100,7 @@ impl ConditionsDoc {
         let goal = match &self.goal {
             Some(doc) => {
                 let pointer = format!("{pointer}/goal");
-                let agent_frame = self.frame == Some(Frame::Agent);
+                let agent_frame = self.frame == Some(GoalFrame::Agent);
                 let goal = if agent_frame {
                     reader.agent_goal(&pointer, doc, &origin, &mut problems)
                 } else {
@@ -227,17 +227,17 @@ struct Pose {
     heading_rad: Option<f64>,
 }
 
-struct Reader {
+struct ConditionReader {
     ranges: Ranges,
 }
 
-impl Reader {
+impl ConditionReader {
     fn start(&self, pointer: &str, doc: &StartDoc, problems: &mut Problems) -> Start {
         let names = ("x_m", "y_m", COORDINATE_M);
         let position = pair(pointer, names, (doc.x_m, doc.y_m), problems);
         let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
         let (speed_mps, course) =
-            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Scene, problems);
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), GoalFrame::Scene, problems);
         Start { position, heading_rad: heading.or(course), speed_mps }
     }
 
@@ -250,7 +250,7 @@ impl Reader {
         }
         let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
         let (speed_mps, course) =
-            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Scene, problems);
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), GoalFrame::Scene, problems);
         Goal { position, heading_rad: heading.or(course), speed_mps, time_s: None }
     }
 
@@ -261,7 +261,7 @@ impl Reader {
         let offset = pair(pointer, ("ahead_m", "left_m", range), (doc.ahead_m, doc.left_m), problems);
         let turn = angle(&format!("{pointer}/turn_rad"), doc.turn_rad, problems);
         let (speed_mps, course) =
-            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Agent, problems);
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), GoalFrame::Agent, problems);
         let turn = turn.or(course);
         let needs_pose = offset.is_some() || turn.is_some();
         let missing = origin.heading_rad.is_none() || (offset.is_some() && origin.position.is_none());
@@ -288,7 +288,7 @@ impl Reader {
         pointer: &str,
         speed: Option<f64>,
         velocity: Option<&VelocityDoc>,
-        frame: Frame,
+        frame: GoalFrame,
         problems: &mut Problems,
     ) -> (Option<f64>, Option<f64>) {
         let Some(velocity) = velocity else {
@@ -303,8 +303,8 @@ impl Reader {
         let scene = [("x_mps", velocity.x_mps), ("y_mps", velocity.y_mps)];
         let agent = [("ahead_mps", velocity.ahead_mps), ("left_mps", velocity.left_mps)];
         let (own, foreign, hint) = match frame {
-            Frame::Scene => (scene, agent, "only in a goal of frame \"agent\""),
-            Frame::Agent => (agent, scene, "only in frame \"scene\""),
+            GoalFrame::Scene => (scene, agent, "only in a goal of frame \"agent\""),
+            GoalFrame::Agent => (agent, scene, "only in frame \"scene\""),
         };
         refuse(&pointer_v, &foreign, hint, problems);
         let [(first, a), (second, b)] = own;

@@ -1,6 +1,6 @@
 //! The reference line of a road: straight pieces, with a short bend where another road goes on in another direction.
 
-use super::roads::{Link, Road, Roads};
+use super::roads::{Road, RoadLink, Roads};
 use crate::markup::{Markup, decimal};
 use scene::geometry::{direction, rotate};
 use scene::{Vec2, wrap_angle};
@@ -38,8 +38,8 @@ fn own_heading(road: &Road<'_>, at_end: bool) -> Option<f64> {
 /// The pieces of a road along its line. It begins in the direction in which the one before it ends; a way through a
 /// junction also ends as the next one begins.
 pub(super) fn pieces(road: &Road<'_>, drawn: &Roads<'_>) -> Vec<Piece> {
-    let other = |link: Option<Link>, at_end: bool| match link {
-        Some(Link::Road(other)) => own_heading(&drawn.roads[other], at_end),
+    let other = |link: Option<RoadLink>, at_end: bool| match link {
+        Some(RoadLink::Road(other)) => own_heading(&drawn.roads[other], at_end),
         _ => None,
     };
     let begins = other(road.predecessor, true);

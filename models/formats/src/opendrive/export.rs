@@ -1,7 +1,7 @@
 //! From a map to OpenDRIVE 1.7: each lane is a road of its own, so that nothing of its course is lost.
 
 use super::course;
-use super::roads::{Link, Road, Roads, roads};
+use super::roads::{Road, RoadLink, Roads, roads};
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
@@ -37,7 +37,7 @@ pub(crate) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
         let detail = "an OpenDRIVE map has one road or more; this scene has no lane";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     }
-    let beside = Beside::of(scene, &drawn);
+    let beside = Roadside::of(scene, &drawn);
     let mut out = Markup::new();
     out.open("OpenDRIVE", &[]);
     header(scene, &mut out);
@@ -90,7 +90,7 @@ fn header(scene: &Scene, out: &mut Markup) {
 
 /// What stands and lies beside roads, by road.
 #[derive(Default)]
-struct Beside {
+struct Roadside {
     /// Lights: position among the scene's, where traffic stops.
     lights: BTreeMap<usize, Vec<(usize, Vec2)>>,
     stop_signs: BTreeMap<usize, Vec<(usize, Vec2)>>,
@@ -99,7 +99,7 @@ struct Beside {
     lost_signals: usize,
 }
 
-impl Beside {
+impl Roadside {
     fn of(scene: &Scene, drawn: &Roads<'_>) -> Self {
         let mut beside = Self::default();
         let lanes: HashMap<&str, usize> =
@@ -136,7 +136,7 @@ fn write_road(
     number: usize,
     (road, drawn): (&Road<'_>, &Roads<'_>),
     map: &LaneMap,
-    beside: &Beside,
+    beside: &Roadside,
     out: &mut Markup,
 ) -> f64 {
     let line = &road.line;
@@ -158,11 +158,11 @@ fn write_road(
         [("predecessor", road.predecessor, "end"), ("successor", road.successor, "start")]
     {
         match link {
-            Some(Link::Road(other)) => out.empty(
+            Some(RoadLink::Road(other)) => out.empty(
                 name,
                 &[("elementType", "road"), ("elementId", &other.to_string()), ("contactPoint", contact)],
             ),
-            Some(Link::Junction(other)) => {
+            Some(RoadLink::Junction(other)) => {
                 out.empty(name, &[("elementType", "junction"), ("elementId", &junction_id(other, drawn))]);
             }
             None => {}
@@ -237,8 +237,8 @@ fn heights(road: &Road<'_>, out: &mut Markup) {
 /// Widths along a road, straight between them: where, and how wide, metres. Roads that meet are equally wide there.
 fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
     let width = |road: &Road<'_>| road.lane.width_or_assumed_m();
-    let at = |link: Option<Link>| match link {
-        Some(Link::Road(other)) => Some(width(&drawn.roads[other])),
+    let at = |link: Option<RoadLink>| match link {
+        Some(RoadLink::Road(other)) => Some(width(&drawn.roads[other])),
         _ => None,
     };
     let own = width(road);
@@ -287,7 +287,7 @@ fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     out.open("lane", &[("id", "-1"), ("type", kind), ("level", "false")]);
     out.open("link", &[]);
     for (name, link) in [("predecessor", road.predecessor), ("successor", road.successor)] {
-        if let Some(Link::Road(_)) = link {
+        if let Some(RoadLink::Road(_)) = link {
             out.empty(name, &[("id", "-1")]);
         }
     }
@@ -301,7 +301,7 @@ fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     out.close();
 }
 
-fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Beside, out: &mut Markup) {
+fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Roadside, out: &mut Markup) {
     let Some(areas) = beside.crosswalks.get(&number) else { return };
     out.open("objects", &[]);
     for i in areas {
@@ -343,7 +343,7 @@ fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Beside, ou
     out.close();
 }
 
-fn signals(number: usize, path: &Polyline, beside: &Beside, out: &mut Markup) {
+fn signals(number: usize, path: &Polyline, beside: &Roadside, out: &mut Markup) {
     let (lights, signs) = (beside.lights.get(&number), beside.stop_signs.get(&number));
     if lights.is_none() && signs.is_none() {
         return;
@@ -387,7 +387,7 @@ fn write_junction(number: usize, connecting: &[usize], drawn: &Roads<'_>, out: &
     let id = junction_id(number, drawn);
     out.open("junction", &[("name", &format!("junction {id}")), ("id", &id), ("type", "default")]);
     for (k, road) in connecting.iter().enumerate() {
-        let Some(Link::Road(incoming)) = drawn.roads[*road].predecessor else { continue };
+        let Some(RoadLink::Road(incoming)) = drawn.roads[*road].predecessor else { continue };
         out.open(
             "connection",
             &[

@@ -9,7 +9,7 @@ use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Event, Scanner};
+use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
@@ -123,9 +123,9 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
     let mut filter = Filter { room: memory_for(file.encoded_len()), ..Filter::default() };
     while let Some(event) = scanner.next()? {
         match event {
-            Event::Start(element) => filter.start(&element)?,
-            Event::End => filter.end()?,
-            Event::Text(text) => filter.text(&text),
+            XmlEvent::Start(element) => filter.start(&element)?,
+            XmlEvent::End => filter.end()?,
+            XmlEvent::Text(text) => filter.text(&text),
         }
     }
     Ok(filter.out)
@@ -142,10 +142,10 @@ struct Road {
     length_at: Range<usize>,
     /// Elements that are looked for along it.
     records: usize,
-    sections: Vec<Section>,
+    sections: Vec<FilteredSection>,
 }
 
-struct Section {
+struct FilteredSection {
     s_m: f64,
     lanes: usize,
     drawn: usize,
@@ -211,7 +211,7 @@ impl Filter {
             "roadMark" => self.keep(&unpainted(element), &[]),
             "laneSection" => {
                 let s_m = number(element, "s").unwrap_or(0.0).max(0.0);
-                self.road.sections.push(Section { s_m, lanes: 0, drawn: 0, raised: Vec::new() });
+                self.road.sections.push(FilteredSection { s_m, lanes: 0, drawn: 0, raised: Vec::new() });
                 self.keep(element, &[("s", s_m)])
             }
             "lane" => {

@@ -2,11 +2,11 @@
 
 use super::filter::{self, Filtered};
 use super::lanes::{self, Found, carries_vehicles, is_road};
-use super::sections::{Frame, Section, sections};
+use super::sections::{NetworkFrame, Section, sections};
 use super::{marks, objects, signals};
 use crate::format::MAP_TIMING;
 use crate::map_file::{self, MapRead};
-use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
 use crate::sentences;
 use crate::source::Source;
 use crate::surface::{self, Strip};
@@ -34,7 +34,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
         FieldProblem::new("", code::CANNOT_REPRESENT, detail)
     })?;
     drop(text);
-    let frame = Frame::of(&network);
+    let frame = NetworkFrame::of(&network);
     // Roads begin about the network's origin; numbers far from it have lost their places.
     if map_file::is_too_wide(frame.half) || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
         return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(frame.half)).into());
@@ -64,7 +64,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let (signals, made) = lights::signals(&map, ruled.heads, MAP_TIMING.steps);
 
     let mut warnings = warnings(&file, &provenance.warnings, approximated, whole);
-    let unused = || Warning::new("signals-dropped", sentences::signals_without_lane(ruled.unused));
+    let unused = || ImportWarning::new("signals-dropped", sentences::signals_without_lane(ruled.unused));
     warnings.extend((ruled.unused > 0).then(unused));
     warnings.extend(made);
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
@@ -151,11 +151,16 @@ fn ways(sections: &[Section], found: &Found, map: &LaneMap) -> Vec<Vec<Vec2>> {
     ways
 }
 
-fn warnings(file: &Filtered, faults: &[xodr::Warning], approximated: usize, whole: bool) -> Vec<Warning> {
+fn warnings(
+    file: &Filtered,
+    faults: &[xodr::Warning],
+    approximated: usize,
+    whole: bool,
+) -> Vec<ImportWarning> {
     let mut warnings = Vec::new();
     let mut warn = |applies: bool, code, message| {
         if applies {
-            warnings.push(Warning::new(code, message));
+            warnings.push(ImportWarning::new(code, message));
         }
     };
     let others = faults.iter().filter(|fault| !fault.is_ignored()).map(ToString::to_string);

@@ -18,9 +18,9 @@ const OPEN_M: f64 = 2.0;
 /// Border lanes up to this width are the paved edge of the road, metres; wider ones are what lies beside it.
 const PAVED_BORDER_M: f64 = 2.0;
 
-/// A lane of the map, and the lane of the network that it is.
+/// A lane of the map that is made of a lane of the network.
 #[derive(Clone, Debug)]
-pub(super) struct Drawn {
+pub(super) struct NetworkLane {
     /// Index in [`LaneMap::lanes`].
     pub lane: usize,
     /// In the direction of the road.
@@ -30,7 +30,7 @@ pub(super) struct Drawn {
 }
 
 /// Which lanes of a map were made of which lanes of the network; a two-way lane gives two.
-pub(super) type Found = HashMap<LaneId, Vec<Drawn>>;
+pub(super) type Found = HashMap<LaneId, Vec<NetworkLane>>;
 
 /// What a lane of this kind is in a scene; nothing where nobody travels.
 fn lane_type(lane: &SectionLane, motorway: bool) -> Option<LaneType> {
@@ -92,7 +92,7 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMa
             };
             for &forward in both {
                 let (points, places) = points(lane, forward, linked(network, lane));
-                let drawn = Drawn { lane: map.lanes.len(), forward, places };
+                let drawn = NetworkLane { lane: map.lanes.len(), forward, places };
                 map.lanes.push(Lane {
                     lane_type,
                     width_m: Some(told(lane.mean_width_m()).clamp(0.1, 50.0)),
@@ -177,7 +177,7 @@ fn beside(section: &Section, found: &Found, map: &mut LaneMap) {
             continue;
         };
         for (a, b) in right.iter().flat_map(|a| left.iter().map(move |b| (a, b))) {
-            let travelled = |drawn: &Drawn| {
+            let travelled = |drawn: &NetworkLane| {
                 let kind = map.lanes[drawn.lane].lane_type;
                 kind.carries_vehicles() || kind.carries_cyclists()
             };
@@ -190,7 +190,7 @@ fn beside(section: &Section, found: &Found, map: &mut LaneMap) {
             else {
                 continue;
             };
-            let neighbor = |other: &Drawn, own_range, other_range| Neighbor {
+            let neighbor = |other: &NetworkLane, own_range, other_range| Neighbor {
                 lane: map.lanes[other.lane].id.clone(),
                 own_range,
                 other_range,
@@ -205,7 +205,7 @@ fn beside(section: &Section, found: &Found, map: &mut LaneMap) {
 }
 
 /// First and last point of a lane beside which another lies.
-fn common(own: &Drawn, other: &Drawn) -> Option<(usize, usize)> {
+fn common(own: &NetworkLane, other: &NetworkLane) -> Option<(usize, usize)> {
     let ends = [other.places.first()?, other.places.last()?];
     let (low, high) = (ends[0].min(*ends[1]) - 1e-6, ends[0].max(*ends[1]) + 1e-6);
     let mut within = own.places.iter().enumerate().filter(|(_, place)| **place >= low && **place <= high);

@@ -1,12 +1,12 @@
 //! Crosswalks and stop lines: objects on the roads of a network.
 
-use super::sections::Frame;
+use super::sections::NetworkFrame;
 use scene::Vec2;
 use scene::map::Area;
 use xodr::{Extent, Object, ObjectType, RoadNetwork, Shape};
 
 /// The ring of an object that lies on the road.
-fn ring(object: &Object, frame: &Frame) -> Option<Vec<Vec2>> {
+fn ring(object: &Object, frame: &NetworkFrame) -> Option<Vec<Vec2>> {
     let ring: Vec<Vec2> = match &object.shape {
         Shape::Outline { corners, .. } => corners.iter().map(|corner| frame.point(corner.base)).collect(),
         Shape::Solid { position, heading, extent: Some(Extent::Box { length, width, .. }), .. } => {
@@ -25,7 +25,11 @@ fn ring(object: &Object, frame: &Frame) -> Option<Vec<Vec2>> {
 }
 
 /// Crosswalks with an outline or a size.
-pub(super) fn crosswalks(network: &RoadNetwork, frame: &Frame, mut id: impl FnMut() -> String) -> Vec<Area> {
+pub(super) fn crosswalks(
+    network: &RoadNetwork,
+    frame: &NetworkFrame,
+    mut id: impl FnMut() -> String,
+) -> Vec<Area> {
     let all = network.objects().iter().filter(|object| object.kind == ObjectType::Crosswalk);
     let mut rings: Vec<Vec<Vec2>> = all.filter_map(|object| ring(object, frame)).collect();
     for ring in &mut rings {
@@ -41,7 +45,7 @@ pub(super) fn crosswalks(network: &RoadNetwork, frame: &Frame, mut id: impl FnMu
 /// The middles of painted stop lines, with the lanes that they are said to be for.
 pub(super) fn stop_lines<'a>(
     network: &'a RoadNetwork,
-    frame: &'a Frame,
+    frame: &'a NetworkFrame,
 ) -> impl Iterator<Item = (Vec2, &'a [xodr::LaneId])> {
     let lines = network.objects().iter().filter(|object| object.kind != ObjectType::Crosswalk);
     lines.filter_map(move |object| {

@@ -19,7 +19,7 @@ const KEPT_M: (f64, f64) = (0.02, 1_000.0);
 
 /// What an end of a road leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Link {
+pub(super) enum RoadLink {
     /// The other end of that road.
     Road(usize),
     Junction(usize),
@@ -35,8 +35,8 @@ pub(super) struct Road<'a> {
     pub line: Vec<Vec2>,
     /// The junction that it leads through.
     pub junction: Option<usize>,
-    pub predecessor: Option<Link>,
-    pub successor: Option<Link>,
+    pub predecessor: Option<RoadLink>,
+    pub successor: Option<RoadLink>,
 }
 
 /// Roads by number; those of the lanes come first, in their order.
@@ -49,8 +49,8 @@ pub(super) struct Roads<'a> {
     pub cut: usize,
 }
 
-/// What becomes of the links between lanes.
-struct Parts {
+/// Links between lanes, by the way they are written.
+struct LaneLinks {
     links: BTreeSet<(usize, usize)>,
     /// Lanes that are connecting roads, with what they connect: one lane before, one after, neither of them such.
     connectors: BTreeMap<usize, (usize, usize)>,
@@ -58,7 +58,7 @@ struct Parts {
     cut: BTreeSet<usize>,
 }
 
-impl Parts {
+impl LaneLinks {
     fn of(map: &LaneMap) -> Self {
         let Joints { links, ins, outs } = Joints::of(map);
         let mut connectors: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
@@ -88,7 +88,7 @@ impl Parts {
 
 /// The roads of a map.
 pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
-    let Parts { links, connectors, cut } = Parts::of(map);
+    let LaneLinks { links, connectors, cut } = LaneLinks::of(map);
     let mut groups = Groups::of(map.lanes.len());
     let road = |lane| Road {
         lane,
@@ -127,8 +127,8 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
             }
             all.push(Road { points, ..road(lane) });
         } else {
-            all[*a].successor = Some(Link::Road(*b));
-            all[*b].predecessor = Some(Link::Road(*a));
+            all[*a].successor = Some(RoadLink::Road(*b));
+            all[*b].predecessor = Some(RoadLink::Road(*a));
         }
     }
     for road in &mut all {
@@ -146,12 +146,12 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
         junctions.entry(junction).or_default().push(*i);
         all[*i] = Road {
             junction: Some(junction),
-            predecessor: Some(Link::Road(*from)),
-            successor: Some(Link::Road(*to)),
+            predecessor: Some(RoadLink::Road(*from)),
+            successor: Some(RoadLink::Road(*to)),
             ..all[*i].clone()
         };
-        all[*from].successor = Some(Link::Junction(junction));
-        all[*to].predecessor = Some(Link::Junction(junction));
+        all[*from].successor = Some(RoadLink::Junction(junction));
+        all[*to].predecessor = Some(RoadLink::Junction(junction));
     }
     Roads { roads: all, junctions, cut: cut.len() }
 }

@@ -60,14 +60,14 @@ impl SectionLane {
 
 /// From the network's frame to the scene's.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Frame {
+pub(super) struct NetworkFrame {
     /// The scene's origin in the network's frame, whole metres.
     pub middle: Vec2,
     /// Half the size of the box round all lanes, metres.
     pub half: Vec2,
 }
 
-impl Frame {
+impl NetworkFrame {
     /// About the middle of all lanes.
     pub fn of(network: &RoadNetwork) -> Self {
         let points = network.lanes().iter().flat_map(|lane| lane.center.points());
@@ -86,7 +86,7 @@ impl Frame {
 }
 
 /// All sections with lanes, in the order of the file.
-pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &Frame) -> Vec<Section> {
+pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &NetworkFrame) -> Vec<Section> {
     let mut found: BTreeMap<(usize, usize), Vec<(i32, &xodr::Lane)>> = BTreeMap::new();
     for lane in network.lanes() {
         if let Some(at) = network.road_lane(lane.id) {
@@ -115,7 +115,13 @@ pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &Frame) ->
 }
 
 /// A lane at these of its points.
-fn section_lane(number: i32, lane: &xodr::Lane, kept: &[usize], raised: bool, frame: &Frame) -> SectionLane {
+fn section_lane(
+    number: i32,
+    lane: &xodr::Lane,
+    kept: &[usize],
+    raised: bool,
+    frame: &NetworkFrame,
+) -> SectionLane {
     let (points, tangents) = (lane.center.points(), lane.center.tangents());
     let center = kept.iter().filter_map(|i| points.get(*i));
     let tangent = |v: &xodr::Vector| {

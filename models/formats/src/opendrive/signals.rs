@@ -2,8 +2,8 @@
 
 use super::lanes::Found;
 use super::objects;
-use super::sections::Frame;
-use crate::lights::{Head, heading_at};
+use super::sections::NetworkFrame;
+use crate::lights::{SignalHead, heading_at};
 use scene::map::{LaneMap, StopSign};
 use scene::{Vec2, geometry::polyline::Polyline};
 use std::collections::HashMap;
@@ -37,10 +37,10 @@ pub(super) fn is_stop_sign(kind: Option<&str>, name: Option<&str>) -> bool {
     kind.is_some_and(|kind| STOP_SIGNS.contains(&kind)) || name.is_some_and(named)
 }
 
-/// What rules the lanes of a map.
+/// Signals and stop signs of a map.
 #[derive(Debug, Default)]
-pub(super) struct Ruled {
-    pub heads: Vec<Head>,
+pub(super) struct LaneControls {
+    pub heads: Vec<SignalHead>,
     pub signs: Vec<StopSign>,
     /// Lights that no lane of the map obeys.
     pub unused: usize,
@@ -50,17 +50,17 @@ pub(super) struct Ruled {
 pub(super) fn find(
     network: &RoadNetwork,
     provenance: &Provenance,
-    frame: &Frame,
+    frame: &NetworkFrame,
     found: &Found,
     map: &LaneMap,
     mut id: impl FnMut() -> String,
-) -> Ruled {
+) -> LaneControls {
     let paths: Vec<Polyline> =
         map.lanes.iter().map(|lane| Polyline::new(lane.points.xy.iter().copied())).collect();
     let lines = stop_lines(network, frame, found, &paths);
     let order = controllers(provenance);
     let junctions = junctions(network);
-    let mut ruled = Ruled::default();
+    let mut ruled = LaneControls::default();
     let mut taken = vec![false; map.lanes.len()];
     for signal in network.signals().iter().filter(|signal| !signal.invalidated) {
         let lanes = lanes_of(signal, found, map);
@@ -86,7 +86,7 @@ pub(super) fn find(
                 junctions.get(&origin).cloned().unwrap_or_else(|| format!("lane {}", map.lanes[lane].id));
             let group = signal.controllers.iter().find_map(|c| order.get(c)).cloned();
             let heading_rad = heading_at(&map.lanes[lane].points.xy, stop);
-            ruled.heads.push(Head { lane, stop, heading_rad, junction, group });
+            ruled.heads.push(SignalHead { lane, stop, heading_rad, junction, group });
         }
     }
     ruled
@@ -105,7 +105,13 @@ fn lanes_of(signal: &Signal, found: &Found, map: &LaneMap) -> Vec<(LaneId, usize
 
 /// Where the traffic of a lane waits: at the line painted there, else where the signal applies. What rules a way
 /// through a junction holds traffic back at its beginning.
-fn stop(signal: &Signal, frame: &Frame, path: &Polyline, through: bool, lines: Option<&Vec<f64>>) -> Vec2 {
+fn stop(
+    signal: &Signal,
+    frame: &NetworkFrame,
+    path: &Polyline,
+    through: bool,
+    lines: Option<&Vec<f64>>,
+) -> Vec2 {
     if through {
         return path.first().position;
     }
@@ -119,7 +125,7 @@ fn stop(signal: &Signal, frame: &Frame, path: &Polyline, through: bool, lines: O
 /// Places along lanes, by index, at which a line is painted across, metres.
 fn stop_lines(
     network: &RoadNetwork,
-    frame: &Frame,
+    frame: &NetworkFrame,
     found: &Found,
     paths: &[Polyline],
 ) -> HashMap<usize, Vec<f64>> {

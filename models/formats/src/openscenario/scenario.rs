@@ -19,8 +19,8 @@ const PERFORMANCE: [(&str, &str); 3] =
 /// Day of files that do not depend on when they were written.
 const DAY: &str = "1970-01-01T00:00:00";
 
-/// A road user on its way out.
-struct Written<'a> {
+/// A road user as an entity of the scenario.
+struct ScenarioEntity<'a> {
     name: String,
     agent: &'a Agent,
     shown: Shown<'a>,
@@ -28,7 +28,7 @@ struct Written<'a> {
     states: Vec<(usize, State)>,
 }
 
-impl Written<'_> {
+impl ScenarioEntity<'_> {
     fn is_vehicle(&self) -> bool {
         self.shown.agent_type != AgentType::Pedestrian
     }
@@ -55,7 +55,8 @@ pub(super) fn write(
     losses: &mut BTreeSet<Loss>,
 ) -> Vec<u8> {
     let written = road_users(scene, options, losses);
-    let end = written.iter().map(Written::last_step).fold(scene.time.steps.saturating_sub(1), usize::max);
+    let end =
+        written.iter().map(ScenarioEntity::last_step).fold(scene.time.steps.saturating_sub(1), usize::max);
     let mut out = Markup::new();
     out.open("OpenSCENARIO", &[]);
     header(scene, &mut out);
@@ -112,7 +113,7 @@ fn road_users<'a>(
     scene: &'a Scene,
     options: &ExportOptions,
     losses: &mut BTreeSet<Loss>,
-) -> Vec<Written<'a>> {
+) -> Vec<ScenarioEntity<'a>> {
     let mut names = HashSet::new();
     let mut written = Vec::new();
     for agent in &scene.agents {
@@ -134,12 +135,12 @@ fn road_users<'a>(
         while !names.insert(name.clone()) {
             name.push('\'');
         }
-        written.push(Written { name, agent, shown, states });
+        written.push(ScenarioEntity { name, agent, shown, states });
     }
     written
 }
 
-fn entity(road_user: &Written<'_>, out: &mut Markup) {
+fn entity(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     let Size { length_m, width_m, height_m } = road_user.shown.size;
     let height_m = height_m.unwrap_or(1.5);
     let bounding_box = |out: &mut Markup| {
@@ -214,7 +215,7 @@ fn category(agent_type: AgentType, subtype: Subtype) -> &'static str {
 }
 
 /// A place: of the rear axle of vehicles, of the middle of others.
-fn position(road_user: &Written<'_>, state: &State, out: &mut Markup) {
+fn position(road_user: &ScenarioEntity<'_>, state: &State, out: &mut Markup) {
     let place = state.position() - direction(state.heading_rad) * road_user.ahead_m();
     out.open("Position", &[]);
     out.empty(
@@ -234,7 +235,7 @@ fn speed_mps(state: &State) -> f64 {
     state.velocity().dot(&direction(state.heading_rad))
 }
 
-fn init(written: &[Written<'_>], out: &mut Markup) {
+fn init(written: &[ScenarioEntity<'_>], out: &mut Markup) {
     out.open("Init", &[]);
     out.open("Actions", &[]);
     for road_user in written.iter().filter(|road_user| road_user.first().0 == 0) {
@@ -275,7 +276,7 @@ fn condition(name: &str, from_s: f64, out: &mut Markup) {
     out.close();
 }
 
-fn story(written: &[Written<'_>], end: usize, out: &mut Markup) {
+fn story(written: &[ScenarioEntity<'_>], end: usize, out: &mut Markup) {
     out.open("Story", &[("name", "traffic")]);
     out.open("Act", &[("name", "drive")]);
     for road_user in written {
@@ -334,7 +335,7 @@ fn present(name: &str, out: &mut Markup, action: impl FnOnce(&mut Markup)) {
 }
 
 /// Its way, by the clock of the scenario.
-fn follow(road_user: &Written<'_>, out: &mut Markup) {
+fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     out.open("PrivateAction", &[]);
     out.open("RoutingAction", &[]);
     out.open("FollowTrajectoryAction", &[]);
@@ -367,7 +368,7 @@ fn follow(road_user: &Written<'_>, out: &mut Markup) {
     out.close();
 }
 
-fn lost(scene: &Scene, options: &ExportOptions, written: &[Written<'_>], losses: &mut BTreeSet<Loss>) {
+fn lost(scene: &Scene, options: &ExportOptions, written: &[ScenarioEntity<'_>], losses: &mut BTreeSet<Loss>) {
     losses.extend(unwritten::conditions(scene, options.motion));
     losses.extend(unwritten::futures(scene, options.motion));
     losses.insert(Loss::new(code::NO_VELOCITY, "speeds after the first moment follow from places and times"));

@@ -2,9 +2,9 @@
 //! out, so that what is handed to another program is small and of our own writing.
 
 use crate::markup::Markup;
-use crate::osm_items::{Item, Member, each};
+use crate::osm_items::{Member, OsmElement, each};
 use crate::problem::{FieldProblem, ReadError, at_most, code};
-use crate::projection::Projection;
+use crate::projection::TransverseMercator;
 use crate::source::Source;
 use std::collections::HashSet;
 
@@ -23,13 +23,13 @@ pub(crate) struct Extract {
     /// XML that netconvert reads.
     pub xml: Vec<u8>,
     /// About the middle of the roads.
-    pub projection: Projection,
+    pub projection: TransverseMercator,
     /// Latitude and longitude of the middle, degrees.
     pub middle: (f64, f64),
 }
 
 /// A road, path or way that people drive, ride or walk on; not one that is planned or gone.
-fn is_road(item: &Item) -> bool {
+fn is_road(item: &OsmElement) -> bool {
     let gone = ["proposed", "construction", "abandoned", "razed", "platform", "elevator", "corridor"];
     let surface = item.tag("area") != Some("yes") && item.tag("indoor") != Some("yes");
     item.kind == "way" && surface && item.tag("highway").is_some_and(|kind| !gone.contains(&kind))
@@ -87,7 +87,9 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     };
     let (low, high) = (corner(f64::min), corner(f64::max));
     let reach_deg = (high.0 - low.0).max((high.1 - low.1) * high.0.to_radians().cos());
-    let (Some(projection), true) = (Projection::about(places.into_iter()), reach_deg <= MAX_REACH_DEG) else {
+    let (Some(projection), true) =
+        (TransverseMercator::about(places.into_iter()), reach_deg <= MAX_REACH_DEG)
+    else {
         let detail = format!("roads over {:.0} km; cut out some kilometres", reach_deg * 111.0);
         return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
     };
@@ -95,7 +97,7 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
 }
 
 /// Writes an item as OpenStreetMap does.
-fn write(item: &Item, out: &mut Markup) {
+fn write(item: &OsmElement, out: &mut Markup) {
     let id = item.id.to_string();
     let (lat, lon) = item.degrees.map(|(lat, lon)| (lat.to_string(), lon.to_string())).unzip();
     let mut attributes = vec![("id", id.as_str())];

@@ -4,7 +4,7 @@ use super::driving_side::is_left;
 use super::extract::{self, Extract};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, only_read};
 use crate::map_file::MapRead;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences;
 use crate::source::Source;
 use crate::sumo::formats::read_net;
@@ -58,7 +58,7 @@ impl OsmExtract {
         origin.crs = Some(projection.name());
         warnings.retain(|warning| warning.code != PROJECTION_DROPPED);
         if left {
-            warnings.push(Warning::new("left-hand", sentences::left_hand()));
+            warnings.push(ImportWarning::new("left-hand", sentences::left_hand()));
         }
         let read = MapRead { name: String::new(), map, signals, origin, warnings };
         let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;

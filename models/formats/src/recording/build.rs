@@ -1,11 +1,11 @@
 //! Scenes of a scenario, one after the other: one, or one for each 9.1 s of a recording that is too long for one.
 
 use super::motion::{Derived, complete, spacing_s, step_at, track};
-use super::{Ids, Sample, User, middle};
+use super::{AgentIds, RecordedAgent, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences;
 use scene::map::LaneMap;
 use scene::{
@@ -37,12 +37,12 @@ pub(crate) struct Said {
     pub spacing_s: Option<f64>,
     /// About the origin.
     pub map: Shared<LaneMap>,
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<ImportWarning>,
 }
 
 /// A possible motion of a road user.
 #[derive(Clone, Debug)]
-pub(crate) struct Drawn {
+pub(crate) struct RecordedFuture {
     /// Index of the road user.
     pub user: usize,
     /// Numbers of the file.
@@ -50,15 +50,15 @@ pub(crate) struct Drawn {
     pub mode: u64,
     pub probability: Option<f64>,
     pub chosen: bool,
-    pub samples: Vec<Sample>,
+    pub samples: Vec<RecordedState>,
 }
 
 /// All that a file says of a scenario.
 #[derive(Default)]
 pub(crate) struct Recording {
     pub said: Said,
-    pub users: Vec<User>,
-    pub futures: Vec<Drawn>,
+    pub users: Vec<RecordedAgent>,
+    pub futures: Vec<RecordedFuture>,
 }
 
 impl Recording {
@@ -89,33 +89,34 @@ impl Recording {
         let last_s = times(false).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let start_s = self.said.start_s.unwrap_or(if first_s.is_finite() { first_s } else { 0.0 });
         let steps = (((last_s - start_s) / STEP_S + 0.05).floor().max(0.0) as usize).saturating_add(1);
-        let made = Made { spacing_s, derived, start_s, recording: self };
+        let made = PreparedRecording { spacing_s, derived, start_s, recording: self };
         let steps = made.recording.said.timing.map_or(steps, |timing| timing.steps);
         made.windows(steps)
     }
 
-    fn lists(&mut self) -> impl Iterator<Item = &mut Vec<Sample>> {
+    fn lists(&mut self) -> impl Iterator<Item = &mut Vec<RecordedState>> {
         let logged = self.users.iter_mut().map(|user| &mut user.samples);
         logged.chain(self.futures.iter_mut().map(|future| &mut future.samples))
     }
 }
 
 /// A recording whose samples are sorted and complete.
-struct Made {
+struct PreparedRecording {
     recording: Recording,
     spacing_s: f64,
     derived: Derived,
     start_s: f64,
 }
 
-impl Made {
+impl PreparedRecording {
     fn windows(self, steps: usize) -> impl Iterator<Item = Result<Imported, ReadError>> {
         let windowed = steps > MAX_STEPS;
         let mut list: Vec<usize> = vec![0];
         if windowed {
             // Those in which anybody is seen: pauses may be as long as they like.
             let window_s = RECORDED_STEPS as f64 * STEP_S;
-            let at = |s: &Sample| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
+            let at =
+                |s: &RecordedState| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
             let samples = self.recording.users.iter().flat_map(|user| &user.samples);
             let windows: BTreeSet<usize> = samples.filter(|s| s.is_seen()).map(at).collect();
             list = windows.into_iter().collect();
@@ -162,8 +163,9 @@ impl Made {
         for (i, user) in self.recording.users.iter().enumerate() {
             let from = user.samples.partition_point(|s| s.time_s < start_s - STEP_S / 2.0);
             let within = user.samples.get(from..).unwrap_or_default().iter().take_while(|s| s.time_s < end_s);
-            let near =
-                |a: &&Sample, b: &&Sample| (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs());
+            let near = |a: &&RecordedState, b: &&RecordedState| {
+                (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs())
+            };
             let at = within.filter(|s| s.is_seen()).min_by(near).map(|s| s.at);
             match at {
                 Some(at) => present.push((i, at)),
@@ -178,7 +180,7 @@ impl Made {
         let origin = said.origin.clone().unwrap_or_else(|| self.origin(&present));
         let frame = Frame::of(&origin);
         let kept = self.kept(&present, &origin, &mut warnings);
-        let (mut ids, mut names) = (Ids::default(), HashMap::new());
+        let (mut ids, mut names) = (AgentIds::default(), HashMap::new());
         let (mut agents, mut assumed, mut resampled) = (Vec::new(), 0, false);
         for i in kept {
             let user = self.recording.users.get(i)?;
@@ -257,9 +259,14 @@ impl Made {
 
     /// Those that a scene has room for, in the order of the file: near enough to the origin, and nearest to the
     /// middle of all.
-    fn kept(&self, present: &[(usize, Vec2)], origin: &Origin, warnings: &mut Vec<Warning>) -> Vec<usize> {
+    fn kept(
+        &self,
+        present: &[(usize, Vec2)],
+        origin: &Origin,
+        warnings: &mut Vec<ImportWarning>,
+    ) -> Vec<usize> {
         let frame = Frame::of(origin);
-        let far = |s: &Sample| s.is_seen() && frame.place_back(s.at).amax() > MAX_COORDINATE_M;
+        let far = |s: &RecordedState| s.is_seen() && frame.place_back(s.at).amax() > MAX_COORDINATE_M;
         let middle = middle(present.iter().map(|(_, at)| *at).filter(|at| at.x.is_finite()));
         let samples = |i: usize| self.recording.users.get(i).map_or(&[][..], |user| &user.samples);
         let is_ego =
@@ -271,7 +278,7 @@ impl Made {
         order.truncate(MAX_AGENTS);
         if order.len() < present.len() {
             let message = sentences::agents_near_centre(present.len(), order.len(), MAX_COORDINATE_M);
-            warnings.push(Warning::new("agents-dropped", message));
+            warnings.push(ImportWarning::new("agents-dropped", message));
         }
         let mut kept: Vec<usize> = order.into_iter().map(|(.., i)| i).collect();
         kept.sort_unstable();
@@ -290,11 +297,11 @@ impl Made {
         resampled: bool,
         ids_changed: usize,
         windowed: bool,
-        to: &mut Vec<Warning>,
+        to: &mut Vec<ImportWarning>,
     ) {
         let mut warn = |applies: bool, code, message| {
             if applies {
-                to.push(Warning::new(code, message));
+                to.push(ImportWarning::new(code, message));
             }
         };
         warn(assumed > 0, "sizes-assumed", sentences::sizes_assumed(assumed));
@@ -311,7 +318,7 @@ impl Made {
         names: &HashMap<usize, String>,
         start_s: f64,
         frame: Frame,
-        warnings: &mut Vec<Warning>,
+        warnings: &mut Vec<ImportWarning>,
     ) -> Option<Generated> {
         let mut samples: BTreeMap<u64, Futures<'_>> = BTreeMap::new();
         let mut dropped = 0;
@@ -333,7 +340,7 @@ impl Made {
             list.push((drawn, Future::bare(drawn.probability.unwrap_or(f64::NAN), track.first_step, states)));
         }
         if dropped > 0 {
-            warnings.push(Warning::new("futures-dropped", sentences::futures_unread(dropped)));
+            warnings.push(ImportWarning::new("futures-dropped", sentences::futures_unread(dropped)));
         }
         let samples: Vec<scene::Sample> = samples.into_values().map(answer).collect();
         (!samples.is_empty()).then(|| Generated { samples, ..Generated::default() })
@@ -341,7 +348,7 @@ impl Made {
 }
 
 /// Possible motions of a sample, by road user.
-type Futures<'a> = BTreeMap<String, Vec<(&'a Drawn, Future)>>;
+type Futures<'a> = BTreeMap<String, Vec<(&'a RecordedFuture, Future)>>;
 
 /// A state that a future can have: a little beyond where a track may be.
 fn can_be(state: &State) -> bool {
@@ -350,7 +357,7 @@ fn can_be(state: &State) -> bool {
 
 /// One answer for several road users; probabilities that are not said are even.
 fn answer(agents: Futures<'_>) -> scene::Sample {
-    let of_agent = |mut list: Vec<(&Drawn, Future)>| {
+    let of_agent = |mut list: Vec<(&RecordedFuture, Future)>| {
         list.sort_by_key(|(drawn, _)| drawn.mode);
         let even = 1.0 / list.len() as f64;
         for (_, future) in &mut list {

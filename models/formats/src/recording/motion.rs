@@ -1,6 +1,6 @@
 //! States at the steps of a scene out of samples at any times.
 
-use super::Sample;
+use super::RecordedState;
 use crate::frame::{Frame, wrapped};
 use scene::{STEP_S, State, Track, Vec2, wrap_angle};
 
@@ -23,7 +23,7 @@ pub(super) struct Derived {
 }
 
 /// The spacing that most samples have, seconds; zero where there is none.
-pub(super) fn spacing_s<'a>(users: impl Iterator<Item = &'a [Sample]>) -> f64 {
+pub(super) fn spacing_s<'a>(users: impl Iterator<Item = &'a [RecordedState]>) -> f64 {
     let mut gaps: Vec<f64> = users
         .flat_map(|samples| samples.windows(2).map(|w| w[1].time_s - w[0].time_s))
         .filter(|gap| *gap > 1e-6)
@@ -40,10 +40,10 @@ pub(super) fn step_at(time_s: f64, start_s: f64) -> Option<i64> {
 }
 
 /// Fills in headings and velocities that are missing, from the way that was gone. Samples are sorted by time.
-pub(super) fn complete(samples: &mut [Sample], spacing_s: f64) -> Derived {
+pub(super) fn complete(samples: &mut [RecordedState], spacing_s: f64) -> Derived {
     let seen: Vec<usize> = (0..samples.len()).filter(|i| samples[*i].is_seen()).collect();
     let mut derived = Derived::default();
-    let near = |a: &Sample, b: &Sample| b.time_s - a.time_s <= USUAL * spacing_s.max(STEP_S);
+    let near = |a: &RecordedState, b: &RecordedState| b.time_s - a.time_s <= USUAL * spacing_s.max(STEP_S);
     for (k, &i) in seen.iter().enumerate() {
         if samples[i].velocity.iter().all(|v| v.is_finite()) {
             continue;
@@ -56,7 +56,7 @@ pub(super) fn complete(samples: &mut [Sample], spacing_s: f64) -> Derived {
         let velocity = if time_s > 0.0 { (to.at - from.at) / time_s } else { Vec2::zeros() };
         samples[i].velocity = if velocity.norm() < JUMP_MPS { velocity } else { Vec2::zeros() };
     }
-    let way = |s: &Sample| (s.velocity.norm() > HEADED_MPS).then(|| s.velocity.y.atan2(s.velocity.x));
+    let way = |s: &RecordedState| (s.velocity.norm() > HEADED_MPS).then(|| s.velocity.y.atan2(s.velocity.x));
     let mut known: Option<f64> = None;
     for &i in &seen {
         if samples[i].heading_rad.is_nan() {
@@ -79,7 +79,7 @@ pub(super) fn complete(samples: &mut [Sample], spacing_s: f64) -> Derived {
 /// States at the steps of a scene that begins at `start_s`, and whether any of them lies between samples. Heights
 /// come with it where all samples have one.
 pub(super) fn track(
-    samples: &[Sample],
+    samples: &[RecordedState],
     start_s: f64,
     steps: usize,
     spacing_s: f64,
@@ -87,10 +87,10 @@ pub(super) fn track(
 ) -> (Track, bool) {
     let end_s = start_s + steps as f64 * STEP_S;
     let first = samples.partition_point(|s| s.time_s < start_s - SAME_S).saturating_sub(1);
-    let mut slots: Vec<Option<Sample>> = Vec::new();
+    let mut slots: Vec<Option<RecordedState>> = Vec::new();
     let (mut first_step, mut filled) = (None, false);
     let longest_s = (USUAL * spacing_s).min(MAX_FILLED_S);
-    let mut put = |step: i64, sample: Sample| {
+    let mut put = |step: i64, sample: RecordedState| {
         let Some(step) = usize::try_from(step).ok().filter(|step| *step < steps) else { return };
         let first = *first_step.get_or_insert(step);
         let Some(slot) = step.checked_sub(first) else { return };
@@ -120,10 +120,10 @@ pub(super) fn track(
     }
     let z_known = slots.iter().flatten().any(|s| s.z_m.is_finite());
     let z_m = z_known.then(|| {
-        let height = |s: &Option<Sample>| s.map_or(0.0, |s| frame.height_back(finite(s.z_m)));
+        let height = |s: &Option<RecordedState>| s.map_or(0.0, |s| frame.height_back(finite(s.z_m)));
         slots.iter().map(height).collect()
     });
-    let states = slots.iter().map(|s| s.filter(Sample::is_seen).map(|s| state(&s, frame))).collect();
+    let states = slots.iter().map(|s| s.filter(RecordedState::is_seen).map(|s| state(&s, frame))).collect();
     (Track { first_step: first_step.unwrap_or(0), states, z_m }, filled)
 }
 
@@ -132,7 +132,7 @@ fn finite(value: f64) -> f64 {
 }
 
 /// A sample as a state of the scene.
-pub(super) fn state(sample: &Sample, frame: Frame) -> State {
+pub(super) fn state(sample: &RecordedState, frame: Frame) -> State {
     let (at, v) = (frame.place_back(sample.at), frame.turn_back(sample.velocity));
     let heading_rad = frame.heading_back(wrapped(sample.heading_rad));
     State { x_m: at.x, y_m: at.y, heading_rad, vx_mps: v.x, vy_mps: v.y }
@@ -140,7 +140,7 @@ pub(super) fn state(sample: &Sample, frame: Frame) -> State {
 
 /// A cubic through two samples with their velocities, which are bounded so that nobody goes backwards (Fritsch and
 /// Carlson 1980, the square of side 3).
-fn between(a: &Sample, b: &Sample, time_s: f64) -> Sample {
+fn between(a: &RecordedState, b: &RecordedState, time_s: f64) -> RecordedState {
     let whole_s = b.time_s - a.time_s;
     let u = ((time_s - a.time_s) / whole_s).clamp(0.0, 1.0);
     let way = b.at - a.at;
@@ -155,7 +155,7 @@ fn between(a: &Sample, b: &Sample, time_s: f64) -> Sample {
         + tangent(a.velocity) * (u3 - 2.0 * u2 + u)
         + tangent(b.velocity) * (u3 - u2);
     let turn = wrap_angle(b.heading_rad - a.heading_rad);
-    Sample {
+    RecordedState {
         time_s,
         at,
         heading_rad: wrap_angle(a.heading_rad + turn * u),
@@ -169,9 +169,9 @@ mod tests {
     use super::*;
     use scene::Origin;
 
-    fn sample(time_s: f64, x: f64, speed: f64) -> Sample {
+    fn sample(time_s: f64, x: f64, speed: f64) -> RecordedState {
         let (at, velocity) = (Vec2::new(x, 0.0), Vec2::new(speed, 0.0));
-        Sample { time_s, at, heading_rad: 0.0, velocity, z_m: f64::NAN }
+        RecordedState { time_s, at, heading_rad: 0.0, velocity, z_m: f64::NAN }
     }
 
     fn frame() -> Frame {
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn steady_motion_at_25_hertz_is_found_at_steps() {
-        let list: Vec<Sample> =
+        let list: Vec<RecordedState> =
             (0..=25).map(|i| sample(f64::from(i) * 0.04, f64::from(i) * 0.4, 10.0)).collect();
         let (track, filled) = track(&list, 0.0, 11, 0.04, frame());
         assert!(filled);
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn headings_and_velocities_come_from_the_way() {
-        let unknown = |t: f64, x: f64, y: f64| Sample {
+        let unknown = |t: f64, x: f64, y: f64| RecordedState {
             at: Vec2::new(x, y),
             heading_rad: f64::NAN,
             velocity: Vec2::new(f64::NAN, f64::NAN),

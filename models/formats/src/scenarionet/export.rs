@@ -3,7 +3,7 @@
 use super::export_map;
 use super::import::OWN;
 use super::words::{agent_word, signal_word};
-use super::writer::Writer;
+use super::writer::PickleWriter;
 use crate::format::{EGO, ExportOptions, Exported, ExportedMotion};
 use crate::loss::{Loss, code};
 use crate::unwritten;
@@ -21,7 +21,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> Exported {
     let mut losses = BTreeSet::new();
     let (shown, steps) = options.motion.all(scene);
     losses.extend(unwritten::length(scene, steps));
-    let mut out = Writer::new();
+    let mut out = PickleWriter::new();
     out.dict(|w| {
         let id = scene.meta.source_id.as_deref().or(scene.id.as_deref()).unwrap_or(&scene.name);
         w.entry("id", |w| w.text(id));
@@ -42,7 +42,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> Exported {
     Exported { bytes: out.finish(), losses: losses.into_iter().collect() }
 }
 
-fn metadata(scene: &Scene, steps: usize, id: &str, w: &mut Writer) {
+fn metadata(scene: &Scene, steps: usize, id: &str, w: &mut PickleWriter) {
     let meta = &scene.meta;
     let times = (0..steps).map(|step| {
         let own = meta.timestamps_s.as_deref().and_then(|times| times.get(step)).copied();
@@ -82,7 +82,7 @@ fn metadata(scene: &Scene, steps: usize, id: &str, w: &mut Writer) {
 }
 
 /// What the format has no word for and readers of it pass over.
-fn own(scene: &Scene, w: &mut Writer) {
+fn own(scene: &Scene, w: &mut PickleWriter) {
     let meta = &scene.meta;
     w.dict(|w| {
         w.entry("name", |w| w.text(&scene.name));
@@ -102,7 +102,7 @@ fn own(scene: &Scene, w: &mut Writer) {
     });
 }
 
-fn track(agent: &Agent, shown: &Shown<'_>, steps: usize, w: &mut Writer) {
+fn track(agent: &Agent, shown: &Shown<'_>, steps: usize, w: &mut PickleWriter) {
     let word = agent_word(shown.agent_type);
     let state = |step: usize| shown.track.at(step);
     let valid: Vec<bool> = (0..steps).map(|step| state(step).is_some()).collect();
@@ -152,7 +152,7 @@ fn track(agent: &Agent, shown: &Shown<'_>, steps: usize, w: &mut Writer) {
     });
 }
 
-fn signals(scene: &Scene, steps: usize, w: &mut Writer) {
+fn signals(scene: &Scene, steps: usize, w: &mut PickleWriter) {
     let mut times: HashMap<&str, usize> = HashMap::new();
     w.dict(|w| {
         for signal in &scene.signals {
@@ -170,7 +170,7 @@ fn signals(scene: &Scene, steps: usize, w: &mut Writer) {
                     }
                     w.entry("state", |w| {
                         let states = (0..steps).map(|step| signal_word(signal.at(step)));
-                        w.dict(|w| w.entry("object_state", |w| w.list(states, Writer::text)));
+                        w.dict(|w| w.entry("object_state", |w| w.list(states, PickleWriter::text)));
                     });
                     w.entry("metadata", |w| {
                         w.dict(|w| {

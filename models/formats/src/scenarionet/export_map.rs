@@ -1,7 +1,7 @@
 //! A lane map as map features.
 
 use super::words::{lane_word, line_word};
-use super::writer::Writer;
+use super::writer::PickleWriter;
 use crate::loss::{Loss, code};
 use crate::units::mph;
 use scene::map::{Area, Boundary, Lane, LaneMap, Neighbor, Points, ROAD_LINE_TYPES};
@@ -27,7 +27,7 @@ impl Keys {
 }
 
 /// All features, kind by kind.
-pub(super) fn features(map: &LaneMap, w: &mut Writer, losses: &mut BTreeSet<Loss>) {
+pub(super) fn features(map: &LaneMap, w: &mut PickleWriter, losses: &mut BTreeSet<Loss>) {
     let mut keys = Keys::default();
     w.dict(|w| {
         for item in &map.lanes {
@@ -84,13 +84,13 @@ pub(super) fn features(map: &LaneMap, w: &mut Writer, losses: &mut BTreeSet<Loss
     }
 }
 
-fn points(points: &Points, w: &mut Writer) {
+fn points(points: &Points, w: &mut PickleWriter) {
     let height = |i: usize| points.z_m.as_ref().and_then(|z| z.get(i)).copied().unwrap_or(0.0);
     let numbers: Vec<f64> = points.xy.iter().enumerate().flat_map(|(i, p)| [p.x, p.y, height(i)]).collect();
     w.floats(3, &numbers);
 }
 
-fn lane(lane: &Lane, w: &mut Writer) {
+fn lane(lane: &Lane, w: &mut PickleWriter) {
     w.dict(|w| {
         w.entry("type", |w| w.text(lane_word(lane.lane_type).0));
         w.entry("polyline", |w| points(&lane.points, w));
@@ -111,7 +111,7 @@ fn lane(lane: &Lane, w: &mut Writer) {
     });
 }
 
-fn boundary(w: &mut Writer, boundary: &Boundary) {
+fn boundary(w: &mut PickleWriter, boundary: &Boundary) {
     w.dict(|w| {
         w.entry("boundary_feature_id", |w| w.text(&boundary.line));
         w.entry("lane_start_index", |w| w.int(boundary.from));
@@ -123,7 +123,7 @@ fn boundary(w: &mut Writer, boundary: &Boundary) {
     });
 }
 
-fn neighbor(w: &mut Writer, neighbor: &Neighbor) {
+fn neighbor(w: &mut PickleWriter, neighbor: &Neighbor) {
     w.dict(|w| {
         w.entry("feature_id", |w| w.text(&neighbor.lane));
         w.entry("self_start_index", |w| w.int(neighbor.own_range.0));

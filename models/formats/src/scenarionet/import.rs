@@ -2,12 +2,12 @@
 
 use super::import_map;
 use super::machine;
-use super::value::{Pickle, Value};
+use super::value::{Pickle, PickleValue};
 use super::words::{agent_type, signal_state};
 use crate::describe;
 use crate::format::{EGO, ImportOptions};
 use crate::limits::{MAX_SIGNALS, MAX_STEPS};
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
@@ -49,7 +49,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
         return Err(other_sort(&pickle));
     };
     let mut warnings = Vec::new();
-    let nothing = Value::None;
+    let nothing = PickleValue::None;
     let metadata = pickle.get(root, "metadata").unwrap_or(&nothing);
     let steps = steps(&pickle, tracks)?;
     let own = pickle.get(metadata, OWN).unwrap_or(&nothing);
@@ -57,7 +57,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let map = import_map::lane_map(&pickle, features, &mut warnings)?;
     let lights = pickle.get(root, "dynamic_map_states").unwrap_or(&nothing);
     let signals = signals(&pickle, lights, steps, &mut warnings)?;
-    let text = |from: &Value, key: &str| pickle.get(from, key).and_then(|value| pickle.text(value));
+    let text = |from: &PickleValue, key: &str| pickle.get(from, key).and_then(|value| pickle.text(value));
     let id = text(root, "id").or_else(|| text(metadata, "scenario_id")).unwrap_or_default();
     let id: String = id.chars().take(scene::MAX_NAME_CHARS).collect();
     let source =
@@ -82,10 +82,10 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     };
     let interest =
         pickle.get(metadata, "objects_of_interest").and_then(|value| pickle.items(value)).unwrap_or_default();
-    let known = |value: &Value| ids.get(&pickle.text(value)?).cloned();
+    let known = |value: &PickleValue| ids.get(&pickle.text(value)?).cloned();
     let licence = text(own, "licence");
-    if matches!(pickle.get(metadata, "metadrive_processed"), Some(Value::Bool(true))) {
-        warnings.push(Warning::new("frame-moved", sentences::moved_by_metadrive()));
+    if matches!(pickle.get(metadata, "metadrive_processed"), Some(PickleValue::Bool(true))) {
+        warnings.push(ImportWarning::new("frame-moved", sentences::moved_by_metadrive()));
     }
     let scene = Scene {
         id: None,
@@ -115,8 +115,11 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
 /// Why a pickle that holds something else is none that is read.
 fn other_sort(pickle: &Pickle) -> ReadError {
     let entries = pickle.entries(&pickle.root);
-    let of_files = |entries: &[(Value, Value)]| {
-        entries.iter().take(8).any(|(name, _)| matches!(name, Value::Text(text) if text.ends_with(".pkl")))
+    let of_files = |entries: &[(PickleValue, PickleValue)]| {
+        entries
+            .iter()
+            .take(8)
+            .any(|(name, _)| matches!(name, PickleValue::Text(text) if text.ends_with(".pkl")))
     };
     let detail = match entries {
         Some(entries) if of_files(entries) => {
@@ -128,10 +131,10 @@ fn other_sort(pickle: &Pickle) -> ReadError {
 }
 
 /// How many steps there are: those of the longest track.
-fn steps(pickle: &Pickle, tracks: &Value) -> Result<usize, ReadError> {
+fn steps(pickle: &Pickle, tracks: &PickleValue) -> Result<usize, ReadError> {
     let all = pickle.entries(tracks).ok_or_else(|| invalid("/tracks", "a dictionary expected"))?;
     let stated = pickle.get(&pickle.root, "length").and_then(|value| pickle.whole(value)).unwrap_or(0);
-    let length = |track: &Value| {
+    let length = |track: &PickleValue| {
         let position = pickle.get(pickle.get(track, "state")?, "position")?;
         pickle
             .array(position)
@@ -149,10 +152,10 @@ fn steps(pickle: &Pickle, tracks: &Value) -> Result<usize, ReadError> {
 /// Road users, and their ids by those of the file.
 fn agents(
     pickle: &Pickle,
-    tracks: &Value,
-    metadata: &Value,
+    tracks: &PickleValue,
+    metadata: &PickleValue,
     steps: usize,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) -> Result<(Vec<Agent>, HashMap<String, String>), ReadError> {
     let all = pickle.entries(tracks).unwrap_or_default();
     if all.len() > MAX_TRACKS {
@@ -175,17 +178,17 @@ fn agents(
     }
     warnings.extend(ids.warning(subject::ROAD_USERS));
     if varying > 0 {
-        warnings.push(Warning::new("sizes-vary", sentences::sizes_vary_median(varying)));
+        warnings.push(ImportWarning::new("sizes-vary", sentences::sizes_vary_median(varying)));
     }
     Ok((agents, names))
 }
 
-fn agent(pickle: &Pickle, id: &str, track: &Value, steps: usize) -> Result<(Agent, bool), ReadError> {
+fn agent(pickle: &Pickle, id: &str, track: &PickleValue, steps: usize) -> Result<(Agent, bool), ReadError> {
     let at = |name: &str| {
         let id = crate::problem::pointer_token(&id.chars().take(60).collect::<String>());
         format!("/tracks/{id}/state/{name}")
     };
-    let nothing = Value::None;
+    let nothing = PickleValue::None;
     let state = pickle.get(track, "state").unwrap_or(&nothing);
     let rows = |name: &str, most: usize| pickle.get(state, name).and_then(|value| pickle.rows(value, most));
     let (across, position) =
@@ -252,9 +255,9 @@ fn agent(pickle: &Pickle, id: &str, track: &Value, steps: usize) -> Result<(Agen
 }
 
 /// What has to be predicted, by the ids of the scene.
-fn predictions(pickle: &Pickle, metadata: &Value, ids: &HashMap<String, String>) -> Vec<(String, u32)> {
+fn predictions(pickle: &Pickle, metadata: &PickleValue, ids: &HashMap<String, String>) -> Vec<(String, u32)> {
     let listed = pickle.get(metadata, "tracks_to_predict").and_then(|value| pickle.entries(value));
-    let one = |(key, value): &(Value, Value)| {
+    let one = |(key, value): &(PickleValue, PickleValue)| {
         let difficulty = pickle.get(value, "difficulty").and_then(|value| pickle.whole(value));
         let difficulty = difficulty.and_then(|v| u32::try_from(v).ok()).unwrap_or(0);
         ids.get(&pickle.text(key)?).map(|id| (id.clone(), difficulty))
@@ -265,9 +268,9 @@ fn predictions(pickle: &Pickle, metadata: &Value, ids: &HashMap<String, String>)
 /// Times of the steps, unless they are 0.1 s apart from zero.
 fn timestamps(
     pickle: &Pickle,
-    metadata: &Value,
+    metadata: &PickleValue,
     steps: usize,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) -> Option<Vec<f64>> {
     let listed = pickle.get(metadata, "ts").or_else(|| pickle.get(metadata, "timestep"));
     let (_, times) = pickle.rows(listed?, steps)?;
@@ -277,22 +280,22 @@ fn timestamps(
         return None;
     }
     if times.len() != steps || times.iter().any(|t| !t.is_finite()) {
-        warnings.push(Warning::new("timestamps-ignored", sentences::times_incomplete()));
+        warnings.push(ImportWarning::new("timestamps-ignored", sentences::times_incomplete()));
         return None;
     }
     let first = times.first().copied().unwrap_or(0.0);
     let late = times.iter().enumerate().any(|(i, t)| (t - first - i as f64 * STEP_S).abs() > STEP_S / 2.0);
     if late {
-        warnings.push(Warning::new("timestamps-irregular", sentences::times_irregular()));
+        warnings.push(ImportWarning::new("timestamps-irregular", sentences::times_irregular()));
     }
     Some(times)
 }
 
 fn signals(
     pickle: &Pickle,
-    lights: &Value,
+    lights: &PickleValue,
     steps: usize,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) -> Result<Vec<Signal>, ReadError> {
     let all = pickle.entries(lights).unwrap_or_default();
     if all.len() > MAX_SIGNALS {
@@ -332,13 +335,13 @@ fn signals(
         });
     }
     if empty > 0 {
-        warnings.push(Warning::new("signals-dropped", sentences::signals_empty(empty)));
+        warnings.push(ImportWarning::new("signals-dropped", sentences::signals_empty(empty)));
     }
     Ok(signals)
 }
 
 /// What a light shows at each step.
-fn words(pickle: &Pickle, states: &Value, steps: usize) -> Vec<SignalState> {
+fn words(pickle: &Pickle, states: &PickleValue, steps: usize) -> Vec<SignalState> {
     let state = |word: Option<String>| word.map_or(SignalState::Unknown, |word| signal_state(&word));
     if let Some(array) = pickle.array(states) {
         return (0..array.len().min(steps)).map(|i| state(array.text(i))).collect();

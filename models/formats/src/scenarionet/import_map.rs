@@ -1,9 +1,9 @@
 //! Map features of a scenario as a lane map.
 
-use super::value::{Pickle, Value};
+use super::value::{Pickle, PickleValue};
 use super::words::{Feature, feature};
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES};
-use crate::problem::{FieldProblem, ReadError, Warning, code, pointer_token};
+use crate::problem::{FieldProblem, ImportWarning, ReadError, code, pointer_token};
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
 use crate::units::MPS_PER_MPH;
@@ -20,9 +20,9 @@ pub(super) fn reference(id: &str) -> String {
     Ids::default().take(&id.chars().take(MAX_ID).collect::<String>())
 }
 
-/// What is counted over all features.
+/// Counts over all features.
 #[derive(Default)]
-struct Counts {
+struct FeatureCounts {
     points: usize,
     references: usize,
     dropped: usize,
@@ -34,8 +34,8 @@ struct Counts {
 /// `map-too-large`, `invalid-field` for lines that are none.
 pub(super) fn lane_map(
     pickle: &Pickle,
-    features: &Value,
-    warnings: &mut Vec<Warning>,
+    features: &PickleValue,
+    warnings: &mut Vec<ImportWarning>,
 ) -> Result<LaneMap, ReadError> {
     let all = pickle.entries(features);
     let all =
@@ -45,7 +45,7 @@ pub(super) fn lane_map(
     }
     let mut map = LaneMap::default();
     let mut ids: [Ids; 3] = Default::default();
-    let mut counts = Counts::default();
+    let mut counts = FeatureCounts::default();
     for (key, value) in all {
         let key = pickle.text(key).unwrap_or_default();
         let word = pickle.get(value, "type").and_then(|value| pickle.text(value)).unwrap_or_default();
@@ -90,7 +90,7 @@ pub(super) fn lane_map(
     }
     ids.iter().for_each(|ids| warnings.extend(ids.warning(subject::MAP_FEATURES)));
     if counts.dropped > 0 {
-        warnings.push(Warning::new("features-dropped", sentences::features_unread(counts.dropped)));
+        warnings.push(ImportWarning::new("features-dropped", sentences::features_unread(counts.dropped)));
     }
     Ok(map)
 }
@@ -100,7 +100,12 @@ fn too_large(detail: String) -> ReadError {
 }
 
 /// The line, ring or place of a feature.
-fn line(pickle: &Pickle, value: &Value, key: &str, counts: &mut Counts) -> Result<Points, ReadError> {
+fn line(
+    pickle: &Pickle,
+    value: &PickleValue,
+    key: &str,
+    counts: &mut FeatureCounts,
+) -> Result<Points, ReadError> {
     let found = ["polyline", "polygon", "position"].iter().find_map(|name| pickle.get(value, name));
     let Some(found) = found else { return Ok(Points::default()) };
     let at = format!("/map_features/{}", pointer_token(&key.chars().take(60).collect::<String>()));
@@ -127,7 +132,7 @@ fn line(pickle: &Pickle, value: &Value, key: &str, counts: &mut Counts) -> Resul
     Ok(Points { xy, z_m })
 }
 
-fn count(counts: &mut Counts, more: usize) -> Result<(), ReadError> {
+fn count(counts: &mut FeatureCounts, more: usize) -> Result<(), ReadError> {
     counts.references += more;
     if counts.references > MAX_REFERENCES {
         return Err(too_large(format!("more than {MAX_REFERENCES} references")));
@@ -135,13 +140,22 @@ fn count(counts: &mut Counts, more: usize) -> Result<(), ReadError> {
     Ok(())
 }
 
-fn references(pickle: &Pickle, list: &Value, counts: &mut Counts) -> Result<Vec<String>, ReadError> {
+fn references(
+    pickle: &Pickle,
+    list: &PickleValue,
+    counts: &mut FeatureCounts,
+) -> Result<Vec<String>, ReadError> {
     let items = pickle.items(list).unwrap_or_default();
     count(counts, items.len())?;
     Ok(items.iter().filter_map(|value| pickle.text(value)).map(|id| reference(&id)).collect())
 }
 
-fn lane(pickle: &Pickle, value: &Value, lane: Lane, counts: &mut Counts) -> Result<Lane, ReadError> {
+fn lane(
+    pickle: &Pickle,
+    value: &PickleValue,
+    lane: Lane,
+    counts: &mut FeatureCounts,
+) -> Result<Lane, ReadError> {
     let number = |key: &str| pickle.get(value, key).and_then(|v| pickle.number(v)).filter(|v| v.is_finite());
     let mut list = |key: &str| match pickle.get(value, key) {
         Some(list) => references(pickle, list, counts),
@@ -174,7 +188,7 @@ fn lane(pickle: &Pickle, value: &Value, lane: Lane, counts: &mut Counts) -> Resu
 }
 
 /// The median width, where both its halves are known.
-fn width(pickle: &Pickle, value: &Value) -> Option<f64> {
+fn width(pickle: &Pickle, value: &PickleValue) -> Option<f64> {
     let (across, numbers) = pickle.rows(pickle.get(value, "width")?, 2 * MAX_POLYLINE_POINTS)?;
     let mut widths: Vec<f64> = match across {
         2 => numbers
@@ -189,15 +203,19 @@ fn width(pickle: &Pickle, value: &Value) -> Option<f64> {
     widths.get(widths.len() / 2).copied().filter(|width| (0.1..=50.0).contains(width))
 }
 
-fn index(pickle: &Pickle, value: &Value, key: &str) -> usize {
+fn index(pickle: &Pickle, value: &PickleValue, key: &str) -> usize {
     let found = pickle.get(value, key).and_then(|value| pickle.whole(value));
     found.and_then(|v| usize::try_from(v).ok()).unwrap_or(0)
 }
 
-fn boundaries(pickle: &Pickle, list: &Value, counts: &mut Counts) -> Result<Vec<Boundary>, ReadError> {
+fn boundaries(
+    pickle: &Pickle,
+    list: &PickleValue,
+    counts: &mut FeatureCounts,
+) -> Result<Vec<Boundary>, ReadError> {
     let items = pickle.items(list).unwrap_or_default();
     count(counts, items.len())?;
-    let one = |value: &Value| {
+    let one = |value: &PickleValue| {
         let line = pickle.text(pickle.get(value, "boundary_feature_id")?)?;
         let word = pickle.get(value, "boundary_type").and_then(|value| pickle.text(value));
         let kind = word.map(|word| match feature(&word) {
@@ -214,7 +232,11 @@ fn boundaries(pickle: &Pickle, list: &Value, counts: &mut Counts) -> Result<Vec<
     Ok(items.iter().filter_map(one).collect())
 }
 
-fn neighbors(pickle: &Pickle, list: &Value, counts: &mut Counts) -> Result<Vec<Neighbor>, ReadError> {
+fn neighbors(
+    pickle: &Pickle,
+    list: &PickleValue,
+    counts: &mut FeatureCounts,
+) -> Result<Vec<Neighbor>, ReadError> {
     let items = pickle.items(list).unwrap_or_default();
     count(counts, items.len())?;
     let mut found = Vec::new();

@@ -5,7 +5,7 @@
 //! arrays, ordered dictionaries, sets.
 
 use super::array::{Array, Dtype};
-use super::value::{Object, Pickle, Value};
+use super::value::{Pickle, PickleObject, PickleValue};
 use crate::problem::{FieldProblem, ReadError, code};
 use std::rc::Rc;
 
@@ -95,10 +95,10 @@ struct Machine<'a> {
     at: usize,
     /// Where the present instruction begins.
     op: usize,
-    stack: Vec<Value>,
+    stack: Vec<PickleValue>,
     marks: Vec<usize>,
-    memo: Vec<Option<Value>>,
-    objects: Vec<Object>,
+    memo: Vec<Option<PickleValue>>,
+    objects: Vec<PickleObject>,
     pushed: usize,
     /// Bytes that were made beside those of the file.
     made: usize,
@@ -152,7 +152,7 @@ impl<'a> Machine<'a> {
         Ok(line.iter().map(|byte| char::from(*byte)).collect())
     }
 
-    fn push(&mut self, value: Value) -> Done<()> {
+    fn push(&mut self, value: PickleValue) -> Done<()> {
         self.pushed += 1;
         if self.pushed > MAX_VALUES {
             return Err(self.too_many(MAX_VALUES, "values"));
@@ -161,37 +161,37 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    fn push_object(&mut self, object: Object) -> Done<()> {
+    fn push_object(&mut self, object: PickleObject) -> Done<()> {
         if self.objects.len() >= MAX_OBJECTS {
             return Err(self.too_many(MAX_OBJECTS, "lists, dictionaries and arrays"));
         }
         self.objects.push(object);
-        self.push(Value::Object(self.objects.len() - 1))
+        self.push(PickleValue::Object(self.objects.len() - 1))
     }
 
     fn push_text(&mut self, length: usize) -> Done<()> {
         let bytes = self.take(length)?;
         let text = std::str::from_utf8(bytes).map(Rc::from);
         let text = text.map_err(|_| self.broken("a text that is not UTF-8"))?;
-        self.push(Value::Text(text))
+        self.push(PickleValue::Text(text))
     }
 
     fn push_bytes(&mut self, length: usize) -> Done<()> {
         let bytes = Rc::from(self.take(length)?);
-        self.push(Value::Bytes(bytes))
+        self.push(PickleValue::Bytes(bytes))
     }
 
     /// A text of Python 2, which had bytes for both.
     fn push_old_text(&mut self, length: usize) -> Done<()> {
         let bytes = self.take(length)?;
         let value = match std::str::from_utf8(bytes) {
-            Ok(text) if text.is_ascii() => Value::Text(Rc::from(text)),
-            _ => Value::Bytes(Rc::from(bytes)),
+            Ok(text) if text.is_ascii() => PickleValue::Text(Rc::from(text)),
+            _ => PickleValue::Bytes(Rc::from(bytes)),
         };
         self.push(value)
     }
 
-    fn pop(&mut self) -> Done<Value> {
+    fn pop(&mut self) -> Done<PickleValue> {
         let floor = self.marks.last().copied().unwrap_or(0);
         let value = if self.stack.len() > floor { self.stack.pop() } else { None };
         value.ok_or_else(|| self.broken("something is taken from an empty stack"))
@@ -206,7 +206,7 @@ impl<'a> Machine<'a> {
     }
 
     /// What was put on the stack since the last mark.
-    fn since_mark(&mut self) -> Done<Vec<Value>> {
+    fn since_mark(&mut self) -> Done<Vec<PickleValue>> {
         let mark = self.marks.pop().ok_or_else(|| self.broken("the end of what was not begun"))?;
         Ok(self.stack.split_off(mark.min(self.stack.len())))
     }
@@ -241,7 +241,7 @@ impl<'a> Machine<'a> {
 
     fn global(&mut self, module: &str, name: &str) -> Done<()> {
         match KNOWN.iter().position(|(m, n, _)| *m == module && *n == name) {
-            Some(known) => self.push(Value::Known(known)),
+            Some(known) => self.push(PickleValue::Known(known)),
             None => {
                 let shown =
                     |text: &str| text.chars().filter(|c| !c.is_control()).take(80).collect::<String>();
@@ -251,7 +251,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn run(&mut self) -> Done<Value> {
+    fn run(&mut self) -> Done<PickleValue> {
         loop {
             self.op = self.at;
             let op = self.take(1)?.first().copied().unwrap_or_default();
@@ -287,15 +287,15 @@ impl<'a> Machine<'a> {
     /// Instructions that put something new on the stack.
     fn make(&mut self, op: u8) -> Done<()> {
         match op {
-            b'N' => self.push(Value::None),
-            0x88 => self.push(Value::Bool(true)),
-            0x89 => self.push(Value::Bool(false)),
-            b'K' => self.number(1).and_then(|v| self.push(Value::Int(v as i64))),
-            b'M' => self.number(2).and_then(|v| self.push(Value::Int(v as i64))),
-            b'J' => self.number(4).and_then(|v| self.push(Value::Int(i64::from(v as u32 as i32)))),
+            b'N' => self.push(PickleValue::None),
+            0x88 => self.push(PickleValue::Bool(true)),
+            0x89 => self.push(PickleValue::Bool(false)),
+            b'K' => self.number(1).and_then(|v| self.push(PickleValue::Int(v as i64))),
+            b'M' => self.number(2).and_then(|v| self.push(PickleValue::Int(v as i64))),
+            b'J' => self.number(4).and_then(|v| self.push(PickleValue::Int(i64::from(v as u32 as i32)))),
             b'G' => {
                 let eight = self.take(8)?.try_into().unwrap_or_default();
-                self.push(Value::Float(f64::from_be_bytes(eight)))
+                self.push(PickleValue::Float(f64::from_be_bytes(eight)))
             }
             0x8a => self.length(1).and_then(|length| self.long(length)),
             0x8b => self.length(4).and_then(|length| self.long(length)),
@@ -309,22 +309,22 @@ impl<'a> Machine<'a> {
             b'T' => self.length(4).and_then(|length| self.push_old_text(length)),
             b'U' => self.length(1).and_then(|length| self.push_old_text(length)),
             0x8e | 0x96 => self.length(8).and_then(|length| self.push_bytes(length)),
-            b']' | 0x8f => self.push_object(Object::List(Vec::new())),
-            b'}' => self.push_object(Object::Dict(Vec::new())),
-            b')' => self.push(Value::Tuple(Rc::from([]))),
-            b'l' | 0x91 => self.since_mark().and_then(|items| self.push_object(Object::List(items))),
+            b']' | 0x8f => self.push_object(PickleObject::List(Vec::new())),
+            b'}' => self.push_object(PickleObject::Dict(Vec::new())),
+            b')' => self.push(PickleValue::Tuple(Rc::from([]))),
+            b'l' | 0x91 => self.since_mark().and_then(|items| self.push_object(PickleObject::List(items))),
             b'd' => {
                 let entries = self.since_mark().and_then(|items| self.paired(items))?;
-                self.push_object(Object::Dict(entries))
+                self.push_object(PickleObject::Dict(entries))
             }
-            b't' => self.since_mark().and_then(|items| self.push(Value::Tuple(items.into()))),
+            b't' => self.since_mark().and_then(|items| self.push(PickleValue::Tuple(items.into()))),
             0x85..=0x87 => {
                 let mut items = Vec::new();
                 for _ in 0..=op - 0x85 {
                     items.push(self.pop()?);
                 }
                 items.reverse();
-                self.push(Value::Tuple(items.into()))
+                self.push(PickleValue::Tuple(items.into()))
             }
             b'q' => self.length(1).and_then(|place| self.remember(place)),
             b'r' => self.length(4).and_then(|place| self.remember(place)),
@@ -361,7 +361,7 @@ impl<'a> Machine<'a> {
                 self.global(&module, &name)
             }
             0x93 => match (self.pop()?, self.pop()?) {
-                (Value::Text(name), Value::Text(module)) => self.global(&module, &name),
+                (PickleValue::Text(name), PickleValue::Text(module)) => self.global(&module, &name),
                 _ => Err(self.broken("a name that is no text")),
             },
             b'R' => {
@@ -370,7 +370,7 @@ impl<'a> Machine<'a> {
             }
             0x81 => {
                 let (_, class) = (self.pop()?, self.pop()?);
-                self.reduce(&class, &Value::Tuple(Rc::from([])))
+                self.reduce(&class, &PickleValue::Tuple(Rc::from([])))
             }
             b'b' => {
                 let state = self.pop()?;
@@ -392,17 +392,17 @@ impl<'a> Machine<'a> {
             return Err(self.broken("a number of more than eight bytes"));
         }
         eight.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
-        self.push(Value::Int(i64::from_le_bytes(eight)))
+        self.push(PickleValue::Int(i64::from_le_bytes(eight)))
     }
 
     fn number_line(&mut self, op: u8) -> Done<()> {
         let line = self.line()?;
         let text = line.trim().trim_end_matches('L');
         let value = match (op, text) {
-            (b'I', "00") => Some(Value::Bool(false)),
-            (b'I', "01") => Some(Value::Bool(true)),
-            (b'F', _) => text.parse().ok().map(Value::Float),
-            _ => text.parse().ok().map(Value::Int),
+            (b'I', "00") => Some(PickleValue::Bool(false)),
+            (b'I', "01") => Some(PickleValue::Bool(true)),
+            (b'F', _) => text.parse().ok().map(PickleValue::Float),
+            _ => text.parse().ok().map(PickleValue::Int),
         };
         let value = value.ok_or_else(|| self.broken("no number"))?;
         self.push(value)
@@ -415,7 +415,7 @@ impl<'a> Machine<'a> {
             let quoted = line.trim();
             let inner = ['\'', '"'].iter().find_map(|q| quoted.strip_prefix(*q)?.strip_suffix(*q));
             let inner = inner.ok_or_else(|| self.broken("a text without quotes"))?;
-            return self.push(Value::Text(Rc::from(inner)));
+            return self.push(PickleValue::Text(Rc::from(inner)));
         }
         let mut text = String::with_capacity(line.len());
         let mut rest = line.as_str();
@@ -427,10 +427,10 @@ impl<'a> Machine<'a> {
             rest = after.get(4..).unwrap_or_default();
         }
         text.push_str(rest);
-        self.push(Value::Text(text.into()))
+        self.push(PickleValue::Text(text.into()))
     }
 
-    fn paired(&self, items: Vec<Value>) -> Done<Vec<(Value, Value)>> {
+    fn paired(&self, items: Vec<PickleValue>) -> Done<Vec<(PickleValue, PickleValue)>> {
         if !items.len().is_multiple_of(2) {
             return Err(self.broken("a key without a value"));
         }
@@ -443,79 +443,79 @@ impl<'a> Machine<'a> {
     }
 
     /// The object on top of the stack.
-    fn top(&mut self) -> Option<&mut Object> {
+    fn top(&mut self) -> Option<&mut PickleObject> {
         match self.stack.last() {
-            Some(Value::Object(at)) => self.objects.get_mut(*at),
+            Some(PickleValue::Object(at)) => self.objects.get_mut(*at),
             _ => None,
         }
     }
 
-    fn extend(&mut self, items: Vec<Value>) -> Done<()> {
+    fn extend(&mut self, items: Vec<PickleValue>) -> Done<()> {
         match self.top() {
-            Some(Object::List(list)) => list.extend(items),
+            Some(PickleObject::List(list)) => list.extend(items),
             _ => return Err(self.broken("something is added to what is no list")),
         }
         Ok(())
     }
 
-    fn set(&mut self, entries: Vec<(Value, Value)>) -> Done<()> {
+    fn set(&mut self, entries: Vec<(PickleValue, PickleValue)>) -> Done<()> {
         match self.top() {
-            Some(Object::Dict(dict)) => dict.extend(entries),
+            Some(PickleObject::Dict(dict)) => dict.extend(entries),
             _ => return Err(self.broken("an entry of what is no dictionary")),
         }
         Ok(())
     }
 
     /// What a known name makes of its arguments.
-    fn reduce(&mut self, callee: &Value, arguments: &Value) -> Done<()> {
+    fn reduce(&mut self, callee: &PickleValue, arguments: &PickleValue) -> Done<()> {
         let known = match callee {
-            Value::Known(at) => KNOWN.get(*at).map(|(.., known)| *known),
+            PickleValue::Known(at) => KNOWN.get(*at).map(|(.., known)| *known),
             _ => None,
         };
         let Some(known) = known else { return Err(self.refused("a call of what is no name".into())) };
-        let Value::Tuple(arguments) = arguments else {
+        let PickleValue::Tuple(arguments) = arguments else {
             return Err(self.broken("arguments that are no tuple"));
         };
         let arguments = Rc::clone(arguments);
         match (known, &*arguments) {
-            (Known::Reconstruct, _) => self.push_object(Object::Array(Array::empty())),
+            (Known::Reconstruct, _) => self.push_object(PickleObject::Array(Array::empty())),
             (Known::Dtype, [word, ..]) => {
                 let dtype = self.dtype(word)?;
-                self.push_object(Object::Dtype(dtype))
+                self.push_object(PickleObject::Dtype(dtype))
             }
             (Known::Ndarray, [shape, dtype, data]) => self.array(shape, dtype, data, false),
             (Known::FromBuffer, [data, dtype, shape, order]) => {
-                let fortran = matches!(order, Value::Text(order) if &**order == "F");
+                let fortran = matches!(order, PickleValue::Text(order) if &**order == "F");
                 self.array(shape, dtype, data, fortran)
             }
             (Known::Copy, [array, ..]) => self.push(array.clone()),
             (Known::Scalar, [dtype, data]) => {
-                self.array(&Value::Tuple(Rc::from([])), dtype, data, false)?;
+                self.array(&PickleValue::Tuple(Rc::from([])), dtype, data, false)?;
                 match self.pop()? {
-                    Value::Object(at) => {
+                    PickleValue::Object(at) => {
                         let number = match self.objects.get(at) {
-                            Some(Object::Array(array)) => array.number(0).map(Value::Float),
+                            Some(PickleObject::Array(array)) => array.number(0).map(PickleValue::Float),
                             _ => None,
                         };
-                        self.push(number.unwrap_or(Value::None))
+                        self.push(number.unwrap_or(PickleValue::None))
                     }
                     _ => Ok(()),
                 }
             }
             (Known::Dict, []) | (Known::DefaultDict, []) | (Known::DefaultDict, [_]) => {
-                self.push_object(Object::Dict(Vec::new()))
+                self.push_object(PickleObject::Dict(Vec::new()))
             }
             (Known::Dict, [from]) => self.dict_of(from),
-            (Known::List, []) => self.push_object(Object::List(Vec::new())),
+            (Known::List, []) => self.push_object(PickleObject::List(Vec::new())),
             (Known::List, [from]) => {
                 let items = self.items(from)?;
-                self.push_object(Object::List(items))
+                self.push_object(PickleObject::List(items))
             }
-            (Known::Encode, [Value::Text(text), ..]) => {
+            (Known::Encode, [PickleValue::Text(text), ..]) => {
                 self.make_bytes(text.len())?;
                 let bytes: Option<Vec<u8>> = text.chars().map(|c| u8::try_from(u32::from(c)).ok()).collect();
                 let bytes = bytes.ok_or_else(|| self.broken("bytes that are none"))?;
-                self.push(Value::Bytes(bytes.into()))
+                self.push(PickleValue::Bytes(bytes.into()))
             }
             _ => Err(self.broken("a known name with arguments that it does not take")),
         }
@@ -531,11 +531,11 @@ impl<'a> Machine<'a> {
     }
 
     /// A copy of the items of a list or tuple, which counts.
-    fn items(&mut self, from: &Value) -> Done<Vec<Value>> {
+    fn items(&mut self, from: &PickleValue) -> Done<Vec<PickleValue>> {
         let items = match from {
-            Value::Tuple(items) => items.to_vec(),
-            Value::Object(at) => match self.objects.get(*at) {
-                Some(Object::List(items)) => items.clone(),
+            PickleValue::Tuple(items) => items.to_vec(),
+            PickleValue::Object(at) => match self.objects.get(*at) {
+                Some(PickleObject::List(items)) => items.clone(),
                 _ => return Err(self.broken("a list expected")),
             },
             _ => return Err(self.broken("a list expected")),
@@ -547,7 +547,7 @@ impl<'a> Machine<'a> {
         Ok(items)
     }
 
-    fn dict_of(&mut self, from: &Value) -> Done<()> {
+    fn dict_of(&mut self, from: &PickleValue) -> Done<()> {
         let mut entries = Vec::new();
         for pair in self.items(from)? {
             match self.items(&pair)?.as_slice() {
@@ -555,20 +555,20 @@ impl<'a> Machine<'a> {
                 _ => return Err(self.broken("a pair expected")),
             }
         }
-        self.push_object(Object::Dict(entries))
+        self.push_object(PickleObject::Dict(entries))
     }
 
-    fn dtype(&self, value: &Value) -> Done<Dtype> {
+    fn dtype(&self, value: &PickleValue) -> Done<Dtype> {
         let found = match value {
-            Value::Text(word) => Dtype::of(word),
-            Value::Object(at) => match self.objects.get(*at) {
-                Some(Object::Dtype(dtype)) => Some(*dtype),
+            PickleValue::Text(word) => Dtype::of(word),
+            PickleValue::Object(at) => match self.objects.get(*at) {
+                Some(PickleObject::Dtype(dtype)) => Some(*dtype),
                 _ => None,
             },
             _ => None,
         };
         found.ok_or_else(|| match value {
-            Value::Text(word) => {
+            PickleValue::Text(word) => {
                 let word: String = word.chars().take(20).collect();
                 self.refused(format!("an array of \"{word}\"; numbers, truth values and texts are read"))
             }
@@ -576,23 +576,29 @@ impl<'a> Machine<'a> {
         })
     }
 
-    fn shape(&self, value: &Value) -> Done<Vec<usize>> {
-        let side = |value: &Value| match value {
-            Value::Int(n) => usize::try_from(*n).ok(),
+    fn shape(&self, value: &PickleValue) -> Done<Vec<usize>> {
+        let side = |value: &PickleValue| match value {
+            PickleValue::Int(n) => usize::try_from(*n).ok(),
             _ => None,
         };
         let sides = match value {
-            Value::Tuple(items) if items.len() <= 8 => items.iter().map(side).collect(),
+            PickleValue::Tuple(items) if items.len() <= 8 => items.iter().map(side).collect(),
             value => side(value).map(|n| vec![n]),
         };
         sides.ok_or_else(|| self.broken("no shape of an array"))
     }
 
-    fn array(&mut self, shape: &Value, dtype: &Value, data: &Value, fortran: bool) -> Done<()> {
+    fn array(
+        &mut self,
+        shape: &PickleValue,
+        dtype: &PickleValue,
+        data: &PickleValue,
+        fortran: bool,
+    ) -> Done<()> {
         let (shape, dtype) = (self.shape(shape)?, self.dtype(dtype)?);
         let data = match data {
-            Value::Bytes(data) => Rc::clone(data),
-            Value::Text(text) => {
+            PickleValue::Bytes(data) => Rc::clone(data),
+            PickleValue::Text(text) => {
                 self.make_bytes(text.len())?;
                 Rc::from(text.as_bytes())
             }
@@ -602,33 +608,33 @@ impl<'a> Machine<'a> {
         if !array.is_whole() {
             return Err(self.broken("an array that has another size than its bytes"));
         }
-        self.push_object(Object::Array(array))
+        self.push_object(PickleObject::Array(array))
     }
 
     /// Fills what was made empty.
-    fn build(&mut self, state: &Value) -> Done<()> {
-        let Some(Value::Object(at)) = self.stack.last().cloned() else {
+    fn build(&mut self, state: &PickleValue) -> Done<()> {
+        let Some(PickleValue::Object(at)) = self.stack.last().cloned() else {
             return Err(self.refused("a state of what is no array".into()));
         };
         let filled = match (self.objects.get(at), state) {
-            (Some(Object::Array(_)), Value::Tuple(state)) => match &**state {
+            (Some(PickleObject::Array(_)), PickleValue::Tuple(state)) => match &**state {
                 [_, shape, dtype, fortran, data] | [shape, dtype, fortran, data] => {
-                    let fortran = matches!(fortran, Value::Bool(true) | Value::Int(1));
+                    let fortran = matches!(fortran, PickleValue::Bool(true) | PickleValue::Int(1));
                     self.array(shape, dtype, data, fortran)?;
                     match self.pop()? {
-                        Value::Object(made) => self.objects.get(made).cloned(),
+                        PickleValue::Object(made) => self.objects.get(made).cloned(),
                         _ => None,
                     }
                 }
                 _ => return Err(self.broken("no state of an array")),
             },
-            (Some(Object::Dtype(dtype)), Value::Tuple(state)) => {
+            (Some(PickleObject::Dtype(dtype)), PickleValue::Tuple(state)) => {
                 let order = state.get(1);
-                let big = matches!(order, Some(Value::Text(order)) if &**order == ">");
-                Some(Object::Dtype(Dtype { big, ..*dtype }))
+                let big = matches!(order, Some(PickleValue::Text(order)) if &**order == ">");
+                Some(PickleObject::Dtype(Dtype { big, ..*dtype }))
             }
             // Members of a dictionary's class are of no use.
-            (Some(Object::Dict(_)), _) => None,
+            (Some(PickleObject::Dict(_)), _) => None,
             _ => return Err(self.refused("a state of what is no array".into())),
         };
         if let (Some(filled), Some(slot)) = (filled, self.objects.get_mut(at)) {

@@ -8,14 +8,14 @@ const LOOKED_UP: usize = 256;
 
 /// A value. Lists and dictionaries lie in a [`Pickle`], since several places may hold the same one.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(super) enum PickleValue {
     None,
     Bool(bool),
     Int(i64),
     Float(f64),
     Text(Rc<str>),
     Bytes(Rc<[u8]>),
-    Tuple(Rc<[Value]>),
+    Tuple(Rc<[PickleValue]>),
     /// A list, set, dictionary, array or type of array: its place in [`Pickle::objects`].
     Object(usize),
     /// Something that the list of what is known names, by its place in that list.
@@ -24,9 +24,9 @@ pub(super) enum Value {
 
 /// What can change while a pickle is read.
 #[derive(Clone, Debug)]
-pub(super) enum Object {
-    List(Vec<Value>),
-    Dict(Vec<(Value, Value)>),
+pub(super) enum PickleObject {
+    List(Vec<PickleValue>),
+    Dict(Vec<(PickleValue, PickleValue)>),
     Array(Array),
     Dtype(super::array::Dtype),
 }
@@ -34,86 +34,91 @@ pub(super) enum Object {
 /// All of a pickle.
 #[derive(Debug)]
 pub(super) struct Pickle {
-    pub objects: Vec<Object>,
-    pub root: Value,
+    pub objects: Vec<PickleObject>,
+    pub root: PickleValue,
 }
 
 impl Pickle {
-    fn object(&self, value: &Value) -> Option<&Object> {
+    fn object(&self, value: &PickleValue) -> Option<&PickleObject> {
         match value {
-            Value::Object(at) => self.objects.get(*at),
+            PickleValue::Object(at) => self.objects.get(*at),
             _ => None,
         }
     }
 
     /// Entries of a dictionary.
-    pub fn entries(&self, value: &Value) -> Option<&[(Value, Value)]> {
+    pub fn entries(&self, value: &PickleValue) -> Option<&[(PickleValue, PickleValue)]> {
         match self.object(value)? {
-            Object::Dict(entries) => Some(entries),
+            PickleObject::Dict(entries) => Some(entries),
             _ => None,
         }
     }
 
     /// What a dictionary has under a key; of several the last one, as Python would.
-    pub fn get(&self, value: &Value, key: &str) -> Option<&Value> {
+    pub fn get(&self, value: &PickleValue, key: &str) -> Option<&PickleValue> {
         let entries = self.entries(value).filter(|entries| entries.len() <= LOOKED_UP)?;
-        let named = |(name, _): &&(Value, Value)| matches!(name, Value::Text(text) if &**text == key);
-        entries.iter().rev().find(named).map(|(_, value)| value).filter(|value| !matches!(value, Value::None))
+        let named = |(name, _): &&(PickleValue, PickleValue)| matches!(name, PickleValue::Text(text) if &**text == key);
+        entries
+            .iter()
+            .rev()
+            .find(named)
+            .map(|(_, value)| value)
+            .filter(|value| !matches!(value, PickleValue::None))
     }
 
     /// Items of a list or tuple.
-    pub fn items<'a>(&'a self, value: &'a Value) -> Option<&'a [Value]> {
+    pub fn items<'a>(&'a self, value: &'a PickleValue) -> Option<&'a [PickleValue]> {
         match value {
-            Value::Tuple(items) => Some(items),
+            PickleValue::Tuple(items) => Some(items),
             _ => match self.object(value)? {
-                Object::List(items) => Some(items),
+                PickleObject::List(items) => Some(items),
                 _ => None,
             },
         }
     }
 
     /// An array.
-    pub fn array(&self, value: &Value) -> Option<&Array> {
+    pub fn array(&self, value: &PickleValue) -> Option<&Array> {
         match self.object(value)? {
-            Object::Array(array) => Some(array),
+            PickleObject::Array(array) => Some(array),
             _ => None,
         }
     }
 
     /// A number, or the only one of an array.
-    pub fn number(&self, value: &Value) -> Option<f64> {
+    pub fn number(&self, value: &PickleValue) -> Option<f64> {
         match value {
-            Value::Bool(value) => Some(f64::from(u8::from(*value))),
-            Value::Int(value) => Some(*value as f64),
-            Value::Float(value) => Some(*value),
+            PickleValue::Bool(value) => Some(f64::from(u8::from(*value))),
+            PickleValue::Int(value) => Some(*value as f64),
+            PickleValue::Float(value) => Some(*value),
             _ => self.array(value).filter(|array| array.len() == 1).and_then(|array| array.number(0)),
         }
     }
 
     /// A whole number, written as one or in words.
-    pub fn whole(&self, value: &Value) -> Option<i64> {
+    pub fn whole(&self, value: &PickleValue) -> Option<i64> {
         match value {
-            Value::Text(text) => text.parse().ok(),
+            PickleValue::Text(text) => text.parse().ok(),
             _ => self.number(value).filter(|v| v.fract() == 0.0 && v.abs() < 1e15).map(|v| v as i64),
         }
     }
 
     /// A text, or a whole number as one: ids are either.
-    pub fn text(&self, value: &Value) -> Option<String> {
+    pub fn text(&self, value: &PickleValue) -> Option<String> {
         match value {
-            Value::Text(text) => Some(text.to_string()),
+            PickleValue::Text(text) => Some(text.to_string()),
             _ => self.whole(value).map(|number| number.to_string()),
         }
     }
 
     /// Numbers of a list or an array, and how many there are in a row of it (one for a plain list of numbers).
-    pub fn rows(&self, value: &Value, most: usize) -> Option<(usize, Vec<f64>)> {
+    pub fn rows(&self, value: &PickleValue, most: usize) -> Option<(usize, Vec<f64>)> {
         if let Some(array) = self.array(value) {
             let across = if array.shape.len() > 1 { array.shape.iter().skip(1).product() } else { 1 };
             return Some((across, (0..array.len().min(most)).map_while(|i| array.number(i)).collect()));
         }
         let items = self.items(value)?;
-        let across = items.first().and_then(|item| self.rows_of(item)).map_or(1, <[Value]>::len);
+        let across = items.first().and_then(|item| self.rows_of(item)).map_or(1, <[PickleValue]>::len);
         let mut numbers = Vec::new();
         for item in items.iter().take(most / across.max(1)) {
             match (self.rows_of(item), across) {
@@ -133,7 +138,7 @@ impl Pickle {
         Some((across, numbers))
     }
 
-    fn rows_of<'a>(&'a self, item: &'a Value) -> Option<&'a [Value]> {
+    fn rows_of<'a>(&'a self, item: &'a PickleValue) -> Option<&'a [PickleValue]> {
         self.items(item)
     }
 }

@@ -1,9 +1,9 @@
 //! Pickles as they are written: protocol 3, values and arrays of numbers alone.
 
-/// A pickle on its way out.
-pub(super) struct Writer(Vec<u8>);
+/// A pickle that is being written.
+pub(super) struct PickleWriter(Vec<u8>);
 
-impl Writer {
+impl PickleWriter {
     pub fn new() -> Self {
         Self(vec![0x80, 3])
     }
@@ -38,7 +38,7 @@ impl Writer {
         self.0.extend(value.to_be_bytes());
     }
 
-    /// A dictionary, whose entries `fill` writes with [`Writer::entry`].
+    /// A dictionary, whose entries `fill` writes with [`PickleWriter::entry`].
     pub fn dict(&mut self, fill: impl FnOnce(&mut Self)) {
         self.0.extend(b"}(");
         fill(self);
@@ -90,10 +90,10 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let mut writer = Writer::new();
+        let mut writer = PickleWriter::new();
         writer.dict(|w| {
             w.entry("a", |w| w.floats(2, &[1.0, 2.0, 3.0, -4.5]));
-            w.entry("b", |w| w.list(["x", "y"], Writer::text));
+            w.entry("b", |w| w.list(["x", "y"], PickleWriter::text));
             w.entry("c", |w| w.bools(&[true, false]));
             w.entry("d", |w| w.int(70_000));
             w.entry("e", |w| w.float(-0.25));

@@ -5,9 +5,9 @@ use scene::Vec2;
 use std::collections::BTreeMap;
 use std::io::BufRead;
 
-/// What was recorded of one road user.
+/// Recorded states of one road user.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Record {
+pub struct FcdTrack {
     /// Vehicle type as SUMO knows it (of the form `type@...` for distributions; cut at the `@`).
     pub vehicle_type: String,
     /// Times, seconds, rising.
@@ -25,12 +25,12 @@ pub struct Record {
 ///
 /// # Errors
 /// When a column is missing or a field is no number. An unreadable stream counts as its end.
-pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, Record>, SumoError> {
+pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, FcdTrack>, SumoError> {
     let mut lines = input.lines().map_while(Result::ok);
     let header = lines.next().unwrap_or_default();
     let names: Vec<&str> = header.trim().split(';').collect();
-    let groups: Vec<Columns> =
-        ["vehicle", "person"].iter().filter_map(|g| Columns::find(&names, g)).collect();
+    let groups: Vec<ColumnIndices> =
+        ["vehicle", "person"].iter().filter_map(|g| ColumnIndices::find(&names, g)).collect();
     let time = names.iter().position(|n| *n == "timestep_time");
     let (Some(time), false) = (time, groups.is_empty()) else {
         let found = header.chars().take(80).collect();
@@ -39,7 +39,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, Record>, SumoErr
             found,
         });
     };
-    let mut records: BTreeMap<String, Record> = BTreeMap::new();
+    let mut records: BTreeMap<String, FcdTrack> = BTreeMap::new();
     for (i, line) in lines.enumerate() {
         let row = i as u32 + 2;
         let fields: Vec<&str> = line.trim_end().split(';').collect();
@@ -52,7 +52,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, Record>, SumoErr
         if !records.contains_key(text(columns.id)) {
             let kind = columns.kind.map(text).unwrap_or_default();
             let vehicle_type = kind.split('@').next().unwrap_or_default().to_owned();
-            records.insert(text(columns.id).to_owned(), Record { vehicle_type, ..Record::default() });
+            records.insert(text(columns.id).to_owned(), FcdTrack { vehicle_type, ..FcdTrack::default() });
         }
         let Some(record) = records.get_mut(text(columns.id)) else { continue };
         record.times_s.push(number(time)?);
@@ -64,7 +64,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, Record>, SumoErr
 }
 
 /// Where a group's fields stand in a row.
-pub(super) struct Columns {
+pub(super) struct ColumnIndices {
     pub id: usize,
     pub x: usize,
     pub y: usize,
@@ -77,7 +77,7 @@ pub(super) struct Columns {
     pub width: Option<usize>,
 }
 
-impl Columns {
+impl ColumnIndices {
     pub fn find(names: &[&str], group: &str) -> Option<Self> {
         let column = |what: &str| {
             names.iter().position(|n| n.strip_prefix(group).and_then(|n| n.strip_prefix('_')) == Some(what))

@@ -1,10 +1,10 @@
 //! A network and a recording on it in one zip, as SUMO's users keep them side by side.
 
 use super::formats::{SOURCE, of_net};
-use super::import_fcd::{Common, Windows};
+use super::import_fcd::{FcdContext, Windows};
 use super::import_net;
 use super::out::folder::{self, CONFIGURATION, NET, RECORDING, TRIPS};
-use super::rows::Rows;
+use super::rows::FcdRows;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::limits::{MAX_DECODED_BYTES, memory_for};
 use crate::loss;
@@ -27,14 +27,14 @@ const NAME_FROM: usize = 30;
 /// first two are read.
 pub(crate) struct SumoFolder;
 
-/// What is read of a zip.
+/// Files of a zip archive that are read.
 #[derive(Default)]
-struct Folder {
+struct ZipContents {
     net: Option<Vec<u8>>,
     recording: Option<Vec<u8>>,
 }
 
-impl Folder {
+impl ZipContents {
     fn read(file: &dyn Source) -> Result<Self, ReadError> {
         let most = MAX_DECODED_BYTES.min(memory_for(file.encoded_len()) / FOLDER_MEMORY);
         let mut packed = Vec::new();
@@ -76,7 +76,7 @@ impl Format for SumoFolder {
             export: true,
             many: true,
             takes_net: false,
-            notes: "Network, trips and recording with their configuration: `sumo -c` drives the trips, the \
+            notes: "ExportedNetwork, trips and recording with their configuration: `sumo -c` drives the trips, the \
                  recording is the motion itself. Read from the network and the recording.",
             loses: &[
                 loss::code::NO_CONDITIONS,
@@ -123,7 +123,7 @@ impl Format for SumoFolder {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        let Folder { net, recording } = match Folder::read(file) {
+        let ZipContents { net, recording } = match ZipContents::read(file) {
             Ok(folder) => folder,
             Err(error) => return one(Err(error)),
         };
@@ -135,9 +135,9 @@ impl Format for SumoFolder {
         match (net, recording) {
             (net, Some(recording)) => {
                 let head = unpack::head(&recording[..]);
-                match Rows::of(&head, Box::new(Cursor::new(recording))) {
+                match FcdRows::of(&head, Box::new(Cursor::new(recording))) {
                     Ok(rows) => {
-                        let windows = Windows::new(rows, Common { net, licence });
+                        let windows = Windows::new(rows, FcdContext { net, licence });
                         Box::new(windows.skip(options.skip).take(options.max_scenes))
                     }
                     Err(error) => one(Err(error)),

@@ -1,10 +1,10 @@
 //! The two formats of SUMO that users import: a road network, and a recording (FCD) with or without the
 //! network it belongs to.
 
-use super::import_fcd::{Common, Windows};
+use super::import_fcd::{FcdContext, Windows};
 use super::import_net::{self, NetScene};
 use super::out::{net, recording};
-use super::rows::Rows;
+use super::rows::FcdRows;
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, one_scene,
 };
@@ -124,8 +124,8 @@ impl Format for SumoFcd {
             Ok(net) => net,
             Err(error) => return one(Err(error.under(NET_POINTER))),
         };
-        let common = Common { net, licence: options.licence.clone() };
-        match Rows::open(file, MAX_DECODED_BYTES) {
+        let common = FcdContext { net, licence: options.licence.clone() };
+        match FcdRows::open(file, MAX_DECODED_BYTES) {
             Ok(rows) => Box::new(Windows::new(rows, common).skip(options.skip).take(options.max_scenes)),
             Err(error) => one(Err(error)),
         }

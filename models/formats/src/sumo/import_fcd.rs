@@ -3,13 +3,13 @@
 
 use super::formats::SOURCE;
 use super::import_net::NetScene;
-use super::kinds::{self, Kind};
-use super::rows::{Item, Row, Rows};
-use super::window::{Between, MAX_FILLED_S, SAME_S, Sample, between, track};
+use super::kinds::{self, AgentKind};
+use super::rows::{FcdItem, FcdRow, FcdRows};
+use super::window::{Between, FcdState, MAX_FILLED_S, SAME_S, between, track};
 use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
-use crate::recording::{Ids, middle};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::recording::{AgentIds, middle};
 use crate::sentences;
 use scene::geometry::direction;
 use scene::{
@@ -24,18 +24,18 @@ const MAX_USERS: usize = 50_000;
 /// How far outside the network's box positions are still its own, metres.
 const BESIDE_M: f64 = 500.0;
 
-/// What scenes have in common.
-pub(super) struct Common {
+/// Network and licence that all scenes of a recording share.
+pub(super) struct FcdContext {
     pub net: Option<NetScene>,
     pub licence: Option<String>,
 }
 
 /// One road user over the window.
-struct User {
-    kind: Kind,
+struct FcdAgent {
+    kind: AgentKind,
     /// The file gives its size.
     measured: bool,
-    samples: Vec<Sample>,
+    samples: Vec<FcdState>,
 }
 
 /// Persons and vehicles may share an id.
@@ -43,9 +43,9 @@ type Key = (String, bool);
 
 /// Scenes of a recording, one a window in which anybody is seen.
 pub(super) struct Windows<'a> {
-    rows: Rows<'a>,
-    common: Common,
-    users: BTreeMap<Key, User>,
+    rows: FcdRows<'a>,
+    common: FcdContext,
+    users: BTreeMap<Key, FcdAgent>,
     samples: usize,
     /// Number and time of the time step that is being read.
     step: u64,
@@ -61,7 +61,7 @@ pub(super) struct Windows<'a> {
 }
 
 impl<'a> Windows<'a> {
-    pub fn new(rows: Rows<'a>, common: Common) -> Self {
+    pub fn new(rows: FcdRows<'a>, common: FcdContext) -> Self {
         Self {
             rows,
             common,
@@ -119,7 +119,7 @@ impl<'a> Windows<'a> {
         scene
     }
 
-    fn add(&mut self, row: Row) -> Result<(), ReadError> {
+    fn add(&mut self, row: FcdRow) -> Result<(), ReadError> {
         let Some(time_s) = self.time_s else { return Ok(()) };
         let users = self.users.len();
         let user = self.users.entry((row.id, row.person)).or_insert_with(|| {
@@ -129,13 +129,13 @@ impl<'a> Windows<'a> {
             kind.size.width_m = width_m.unwrap_or(kind.size.width_m).min(60.0);
             let measured = length_m.is_some() && width_m.is_some();
             let measured = measured || kinds::size_of(&row.type_name).is_some();
-            User { kind, measured, samples: Vec::new() }
+            FcdAgent { kind, measured, samples: Vec::new() }
         });
         // SUMO's point is the middle of the front bumper; that of a person is the centre.
         let on_foot = user.kind.agent_type == AgentType::Pedestrian;
         let back_m = if on_foot { 0.0 } else { user.kind.size.length_m / 2.0 };
         let centre = row.point - direction(row.heading_rad) * back_m;
-        let sample = Sample {
+        let sample = FcdState {
             step: self.step,
             time_s,
             centre,
@@ -169,15 +169,15 @@ impl<'a> Windows<'a> {
             return None;
         }
         let end_s = start_s + (steps - 1) as f64 * STEP_S;
-        let seen = |s: &&Sample| s.time_s >= start_s - SAME_S && s.time_s <= end_s + SAME_S;
+        let seen = |s: &&FcdState| s.time_s >= start_s - SAME_S && s.time_s <= end_s + SAME_S;
         let now_s = start_s + NOW_STEP.min(steps - 1) as f64 * STEP_S;
-        let nearest = |user: &User| {
+        let nearest = |user: &FcdAgent| {
             let near =
-                |a: &&Sample, b: &&Sample| (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs());
+                |a: &&FcdState, b: &&FcdState| (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs());
             user.samples.iter().filter(seen).min_by(near).map(|s| s.centre)
         };
         let present = |(key, user)| nearest(user).map(|at| (key, user, at));
-        let all: Vec<(&Key, &User, Vec2)> = self.users.iter().filter_map(present).collect();
+        let all: Vec<(&Key, &FcdAgent, Vec2)> = self.users.iter().filter_map(present).collect();
         if all.is_empty() {
             return None;
         }
@@ -185,7 +185,7 @@ impl<'a> Windows<'a> {
         let origin = self.common.net.as_ref().map_or(middle.map(f64::round), |net| net.origin);
         let mut warnings = self.common.net.as_ref().map_or_else(Vec::new, |net| net.warnings.clone());
         let kept = self.kept(&all, middle, origin, &mut warnings);
-        let mut ids = Ids::default();
+        let mut ids = AgentIds::default();
         let mut agents = Vec::new();
         let (mut assumed, mut jumps) = (0, 0);
         for (key, user) in kept {
@@ -239,22 +239,22 @@ impl<'a> Windows<'a> {
     /// Those that a scene has room for: near enough to its origin, and nearest to the middle of all.
     fn kept<'u>(
         &self,
-        all: &[(&'u Key, &'u User, Vec2)],
+        all: &[(&'u Key, &'u FcdAgent, Vec2)],
         middle: Vec2,
         origin: Vec2,
-        warnings: &mut Vec<Warning>,
-    ) -> Vec<(&'u Key, &'u User)> {
+        warnings: &mut Vec<ImportWarning>,
+    ) -> Vec<(&'u Key, &'u FcdAgent)> {
         if let Some(net) = &self.common.net {
             let beside =
-                |(_, _, at): &&(&Key, &User, Vec2)| ((at - net.origin).abs() - net.half).max() > BESIDE_M;
+                |(_, _, at): &&(&Key, &FcdAgent, Vec2)| ((at - net.origin).abs() - net.half).max() > BESIDE_M;
             let count = all.iter().filter(beside).count();
             if count > 0 {
                 let message = sentences::agents_outside_network(count, all.len());
-                warnings.push(Warning::new("outside-network", message));
+                warnings.push(ImportWarning::new("outside-network", message));
             }
         }
-        let far = |s: &Sample| (s.centre - origin).amax() > MAX_COORDINATE_M;
-        let mut order: Vec<(f64, &Key, &User)> = all
+        let far = |s: &FcdState| (s.centre - origin).amax() > MAX_COORDINATE_M;
+        let mut order: Vec<(f64, &Key, &FcdAgent)> = all
             .iter()
             .filter(|(_, user, _)| !user.samples.iter().any(far))
             .map(|(key, user, at)| ((at - middle).norm(), *key, *user))
@@ -263,17 +263,17 @@ impl<'a> Windows<'a> {
         order.truncate(MAX_AGENTS);
         if order.len() < all.len() {
             let message = sentences::agents_near_centre(all.len(), order.len(), MAX_COORDINATE_M);
-            warnings.push(Warning::new("agents-dropped", message));
+            warnings.push(ImportWarning::new("agents-dropped", message));
         }
-        let mut kept: Vec<(&Key, &User)> = order.into_iter().map(|(_, key, user)| (key, user)).collect();
+        let mut kept: Vec<(&Key, &FcdAgent)> = order.into_iter().map(|(_, key, user)| (key, user)).collect();
         kept.sort_by(|a, b| a.0.cmp(b.0));
         kept
     }
 
-    fn warn(&self, assumed: usize, jumps: usize, ids_changed: usize, warnings: &mut Vec<Warning>) {
+    fn warn(&self, assumed: usize, jumps: usize, ids_changed: usize, warnings: &mut Vec<ImportWarning>) {
         let mut warn = |applies: bool, code, message| {
             if applies {
-                warnings.push(Warning::new(code, message));
+                warnings.push(ImportWarning::new(code, message));
             }
         };
         warn(self.common.net.is_none(), "no-network", sentences::network_missing());
@@ -320,19 +320,19 @@ impl<'a> Windows<'a> {
                 }
             };
             match item {
-                Item::Step(time_s) => {
+                FcdItem::Step(time_s) => {
                     if let Some(scene) = self.begin_step(time_s) {
                         return Some(scene);
                     }
                 }
-                Item::Row(row) => {
+                FcdItem::Row(row) => {
                     if let Err(error) = self.add(row) {
                         self.ended = true;
                         return Some(Err(error));
                     }
                 }
-                Item::LeftOut => self.left_out += 1,
-                Item::Height => self.heights = true,
+                FcdItem::LeftOut => self.left_out += 1,
+                FcdItem::Height => self.heights = true,
             }
         }
     }

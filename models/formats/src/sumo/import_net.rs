@@ -2,11 +2,11 @@
 
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
-use super::programs::Program;
+use super::programs::SignalProgram;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
 use crate::map_file;
 use crate::polyline::length;
-use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
 use crate::sentences;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -32,9 +32,9 @@ pub(super) struct NetScene {
     pub origin: Vec2,
     /// Half the size of the box round all lanes, metres.
     pub half: Vec2,
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<ImportWarning>,
     places: Vec<SignalPlace>,
-    programs: HashMap<String, Program>,
+    programs: HashMap<String, SignalProgram>,
 }
 
 /// Reads a network, plain or gzip.
@@ -64,7 +64,7 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     let mut places = drawn.signals;
     if places.len() > MAX_SIGNALS {
         let message = sentences::signals_near_centre(places.len(), MAX_SIGNALS);
-        warnings.push(Warning::new("signals-dropped", message));
+        warnings.push(ImportWarning::new("signals-dropped", message));
         places.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
         places.truncate(MAX_SIGNALS);
     }
@@ -143,11 +143,11 @@ fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
     Ok(())
 }
 
-fn warnings_of(net: &Net) -> Vec<Warning> {
+fn warnings_of(net: &Net) -> Vec<ImportWarning> {
     let mut warnings = Vec::new();
     let mut warn = |applies: bool, code, message| {
         if applies {
-            warnings.push(Warning::new(code, message));
+            warnings.push(ImportWarning::new(code, message));
         }
     };
     warn(true, "ids-renumbered", sentences::ids_renumbered());

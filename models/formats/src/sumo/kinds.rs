@@ -5,7 +5,7 @@ use scene::{AgentType, Size, Subtype};
 
 /// Kind and default size of a road user of SUMO.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kind {
+pub(super) struct AgentKind {
     pub agent_type: AgentType,
     pub subtype: Subtype,
     pub size: Size,
@@ -60,7 +60,7 @@ pub(super) fn size_of(type_name: &str) -> Option<Size> {
 
 /// The kind that a type's name tells; a passenger car where it tells nothing. `person` is what FCD lists
 /// as one, whatever the name.
-pub(super) fn of(type_name: &str, person: bool) -> Kind {
+pub(super) fn of(type_name: &str, person: bool) -> AgentKind {
     let name = type_name.to_ascii_lowercase();
     let fits = |row: &&Row| row.0.iter().any(|part| name.contains(part));
     let on_foot = |row: &&Row| row.1 == AgentType::Pedestrian;
@@ -71,7 +71,7 @@ pub(super) fn of(type_name: &str, person: bool) -> Kind {
     let car = (AgentType::Vehicle, Subtype::Car, (5.0, 1.8, 1.5));
     let (agent_type, subtype, (length_m, width_m, height_m)) = found.map_or(car, |row| (row.1, row.2, row.3));
     let usual = Size { length_m, width_m, height_m: Some(height_m) };
-    Kind { agent_type, subtype, size: size_of(type_name).unwrap_or(usual) }
+    AgentKind { agent_type, subtype, size: size_of(type_name).unwrap_or(usual) }
 }
 
 #[cfg(test)]

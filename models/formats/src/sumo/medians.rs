@@ -25,7 +25,7 @@ const STEP_M: f64 = 0.5;
 
 /// An end of a border, by the index of its line.
 #[derive(Clone, Copy)]
-struct End {
+struct BorderEnd {
     line: usize,
     /// The line's last point, else its first.
     last: bool,
@@ -71,20 +71,20 @@ pub fn close(map: &mut LaneMap, cut: impl Fn(Vec2) -> bool) {
 }
 
 /// Ends that no other end continues, by x.
-fn loose(lines: &[TypedLine]) -> Vec<End> {
+fn loose(lines: &[TypedLine]) -> Vec<BorderEnd> {
     let of_line = |(line, typed): (usize, &TypedLine)| {
         let (points, median) = (&typed.points.xy, typed.line_type == "median");
         let n = points.len();
         let end = |last: bool, point: Vec2, before: Vec2| {
             let way = (point - before) / (point - before).norm().max(1e-9);
-            End { line, last, point, way, median }
+            BorderEnd { line, last, point, way, median }
         };
         if n < 2 {
             return Vec::new();
         }
         vec![end(false, points[0], points[1]), end(true, points[n - 1], points[n - 2])]
     };
-    let mut ends: Vec<End> = lines.iter().enumerate().flat_map(of_line).collect();
+    let mut ends: Vec<BorderEnd> = lines.iter().enumerate().flat_map(of_line).collect();
     ends.sort_by(|a, b| a.point.x.total_cmp(&b.point.x));
     let mut joined = vec![false; ends.len()];
     for i in 0..ends.len() {
@@ -112,7 +112,7 @@ fn nose(a: Vec2, b: Vec2, way: Vec2, gap_m: f64) -> Vec<Vec2> {
     (1..=6).map(|i| PI * f64::from(i) / 6.0).map(|t| middle + half * t.cos() + bulge * t.sin()).collect()
 }
 
-fn extend(lines: &mut [TypedLine], end: End, more: Vec<Vec2>) {
+fn extend(lines: &mut [TypedLine], end: BorderEnd, more: Vec<Vec2>) {
     let Some(line) = lines.get_mut(end.line) else { return };
     if end.last {
         line.points.xy.extend(more);
@@ -124,8 +124,8 @@ fn extend(lines: &mut [TypedLine], end: End, more: Vec<Vec2>) {
 
 /// `near` ends beside `far`, which goes on to the point of the median: both are cut off where they are
 /// [`NOSE_M`] apart, and what is left becomes road with the painted line drawn out to the nose.
-fn blunt(map: &mut LaneMap, near: End, far: End) {
-    let towards_end = |end: End| {
+fn blunt(map: &mut LaneMap, near: BorderEnd, far: BorderEnd) {
+    let towards_end = |end: BorderEnd| {
         let mut points = map.road_edges[end.line].points.xy.clone();
         if !end.last {
             points.reverse();

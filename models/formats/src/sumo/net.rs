@@ -4,7 +4,7 @@ mod read;
 
 pub(super) use read::too_large;
 
-use super::programs::Program;
+use super::programs::SignalProgram;
 use scene::Vec2;
 
 /// Who uses a lane, from its permissions and its edge's function.
@@ -102,7 +102,7 @@ pub struct Net {
     /// Junctions, without the internal ones.
     pub junctions: Vec<NetJunction>,
     /// Signal programs in the order of the file.
-    pub programs: Vec<Program>,
+    pub programs: Vec<SignalProgram>,
     /// What the file says that the fields above do not hold.
     pub notes: NetNotes,
 }

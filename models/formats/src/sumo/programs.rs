@@ -6,7 +6,7 @@ use scene::SignalState;
 
 /// One signal program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Program {
+pub struct SignalProgram {
     /// SUMO's id of the signal.
     pub id: String,
     /// `static`, `actuated`, ...: only a static program follows the clock alone.
@@ -19,7 +19,7 @@ pub struct Program {
     pub jumps: bool,
 }
 
-impl Program {
+impl SignalProgram {
     /// True when the clock alone decides, one phase after the other.
     pub fn is_simple(&self) -> bool {
         self.kind == "static" && !self.jumps
@@ -61,9 +61,9 @@ impl Program {
 mod tests {
     use super::*;
 
-    fn program() -> Program {
+    fn program() -> SignalProgram {
         let phases = vec![(5.0, b"Gr".to_vec()), (2.0, b"yr".to_vec()), (3.0, b"rG".to_vec())];
-        Program { id: "c".into(), kind: "static".into(), offset_s: 1.0, phases, jumps: false }
+        SignalProgram { id: "c".into(), kind: "static".into(), offset_s: 1.0, phases, jumps: false }
     }
 
     #[test]
@@ -78,9 +78,9 @@ mod tests {
 
     #[test]
     fn what_reacts_to_traffic_is_not_foretold() {
-        let actuated = Program { kind: "actuated".into(), ..program() };
+        let actuated = SignalProgram { kind: "actuated".into(), ..program() };
         assert_eq!(actuated.runs(0, 1.0, 0.1, 91), [(0, SignalState::Go)]);
-        let empty = Program { phases: Vec::new(), ..program() };
+        let empty = SignalProgram { phases: Vec::new(), ..program() };
         assert_eq!(empty.at(0, 3.0), None);
     }
 }

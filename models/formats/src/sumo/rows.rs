@@ -1,12 +1,12 @@
 //! FCD as a stream of rows, from XML (`fcd-export`, SUMO's default) and from CSV.
 
 use super::SumoError;
-use super::fcd::Columns;
+use super::fcd::ColumnIndices;
 use super::import_net::MAX_SOURCE_M;
 use crate::problem::ReadError;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Event, Scanner};
+use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
 use std::io::{BufRead, Read};
 
@@ -17,9 +17,9 @@ const MAX_ID: usize = 256;
 /// Latest time, seconds.
 const MAX_TIME_S: f64 = 1e9;
 
-/// What was recorded of one road user at one time.
+/// Recorded state of one road user at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Row {
+pub(super) struct FcdRow {
     pub id: String,
     /// Listed as a person; CSV lists persons among the vehicles.
     pub person: bool,
@@ -34,12 +34,12 @@ pub(super) struct Row {
     pub size_m: (Option<f64>, Option<f64>),
 }
 
-/// What comes next.
+/// One item of a recording.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Item {
+pub(super) enum FcdItem {
     /// A time step begins, seconds. Times rise.
     Step(f64),
-    Row(Row),
+    Row(FcdRow),
     /// Something without a place in a scene, such as a container, or a person inside a vehicle.
     LeftOut,
     /// A height is given.
@@ -47,12 +47,12 @@ pub(super) enum Item {
 }
 
 /// Reads items one by one.
-pub(super) enum Rows<'a> {
+pub(super) enum FcdRows<'a> {
     Xml(XmlRows<'a>),
-    Csv(CsvRows<'a>),
+    Csv(FcdCsvRows<'a>),
 }
 
-impl<'a> Rows<'a> {
+impl<'a> FcdRows<'a> {
     /// Opens a file, plain or gzip, of at most `most` decoded bytes.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl<'a> Rows<'a> {
             let scanner = Scanner::new(input, MAX_ROW);
             return Ok(Self::Xml(XmlRows { scanner, root: false, time_s: None, pending: None }));
         }
-        CsvRows::new(input).map(Self::Csv)
+        FcdCsvRows::new(input).map(Self::Csv)
     }
 
     /// The next item; `None` at the end.
@@ -82,7 +82,7 @@ impl<'a> Rows<'a> {
     /// # Errors
     /// `malformed-file` for broken XML or gzip, `invalid-field` with the line for a value that cannot be
     /// read, the bounds of a file. Nothing can be read after a fault.
-    pub fn next(&mut self) -> Result<Option<Item>, ReadError> {
+    pub fn next(&mut self) -> Result<Option<FcdItem>, ReadError> {
         match self {
             Self::Xml(rows) => rows.next(),
             Self::Csv(rows) => rows.next(),
@@ -139,16 +139,16 @@ pub(super) struct XmlRows<'a> {
     scanner: Scanner<Box<dyn BufRead + 'a>>,
     root: bool,
     time_s: Option<f64>,
-    pending: Option<Item>,
+    pending: Option<FcdItem>,
 }
 
 impl XmlRows<'_> {
-    fn next(&mut self) -> Result<Option<Item>, ReadError> {
+    fn next(&mut self) -> Result<Option<FcdItem>, ReadError> {
         if let Some(item) = self.pending.take() {
             return Ok(Some(item));
         }
         while let Some(event) = self.scanner.next()? {
-            let Event::Start(element) = event else { continue };
+            let XmlEvent::Start(element) = event else { continue };
             if !self.root {
                 self.root = true;
                 if element.name != "fcd-export" {
@@ -161,20 +161,20 @@ impl XmlRows<'_> {
                 "timestep" => {
                     let time_s = time(element.required("time")?, self.time_s, element.line)?;
                     self.time_s = Some(time_s);
-                    return Ok(Some(Item::Step(time_s)));
+                    return Ok(Some(FcdItem::Step(time_s)));
                 }
                 "vehicle" | "person" if self.time_s.is_some() => {
                     if element.get("vehicle").is_some_and(|v| !v.is_empty()) {
-                        return Ok(Some(Item::LeftOut));
+                        return Ok(Some(FcdItem::LeftOut));
                     }
                     let row = row_of(&element)?;
                     if element.get("z").is_some() {
-                        self.pending = Some(Item::Row(row));
-                        return Ok(Some(Item::Height));
+                        self.pending = Some(FcdItem::Row(row));
+                        return Ok(Some(FcdItem::Height));
                     }
-                    return Ok(Some(Item::Row(row)));
+                    return Ok(Some(FcdItem::Row(row)));
                 }
-                "container" => return Ok(Some(Item::LeftOut)),
+                "container" => return Ok(Some(FcdItem::LeftOut)),
                 _ => {}
             }
         }
@@ -182,10 +182,10 @@ impl XmlRows<'_> {
     }
 }
 
-fn row_of(element: &Element) -> Result<Row, SumoError> {
+fn row_of(element: &Element) -> Result<FcdRow, SumoError> {
     let line = element.line;
     let text = |attribute| element.required(attribute);
-    Ok(Row {
+    Ok(FcdRow {
         id: id(text("id")?, line)?,
         person: element.name == "person",
         type_name: type_name(element.get("type").unwrap_or_default()),
@@ -197,19 +197,19 @@ fn row_of(element: &Element) -> Result<Row, SumoError> {
 }
 
 /// Rows of CSV, separated by `;`, with the columns' names in the first line.
-pub(super) struct CsvRows<'a> {
+pub(super) struct FcdCsvRows<'a> {
     input: Box<dyn BufRead + 'a>,
-    groups: Vec<(bool, Columns)>,
+    groups: Vec<(bool, ColumnIndices)>,
     time: usize,
     heights: bool,
     time_s: Option<f64>,
     time_text: String,
-    pending: Option<Item>,
+    pending: Option<FcdItem>,
     line: u32,
     offset: u64,
 }
 
-impl<'a> CsvRows<'a> {
+impl<'a> FcdCsvRows<'a> {
     fn new(input: Box<dyn BufRead + 'a>) -> Result<Self, ReadError> {
         let mut rows = Self {
             input,
@@ -224,7 +224,7 @@ impl<'a> CsvRows<'a> {
         };
         let header = rows.read_line()?.unwrap_or_default();
         let names: Vec<&str> = header.trim_start_matches('\u{feff}').split(';').collect();
-        let group = |name| Columns::find(&names, name).map(|columns| (name == "person", columns));
+        let group = |name| ColumnIndices::find(&names, name).map(|columns| (name == "person", columns));
         rows.groups = ["vehicle", "person"].into_iter().filter_map(group).collect();
         let time = names.iter().position(|n| *n == "timestep_time");
         let (Some(time), false) = (time, rows.groups.is_empty()) else {
@@ -256,14 +256,14 @@ impl<'a> CsvRows<'a> {
         }
     }
 
-    fn next(&mut self) -> Result<Option<Item>, ReadError> {
+    fn next(&mut self) -> Result<Option<FcdItem>, ReadError> {
         loop {
             if let Some(item) = self.pending.take() {
                 return Ok(Some(item));
             }
             if self.heights {
                 self.heights = false;
-                return Ok(Some(Item::Height));
+                return Ok(Some(FcdItem::Height));
             }
             let Some(text) = self.read_line()? else { return Ok(None) };
             if text.trim().is_empty() {
@@ -274,7 +274,7 @@ impl<'a> CsvRows<'a> {
             let field = |column: usize| fields.get(column).copied().unwrap_or_default();
             let found = self.groups.iter().find(|(_, columns)| !field(columns.id).is_empty());
             self.pending = match found {
-                Some((person, columns)) => Some(Item::Row(csv_row(*person, columns, &field, line)?)),
+                Some((person, columns)) => Some(FcdItem::Row(csv_row(*person, columns, &field, line)?)),
                 None => None,
             };
             // Rows of one step repeat its time letter by letter.
@@ -283,7 +283,7 @@ impl<'a> CsvRows<'a> {
                 let time_s = time(now, self.time_s, line)?;
                 self.time_text = now.to_owned();
                 self.time_s = Some(time_s);
-                return Ok(Some(Item::Step(time_s)));
+                return Ok(Some(FcdItem::Step(time_s)));
             }
         }
     }
@@ -291,15 +291,15 @@ impl<'a> CsvRows<'a> {
 
 fn csv_row<'t>(
     person: bool,
-    columns: &Columns,
+    columns: &ColumnIndices,
     field: &impl Fn(usize) -> &'t str,
     line: u32,
-) -> Result<Row, SumoError> {
+) -> Result<FcdRow, SumoError> {
     let optional = |column: Option<usize>| column.map(field);
     let type_name = type_name(optional(columns.kind).unwrap_or_default());
     // SUMO 1.28 puts persons in the vehicles' columns; they have an edge in place of a lane.
     let walks = optional(columns.lane) == Some("") && optional(columns.edge).is_some_and(|e| !e.is_empty());
-    Ok(Row {
+    Ok(FcdRow {
         id: id(field(columns.id), line)?,
         person: person || walks,
         type_name,

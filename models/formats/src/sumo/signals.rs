@@ -1,7 +1,7 @@
 //! Reader of recorded signal states (`SaveTLSStates` output).
 
 use super::SumoError;
-use crate::xml::{Event, Scanner};
+use crate::xml::{Scanner, XmlEvent};
 use scene::SignalState;
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ impl SignalLog {
         let mut scanner = Scanner::new(text.as_bytes(), MAX_TAG);
         let mut log = Self::default();
         while let Some(event) = scanner.next()? {
-            let Event::Start(row) = event else { continue };
+            let XmlEvent::Start(row) = event else { continue };
             let (true, Some(id), Some(time), Some(state)) =
                 (row.name == "tlsState", row.get("id"), row.get("time"), row.get("state"))
             else {

@@ -8,9 +8,9 @@ pub(super) const MAX_FILLED_S: f64 = 2.0;
 /// Times nearer than this are equal, seconds; SUMO writes two digits.
 pub(super) const SAME_S: f64 = 1e-4;
 
-/// What was recorded at one time.
+/// Recorded state at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sample {
+pub(super) struct FcdState {
     /// Number of the source's time step.
     pub step: u64,
     pub time_s: f64,
@@ -20,7 +20,7 @@ pub(super) struct Sample {
     pub speed_mps: f64,
 }
 
-impl Sample {
+impl FcdState {
     fn state(&self, origin: Vec2) -> State {
         let (at, v) = (self.centre - origin, direction(self.heading_rad) * self.speed_mps);
         State { x_m: at.x, y_m: at.y, heading_rad: self.heading_rad, vx_mps: v.x, vy_mps: v.y }
@@ -39,7 +39,7 @@ pub(super) enum Between {
 }
 
 /// Judges two samples that follow each other.
-pub(super) fn between(a: &Sample, b: &Sample) -> Between {
+pub(super) fn between(a: &FcdState, b: &FcdState) -> Between {
     let time_s = b.time_s - a.time_s;
     if b.step != a.step + 1 || time_s > MAX_FILLED_S + SAME_S {
         return Between::Gap;
@@ -51,23 +51,23 @@ pub(super) fn between(a: &Sample, b: &Sample) -> Between {
 
 /// The state at a time within two samples: a cubic with the recorded directions and speeds, which are
 /// bounded so that nobody goes backwards (Fritsch and Carlson 1980, the square of side 3).
-fn filled(a: &Sample, b: &Sample, time_s: f64, origin: Vec2) -> State {
+fn filled(a: &FcdState, b: &FcdState, time_s: f64, origin: Vec2) -> State {
     let whole_s = b.time_s - a.time_s;
     let u = ((time_s - a.time_s) / whole_s).clamp(0.0, 1.0);
     let way = b.centre - a.centre;
-    let tangent = |s: &Sample| direction(s.heading_rad) * (s.speed_mps * whole_s).min(3.0 * way.norm());
+    let tangent = |s: &FcdState| direction(s.heading_rad) * (s.speed_mps * whole_s).min(3.0 * way.norm());
     let (u2, u3) = (u * u, u * u * u);
     let centre =
         a.centre + way * (3.0 * u2 - 2.0 * u3) + tangent(a) * (u3 - 2.0 * u2 + u) + tangent(b) * (u3 - u2);
     let turn = wrap_angle(b.heading_rad - a.heading_rad);
     let heading_rad = wrap_angle(a.heading_rad + turn * u);
     let speed_mps = a.speed_mps + (b.speed_mps - a.speed_mps) * u;
-    Sample { step: a.step, time_s, centre, heading_rad, speed_mps }.state(origin)
+    FcdState { step: a.step, time_s, centre, heading_rad, speed_mps }.state(origin)
 }
 
 /// States at `steps` steps from `start_s`; nothing where nobody was seen. The source's own times keep
 /// the source's own values.
-pub(super) fn track(samples: &[Sample], start_s: f64, steps: usize, origin: Vec2) -> Track {
+pub(super) fn track(samples: &[FcdState], start_s: f64, steps: usize, origin: Vec2) -> Track {
     let at = |step: usize| {
         let time_s = start_s + step as f64 * STEP_S;
         let next = samples.partition_point(|s| s.time_s < time_s - SAME_S);
@@ -89,9 +89,9 @@ pub(super) fn track(samples: &[Sample], start_s: f64, steps: usize, origin: Vec2
 mod tests {
     use super::*;
 
-    fn sample(step: u64, x: f64, speed_mps: f64) -> Sample {
+    fn sample(step: u64, x: f64, speed_mps: f64) -> FcdState {
         let centre = Vec2::new(x, 0.0);
-        Sample { step, time_s: step as f64, centre, heading_rad: 0.0, speed_mps }
+        FcdState { step, time_s: step as f64, centre, heading_rad: 0.0, speed_mps }
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
     fn headings_turn_the_short_way() {
         let mut b = sample(1, 0.0, 0.0);
         b.heading_rad = -3.0;
-        let a = Sample { heading_rad: 3.0, ..sample(0, 0.0, 0.0) };
+        let a = FcdState { heading_rad: 3.0, ..sample(0, 0.0, 0.0) };
         let middle = track(&[a, b], 0.0, 11, Vec2::zeros()).states[5].unwrap();
         assert!(middle.heading_rad.abs() > 3.1);
     }

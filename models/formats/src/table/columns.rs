@@ -13,7 +13,7 @@ const MAX_BYTES: u64 = 1 << 20;
 
 /// Where a value comes from.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Origin {
+pub(super) struct ColumnSource {
     /// Name of the column; nothing where every row has the same value.
     pub column: Option<String>,
     /// ... this one.
@@ -27,7 +27,7 @@ pub(super) struct Origin {
 
 /// Our name to where its values come from.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Columns(pub BTreeMap<&'static str, Origin>);
+pub(super) struct Columns(pub BTreeMap<&'static str, ColumnSource>);
 
 /// A column as the file tells it: its name alone, or with more about it.
 #[derive(Deserialize)]
@@ -75,8 +75,9 @@ fn unit_factor(unit: &str) -> Option<f64> {
 impl Columns {
     /// Our own names.
     pub fn own() -> Self {
-        let own =
-            |name| (name, Origin { column: Some(String::from(name)), factor: 1.0, ..Origin::default() });
+        let own = |name| {
+            (name, ColumnSource { column: Some(String::from(name)), factor: 1.0, ..ColumnSource::default() })
+        };
         Self(names().map(own).collect())
     }
 
@@ -102,7 +103,9 @@ impl Columns {
                 return Err(fault(format!("one of {} expected", all.join(", "))));
             };
             let origin = match told {
-                Told::Name(column) => Origin { column: Some(column), factor: 1.0, ..Origin::default() },
+                Told::Name(column) => {
+                    ColumnSource { column: Some(column), factor: 1.0, ..ColumnSource::default() }
+                }
                 Told::More(more) => more.origin().map_err(fault)?,
             };
             columns.0.insert(own, origin);
@@ -112,7 +115,7 @@ impl Columns {
 }
 
 impl More {
-    fn origin(self) -> Result<Origin, String> {
+    fn origin(self) -> Result<ColumnSource, String> {
         let unit = match &self.unit {
             None => 1.0,
             Some(unit) => unit_factor(unit).ok_or_else(|| {
@@ -135,7 +138,7 @@ impl More {
         if self.column.is_some() == value.is_some() {
             return Err("either column or value expected".into());
         }
-        Ok(Origin { column: self.column, value, factor, offset, words: self.words })
+        Ok(ColumnSource { column: self.column, value, factor, offset, words: self.words })
     }
 }
 

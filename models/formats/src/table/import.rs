@@ -1,14 +1,16 @@
 //! From a table to scenes: rows of a scenario stand together, its road users in any order.
 
-use super::columns::{Columns, Origin};
+use super::columns::{ColumnSource, Columns};
 use super::notes::{KEY, Notes};
 use super::rows::Rows;
 use super::{GENERATED, LOG, SPEED};
-use crate::columnar::Value;
+use crate::columnar::ColumnValue;
 use crate::format::{COLUMNS_POINTER, ImportOptions};
 use crate::limits::MAX_STEPS;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
-use crate::recording::{Drawn, MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::recording::{
+    MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedFuture, RecordedState, Recording, Said, kind_of,
+};
 use crate::sentences;
 use crate::source::Source;
 use scene::geometry::direction;
@@ -30,7 +32,7 @@ const MAX_FUTURES: usize = 100_000;
 struct Picked {
     /// Position in the file; nothing where every row has the same value.
     at: Option<usize>,
-    origin: Origin,
+    origin: ColumnSource,
 }
 
 /// Scenes of a table, scenario after scenario.
@@ -119,22 +121,22 @@ impl<'a> Scenarios<'a> {
         })
     }
 
-    fn value(&self, name: &str) -> Value<'_> {
-        let Some(picked) = self.columns.get(name) else { return Value::Nothing };
+    fn value(&self, name: &str) -> ColumnValue<'_> {
+        let Some(picked) = self.columns.get(name) else { return ColumnValue::Nothing };
         match (picked.at, &picked.origin.value) {
             (Some(at), _) => self.rows.value(at),
-            (None, Some(value)) => Value::Text(value),
-            (None, None) => Value::Nothing,
+            (None, Some(value)) => ColumnValue::Text(value),
+            (None, None) => ColumnValue::Nothing,
         }
     }
 
     fn text(&self, name: &str) -> Option<Cow<'_, str>> {
         let text = match self.value(name) {
-            Value::Nothing => return None,
-            Value::Text(text) => Cow::Borrowed(text),
-            Value::Whole(whole) => Cow::Owned(whole.to_string()),
-            Value::Number(number) => Cow::Owned(number.to_string()),
-            Value::Flag(flag) => Cow::Owned(flag.to_string()),
+            ColumnValue::Nothing => return None,
+            ColumnValue::Text(text) => Cow::Borrowed(text),
+            ColumnValue::Whole(whole) => Cow::Owned(whole.to_string()),
+            ColumnValue::Number(number) => Cow::Owned(number.to_string()),
+            ColumnValue::Flag(flag) => Cow::Owned(flag.to_string()),
         };
         let words = self.columns.get(name).map(|picked| &picked.origin.words);
         match words.and_then(|words| words.get(text.as_ref())) {
@@ -155,19 +157,19 @@ impl<'a> Scenarios<'a> {
     /// A number in our unit; NaN where there is none.
     fn number(&self, name: &str, most: f64, expected: &str) -> Result<f64, ReadError> {
         let number = match self.value(name) {
-            Value::Nothing => return Ok(f64::NAN),
-            Value::Whole(whole) => whole as f64,
-            Value::Number(number) if number.is_nan() => return Ok(f64::NAN),
-            Value::Number(number) => number,
-            Value::Flag(flag) => f64::from(u8::from(flag)),
-            Value::Text(text) if is_missing(text) => return Ok(f64::NAN),
-            Value::Text(text) => {
+            ColumnValue::Nothing => return Ok(f64::NAN),
+            ColumnValue::Whole(whole) => whole as f64,
+            ColumnValue::Number(number) if number.is_nan() => return Ok(f64::NAN),
+            ColumnValue::Number(number) => number,
+            ColumnValue::Flag(flag) => f64::from(u8::from(flag)),
+            ColumnValue::Text(text) if is_missing(text) => return Ok(f64::NAN),
+            ColumnValue::Text(text) => {
                 let number = text.parse::<f64>();
                 number.map_err(|_| self.fault(name, text, expected))?
             }
         };
         let number = self.columns.get(name).map_or(number, |picked| {
-            let Origin { factor, offset, .. } = picked.origin;
+            let ColumnSource { factor, offset, .. } = picked.origin;
             if (factor, offset) == (1.0, 0.0) { number } else { number * factor + offset }
         });
         if number.is_finite() && number.abs() <= most {
@@ -179,11 +181,11 @@ impl<'a> Scenarios<'a> {
 
     fn flag(&self, name: &str) -> Option<bool> {
         match self.value(name) {
-            Value::Nothing => None,
-            Value::Flag(flag) => Some(flag),
-            Value::Whole(whole) => Some(whole != 0),
-            Value::Number(number) => Some(number != 0.0),
-            Value::Text(text) => Some(!matches!(text, "0" | "false" | "False" | "FALSE" | "0.0")),
+            ColumnValue::Nothing => None,
+            ColumnValue::Flag(flag) => Some(flag),
+            ColumnValue::Whole(whole) => Some(whole != 0),
+            ColumnValue::Number(number) => Some(number != 0.0),
+            ColumnValue::Text(text) => Some(!matches!(text, "0" | "false" | "False" | "FALSE" | "0.0")),
         }
     }
 
@@ -235,7 +237,7 @@ impl<'a> Scenarios<'a> {
                 let at = *to.futures.entry((user, sample, mode)).or_insert(next);
                 if at == next {
                     let probability = self.number("probability", 1.0, "a probability")?;
-                    to.recording.futures.push(Drawn {
+                    to.recording.futures.push(RecordedFuture {
                         user,
                         sample,
                         mode,
@@ -253,11 +255,11 @@ impl<'a> Scenarios<'a> {
         Ok(())
     }
 
-    fn sample(&self, time_s: f64) -> Result<Sample, ReadError> {
+    fn sample(&self, time_s: f64) -> Result<RecordedState, ReadError> {
         let metres = |name| self.number(name, MAX_METRES, "a coordinate in metres");
         let nothing = Vec2::new(f64::NAN, f64::NAN);
         let (heading_rad, z_m) = (self.number("heading_rad", 1e6, "a heading in radians")?, metres("z_m")?);
-        let unseen = Sample { time_s, at: nothing, heading_rad, velocity: nothing, z_m };
+        let unseen = RecordedState { time_s, at: nothing, heading_rad, velocity: nothing, z_m };
         if self.flag("valid") == Some(false) {
             return Ok(unseen);
         }
@@ -271,10 +273,10 @@ impl<'a> Scenarios<'a> {
         if velocity.iter().any(|value| value.is_nan()) {
             velocity = direction(heading_rad) * mps(SPEED)?;
         }
-        Ok(Sample { at, velocity, ..unseen })
+        Ok(RecordedState { at, velocity, ..unseen })
     }
 
-    fn user(&self, id: &str, to: &mut Gathered) -> Result<User, ReadError> {
+    fn user(&self, id: &str, to: &mut Gathered) -> Result<RecordedAgent, ReadError> {
         let metres = |name| {
             let metres = self.number(name, 1e4, "a size in metres")?;
             Ok::<_, ReadError>((!metres.is_nan()).then_some(metres))
@@ -293,7 +295,7 @@ impl<'a> Scenarios<'a> {
         if let Some((_, finer)) = self.text("subtype").and_then(|word| kind_of(&word)) {
             subtype = finer;
         }
-        Ok(User {
+        Ok(RecordedAgent {
             id: id.to_owned(),
             agent_type,
             subtype,
@@ -345,11 +347,11 @@ impl<'a> Scenarios<'a> {
             said.start_s = Some(0.0);
         }
         if gathered.untyped {
-            said.warnings.push(Warning::new("types-assumed", sentences::types_assumed()));
+            said.warnings.push(ImportWarning::new("types-assumed", sentences::types_assumed()));
         }
         if gathered.unknown_words > 0 {
             let message = sentences::types_unknown(gathered.unknown_words);
-            said.warnings.push(Warning::new("types-unknown", message));
+            said.warnings.push(ImportWarning::new("types-unknown", message));
         }
         gathered.recording.said = said;
         self.ready = Some(Box::new(gathered.recording.scenes()));

@@ -1,6 +1,6 @@
 //! Rows of a table, whatever file they are in.
 
-use crate::columnar::{self, Value, is_parquet};
+use crate::columnar::{self, ColumnValue, is_parquet};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
 use crate::source::Source;
@@ -16,7 +16,7 @@ const MAX_COLUMNS: usize = 1_024;
 /// Rows of a table.
 pub(super) enum Rows<'a> {
     Csv(CsvRows<'a>),
-    Parquet(Box<columnar::Table>, Vec<usize>),
+    Parquet(Box<columnar::ParquetTable>, Vec<usize>),
 }
 
 impl<'a> Rows<'a> {
@@ -26,7 +26,7 @@ impl<'a> Rows<'a> {
     /// Those of the file.
     pub fn open(file: &'a dyn Source, parquet: bool) -> Result<Self, ReadError> {
         if parquet {
-            return Ok(Self::Parquet(Box::new(columnar::Table::open(file)?), Vec::new()));
+            return Ok(Self::Parquet(Box::new(columnar::ParquetTable::open(file)?), Vec::new()));
         }
         CsvRows::open(file).map(Self::Csv)
     }
@@ -75,11 +75,11 @@ impl<'a> Rows<'a> {
     }
 
     /// The value of a column that was chosen, by position in the file.
-    pub fn value(&self, column: usize) -> Value<'_> {
+    pub fn value(&self, column: usize) -> ColumnValue<'_> {
         match self {
             Self::Csv(rows) => rows.value(column),
             Self::Parquet(table, chosen) => {
-                chosen.binary_search(&column).map_or(Value::Nothing, |at| table.value(at))
+                chosen.binary_search(&column).map_or(ColumnValue::Nothing, |at| table.value(at))
             }
         }
     }
@@ -94,12 +94,12 @@ impl<'a> Rows<'a> {
 }
 
 /// A reader that gives so many bytes and then fails.
-pub(super) struct Measured<R> {
+pub(super) struct BoundedReader<R> {
     inner: R,
     left: u64,
 }
 
-impl<R: Read> Read for Measured<R> {
+impl<R: Read> Read for BoundedReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 {
             let detail = format!("a row of more than {MAX_ROW} bytes");
@@ -114,7 +114,7 @@ impl<R: Read> Read for Measured<R> {
 
 /// Rows of CSV, separated by comma, semicolon or tabulator, with the columns' names in the first line.
 pub(super) struct CsvRows<'a> {
-    reader: csv::Reader<Measured<Box<dyn BufRead + 'a>>>,
+    reader: csv::Reader<BoundedReader<Box<dyn BufRead + 'a>>>,
     names: Vec<String>,
     record: csv::StringRecord,
 }
@@ -134,7 +134,7 @@ impl<'a> CsvRows<'a> {
         }
         let input: Box<dyn BufRead + 'a> = Box::new(input);
         // A row may begin at the end of what was read for the one before it.
-        let input = Measured { inner: input, left: 2 * MAX_ROW };
+        let input = BoundedReader { inner: input, left: 2 * MAX_ROW };
         let reader = csv::ReaderBuilder::new()
             .delimiter(delimiter)
             .flexible(true)
@@ -160,10 +160,10 @@ impl<'a> CsvRows<'a> {
         })
     }
 
-    fn value(&self, column: usize) -> Value<'_> {
+    fn value(&self, column: usize) -> ColumnValue<'_> {
         match self.record.get(column).map(str::trim) {
-            None | Some("") => Value::Nothing,
-            Some(text) => Value::Text(text),
+            None | Some("") => ColumnValue::Nothing,
+            Some(text) => ColumnValue::Text(text),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Rows of scenes, as CSV and as columns.
 
 use super::{COLUMNS, GENERATED, LOG};
-use crate::columnar::{Column, Values};
+use crate::columnar::{Column, ColumnValues};
 use crate::format::{ExportOptions, ExportedMotion};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
@@ -9,7 +9,7 @@ use scene::{Agent, AgentType, Conditions, LaneMap, STEP_S, Scene, Size, State, S
 use std::io::{self, Write};
 
 /// A row; what a future or a road user that nobody saw has not is `None`.
-pub(super) struct Row<'a> {
+pub(super) struct TableRow<'a> {
     pub scenario: &'a str,
     pub agent: &'a str,
     pub agent_type: &'static str,
@@ -42,7 +42,7 @@ pub(super) fn named<'a>(scenes: &[&'a Scene], options: &ExportOptions) -> Vec<(&
 pub(super) fn each(
     (scene, name): &(&Scene, String),
     options: &ExportOptions,
-    take: &mut dyn FnMut(&Row<'_>) -> io::Result<()>,
+    take: &mut dyn FnMut(&TableRow<'_>) -> io::Result<()>,
 ) -> io::Result<()> {
     let frame = Frame::of(&scene.meta.origin);
     for agent in &scene.agents {
@@ -55,7 +55,7 @@ pub(super) fn each(
             let Some(agent) = scene.agent(id) else { continue };
             for (mode, future) in futures.modes.iter().enumerate() {
                 for (i, state) in future.states.iter().enumerate() {
-                    take(&Row {
+                    take(&TableRow {
                         scenario: name,
                         agent: id,
                         agent_type: word(agent.kind()),
@@ -92,7 +92,7 @@ fn logged(
     agent: &Agent,
     motion: ExportedMotion,
     frame: Frame,
-    take: &mut dyn FnMut(&Row<'_>) -> io::Result<()>,
+    take: &mut dyn FnMut(&TableRow<'_>) -> io::Result<()>,
 ) -> io::Result<()> {
     let shown = scene.shown(agent);
     let (agent_type, size) = match motion {
@@ -106,7 +106,7 @@ fn logged(
         let state = track.at(step);
         let chosen =
             state.is_some() && (motion == ExportedMotion::Log || is_same(shown.track.at(step), state));
-        take(&Row {
+        take(&TableRow {
             scenario: name,
             agent: &agent.id,
             agent_type: word(agent_type),
@@ -188,7 +188,7 @@ pub(super) fn columns(scene: &(&Scene, String), options: &ExportOptions) -> Vec<
 }
 
 /// One column: its rows are gone through for it alone, so that no more than one is in memory beside the file.
-fn values(scene: &(&Scene, String), options: &ExportOptions, column: usize) -> Values {
+fn values(scene: &(&Scene, String), options: &ExportOptions, column: usize) -> ColumnValues {
     match column {
         0 => text(scene, options, |row| row.scenario.to_owned()),
         1 => text(scene, options, |row| row.agent.to_owned()),
@@ -217,7 +217,7 @@ fn values(scene: &(&Scene, String), options: &ExportOptions, column: usize) -> V
 
 type Named<'a> = (&'a Scene, String);
 
-fn all<T>(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> T) -> Vec<T> {
+fn all<T>(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&TableRow<'_>) -> T) -> Vec<T> {
     let mut list = Vec::new();
     // Nothing that is called here fails.
     let _ = each(scene, options, &mut |row| {
@@ -227,20 +227,28 @@ fn all<T>(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> T
     list
 }
 
-fn text(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> String) -> Values {
-    Values::Text(all(scene, options, |row| Some(of(row))))
+fn text(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&TableRow<'_>) -> String) -> ColumnValues {
+    ColumnValues::Text(all(scene, options, |row| Some(of(row))))
 }
 
-fn whole(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> Option<usize>) -> Values {
-    Values::Whole(all(scene, options, |row| of(row).map(|value| value as i64)))
+fn whole(
+    scene: &Named<'_>,
+    options: &ExportOptions,
+    of: impl Fn(&TableRow<'_>) -> Option<usize>,
+) -> ColumnValues {
+    ColumnValues::Whole(all(scene, options, |row| of(row).map(|value| value as i64)))
 }
 
-fn numbers(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> Option<f64>) -> Values {
-    Values::Number(all(scene, options, of))
+fn numbers(
+    scene: &Named<'_>,
+    options: &ExportOptions,
+    of: impl Fn(&TableRow<'_>) -> Option<f64>,
+) -> ColumnValues {
+    ColumnValues::Number(all(scene, options, of))
 }
 
-fn flags(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&Row<'_>) -> bool) -> Values {
-    Values::Flag(all(scene, options, |row| Some(of(row))))
+fn flags(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&TableRow<'_>) -> bool) -> ColumnValues {
+    ColumnValues::Flag(all(scene, options, |row| Some(of(row))))
 }
 
 fn word(agent_type: AgentType) -> &'static str {

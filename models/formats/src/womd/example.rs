@@ -277,15 +277,15 @@ fn lights(scenario: &Scenario, now: usize, lists: &mut Lists, losses: &mut BTree
     }
 }
 
-/// A line of the map on its way out.
-struct Line {
+/// A line of the map as it is written.
+struct MapLine {
     id: i64,
     kind: i64,
     points: Vec<Vec2>,
     z_m: Vec<f64>,
 }
 
-impl Line {
+impl MapLine {
     fn of(feature: &MapFeature) -> Option<Self> {
         let (kind, list): (i64, Vec<MapPoint>) = match feature.feature_data.as_ref()? {
             FeatureData::Lane(lane) => (lane.lane_type.unwrap_or(0).into(), lane.polyline.clone()),
@@ -339,7 +339,7 @@ impl Line {
 }
 
 fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>) {
-    let lines: Vec<Line> = features.iter().filter_map(Line::of).collect();
+    let lines: Vec<MapLine> = features.iter().filter_map(MapLine::of).collect();
     let count = |spacing_m: f64| lines.iter().map(|line| line.count(spacing_m)).sum::<usize>();
     let mut spacing_m = SPACING_M;
     // Beyond some spacing each line has its two ends alone.

@@ -17,7 +17,7 @@ const FIRST_FREE: i64 = 1_000_000_000;
 
 /// Kinds that have their own ids in a scene; in a Scenario message all share one row of numbers.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum IdSpace {
     Lane,
     Line,
     Edge,
@@ -28,7 +28,7 @@ enum Kind {
 }
 
 /// Numbers of map features, each used once.
-pub(super) struct MapIds(BTreeMap<(Kind, String), i64>);
+pub(super) struct MapIds(BTreeMap<(IdSpace, String), i64>);
 
 fn own_number(id: &str) -> Option<i64> {
     id.parse::<i64>().ok().filter(|n| n.to_string() == id)
@@ -37,16 +37,20 @@ fn own_number(id: &str) -> Option<i64> {
 impl MapIds {
     /// Keeps ids that are numbers and not yet used, numbers the others.
     pub(super) fn new(map: &LaneMap, losses: &mut Vec<Loss>) -> Self {
-        fn tag<T>(kind: Kind, list: &[T], id: fn(&T) -> &String) -> impl Iterator<Item = (Kind, &String)> {
+        fn tag<T>(
+            kind: IdSpace,
+            list: &[T],
+            id: fn(&T) -> &String,
+        ) -> impl Iterator<Item = (IdSpace, &String)> {
             list.iter().map(move |item| (kind, id(item)))
         }
-        let all: Vec<(Kind, &String)> = tag(Kind::Lane, &map.lanes, |l| &l.id)
-            .chain(tag(Kind::Line, &map.road_lines, |l| &l.id))
-            .chain(tag(Kind::Edge, &map.road_edges, |l| &l.id))
-            .chain(tag(Kind::Sign, &map.stop_signs, |s| &s.id))
-            .chain(tag(Kind::Crosswalk, &map.crosswalks, |a| &a.id))
-            .chain(tag(Kind::Bump, &map.speed_bumps, |a| &a.id))
-            .chain(tag(Kind::Driveway, &map.driveways, |a| &a.id))
+        let all: Vec<(IdSpace, &String)> = tag(IdSpace::Lane, &map.lanes, |l| &l.id)
+            .chain(tag(IdSpace::Line, &map.road_lines, |l| &l.id))
+            .chain(tag(IdSpace::Edge, &map.road_edges, |l| &l.id))
+            .chain(tag(IdSpace::Sign, &map.stop_signs, |s| &s.id))
+            .chain(tag(IdSpace::Crosswalk, &map.crosswalks, |a| &a.id))
+            .chain(tag(IdSpace::Bump, &map.speed_bumps, |a| &a.id))
+            .chain(tag(IdSpace::Driveway, &map.driveways, |a| &a.id))
             .collect();
         let own: BTreeSet<i64> = all.iter().filter_map(|(_, id)| own_number(id)).collect();
         let mut free = (FIRST_FREE..).filter(|n| !own.contains(n));
@@ -69,18 +73,18 @@ impl MapIds {
         Self(ids)
     }
 
-    fn of(&self, kind: Kind, id: &str) -> Option<i64> {
+    fn of(&self, kind: IdSpace, id: &str) -> Option<i64> {
         self.0.get(&(kind, id.to_owned())).copied()
     }
 
     /// Number of a lane, also of one that the map lacks (kept when it is a number, else -1).
     pub(super) fn lane(&self, id: &str) -> i64 {
-        self.of(Kind::Lane, id).or_else(|| own_number(id)).unwrap_or(-1)
+        self.of(IdSpace::Lane, id).or_else(|| own_number(id)).unwrap_or(-1)
     }
 
     /// Number of a road line or edge that bounds a lane.
     fn boundary(&self, id: &str) -> i64 {
-        let found = self.of(Kind::Line, id).or_else(|| self.of(Kind::Edge, id));
+        let found = self.of(IdSpace::Line, id).or_else(|| self.of(IdSpace::Edge, id));
         found.or_else(|| own_number(id)).unwrap_or(-1)
     }
 }
@@ -92,12 +96,12 @@ pub(super) fn features(map: &LaneMap, frame: Frame, ids: &MapIds, losses: &mut V
         list.push(MapFeature { id: ids.of(kind, id), feature_data: Some(data) });
     };
     for lane in &map.lanes {
-        push(Kind::Lane, &lane.id, FeatureData::Lane(lane_center(lane, frame, ids)));
+        push(IdSpace::Lane, &lane.id, FeatureData::Lane(lane_center(lane, frame, ids)));
     }
     for line in &map.road_lines {
         let line_type = word_number(&line.line_type, &ROAD_LINE_TYPES);
         push(
-            Kind::Line,
+            IdSpace::Line,
             &line.id,
             FeatureData::RoadLine(TypedLine { line_type, polyline: points(&line.points, frame) }),
         );
@@ -105,7 +109,7 @@ pub(super) fn features(map: &LaneMap, frame: Frame, ids: &MapIds, losses: &mut V
     for line in &map.road_edges {
         let line_type = word_number(&line.line_type, ROAD_EDGE_TYPES.get(..3).unwrap_or_default());
         push(
-            Kind::Edge,
+            IdSpace::Edge,
             &line.id,
             FeatureData::RoadEdge(TypedLine { line_type, polyline: points(&line.points, frame) }),
         );
@@ -113,17 +117,17 @@ pub(super) fn features(map: &LaneMap, frame: Frame, ids: &MapIds, losses: &mut V
     for sign in &map.stop_signs {
         let lane = sign.lanes.iter().map(|id| ids.lane(id)).collect();
         let position = Some(map_point(frame, sign.position, sign.z_m));
-        push(Kind::Sign, &sign.id, FeatureData::StopSign(StopSign { lane, position }));
+        push(IdSpace::Sign, &sign.id, FeatureData::StopSign(StopSign { lane, position }));
     }
     let polygon = |area: &Area| Polygon { polygon: points(&area.polygon, frame) };
     for area in &map.crosswalks {
-        push(Kind::Crosswalk, &area.id, FeatureData::Crosswalk(polygon(area)));
+        push(IdSpace::Crosswalk, &area.id, FeatureData::Crosswalk(polygon(area)));
     }
     for area in &map.speed_bumps {
-        push(Kind::Bump, &area.id, FeatureData::SpeedBump(polygon(area)));
+        push(IdSpace::Bump, &area.id, FeatureData::SpeedBump(polygon(area)));
     }
     for area in &map.driveways {
-        push(Kind::Driveway, &area.id, FeatureData::Driveway(polygon(area)));
+        push(IdSpace::Driveway, &area.id, FeatureData::Driveway(polygon(area)));
     }
     map_losses(map, losses);
     list

@@ -65,7 +65,7 @@ impl Format for Womd {
             ..super::Options::default()
         };
         let records = file.open().map_err(|error| unpack::fault(&error, 0));
-        let records = match records.and_then(|input| super::Records::new(input, options)) {
+        let records = match records.and_then(|input| super::ScenarioReader::new(input, options)) {
             Ok(records) => records,
             Err(error) => return one(Err(error)),
         };

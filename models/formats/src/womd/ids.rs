@@ -1,6 +1,6 @@
 //! Ids of records as ids of scenes.
 
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::message::Word;
 use std::collections::BTreeMap;
@@ -24,9 +24,10 @@ impl UniqueIds {
         format!("{number}.{count}")
     }
 
-    pub(super) fn warn(&self, subject: Word, warnings: &mut Vec<Warning>) {
+    pub(super) fn warn(&self, subject: Word, warnings: &mut Vec<ImportWarning>) {
         if self.repeated > 0 {
-            warnings.push(Warning::new("duplicate-ids", sentences::ids_suffixed(self.repeated, subject)));
+            warnings
+                .push(ImportWarning::new("duplicate-ids", sentences::ids_suffixed(self.repeated, subject)));
         }
     }
 }

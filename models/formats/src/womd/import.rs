@@ -5,7 +5,7 @@ use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, T
 use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::format::EGO;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
 use crate::sentences::{self, subject};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
@@ -38,7 +38,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
     let now = scenario.current_time_index.unwrap_or(0).max(0) as usize;
     let now_step = now.min(steps.saturating_sub(1));
     if now != now_step {
-        warnings.push(Warning::new("now-step-moved", sentences::now_step_moved(now, steps)));
+        warnings.push(ImportWarning::new("now-step-moved", sentences::now_step_moved(now, steps)));
     }
     let ego = scenario.sdc_track_index.and_then(|i| usize::try_from(i).ok());
     let ego = ego.filter(|i| *i < scenario.tracks.len());
@@ -60,7 +60,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
         }
     }
     if varying > 0 {
-        warnings.push(Warning::new("sizes-vary", sentences::sizes_vary_now(varying)));
+        warnings.push(ImportWarning::new("sizes-vary", sentences::sizes_vary_now(varying)));
     }
     let id = scenario.scenario_id.unwrap_or_default();
     let synthetic = id.starts_with(SYNTHETIC_PREFIX);
@@ -140,7 +140,7 @@ fn kept_tracks(
     tracks: &[Track],
     ego: Option<usize>,
     now_step: usize,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<ImportWarning>,
 ) -> BTreeSet<usize> {
     if tracks.len() <= MAX_AGENTS {
         return (0..tracks.len()).collect();
@@ -160,11 +160,11 @@ fn kept_tracks(
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let message = sentences::agents_near_ego(tracks.len(), MAX_AGENTS);
-    warnings.push(Warning::new("agents-dropped", message));
+    warnings.push(ImportWarning::new("agents-dropped", message));
     order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect()
 }
 
-fn track_ids(tracks: &[Track], warnings: &mut Vec<Warning>) -> Vec<String> {
+fn track_ids(tracks: &[Track], warnings: &mut Vec<ImportWarning>) -> Vec<String> {
     let mut ids = UniqueIds::default();
     let list = tracks.iter().map(|track| ids.take(track.id.unwrap_or(0).into())).collect();
     ids.warn(subject::TRACKS, warnings);
@@ -230,7 +230,7 @@ fn predictions(list: &[RequiredPrediction], ids: &[String], kept: &BTreeSet<usiz
 
 /// Run-length signals, in order of their first appearance. A lane that shows twice in one step has
 /// two signals.
-fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<Warning>) -> Vec<Signal> {
+fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<ImportWarning>) -> Vec<Signal> {
     let mut signals: Vec<Signal> = Vec::new();
     let mut places: BTreeMap<(i64, usize), usize> = BTreeMap::new();
     let mut last_seen: Vec<usize> = Vec::new();
@@ -270,7 +270,7 @@ fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<Warning>) 
         }
     }
     if moved > 0 {
-        warnings.push(Warning::new("stop-points-vary", sentences::stop_points_vary()));
+        warnings.push(ImportWarning::new("stop-points-vary", sentences::stop_points_vary()));
     }
     signals
 }
@@ -282,18 +282,18 @@ fn push_run(runs: &mut Vec<(usize, SignalState)>, step: usize, state: SignalStat
 }
 
 /// Times of the steps, unless they are exactly 0.1 s apart from zero.
-fn timestamps(times: Vec<f64>, steps: usize, warnings: &mut Vec<Warning>) -> Option<Vec<f64>> {
+fn timestamps(times: Vec<f64>, steps: usize, warnings: &mut Vec<ImportWarning>) -> Option<Vec<f64>> {
     if times.iter().enumerate().all(|(i, t)| *t == i as f64 * STEP_S) {
         return None;
     }
     if times.len() != steps || times.iter().any(|t| !t.is_finite()) {
-        warnings.push(Warning::new("timestamps-ignored", sentences::times_ignored(times.len(), steps)));
+        warnings.push(ImportWarning::new("timestamps-ignored", sentences::times_ignored(times.len(), steps)));
         return None;
     }
     let first = times.first().copied().unwrap_or(0.0);
     let late = times.iter().enumerate().any(|(i, t)| (t - first - i as f64 * STEP_S).abs() > STEP_S / 2.0);
     if late {
-        warnings.push(Warning::new("timestamps-irregular", sentences::times_irregular()));
+        warnings.push(ImportWarning::new("timestamps-irregular", sentences::times_irregular()));
     }
     Some(times)
 }

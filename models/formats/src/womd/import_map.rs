@@ -5,7 +5,7 @@ use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
     TypedLine,
 };
-use crate::problem::Warning;
+use crate::problem::ImportWarning;
 use crate::sentences::{self, subject};
 use crate::units::MPS_PER_MPH;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign as Sign, TypedLine as Line};
@@ -26,7 +26,7 @@ pub(super) fn any_point(feature: &MapFeature) -> Option<MapPoint> {
 
 /// Ids are unique per kind in a scene, so each kind has its own list.
 #[derive(Default)]
-struct Ids {
+struct MapFeatureIds {
     lanes: UniqueIds,
     lines: UniqueIds,
     edges: UniqueIds,
@@ -37,9 +37,13 @@ struct Ids {
 }
 
 /// Sorts features into a map, in their order. What has too few points to be drawn is dropped.
-pub(super) fn lane_map(features: Vec<MapFeature>, origin: Vec2, warnings: &mut Vec<Warning>) -> LaneMap {
+pub(super) fn lane_map(
+    features: Vec<MapFeature>,
+    origin: Vec2,
+    warnings: &mut Vec<ImportWarning>,
+) -> LaneMap {
     let mut map = LaneMap::default();
-    let mut ids = Ids::default();
+    let mut ids = MapFeatureIds::default();
     let mut dropped = 0;
     for feature in features {
         let number = feature.id.unwrap_or(0);
@@ -74,12 +78,12 @@ pub(super) fn lane_map(features: Vec<MapFeature>, origin: Vec2, warnings: &mut V
             _ => dropped += 1,
         }
     }
-    let Ids { lanes, lines, edges, signs, crosswalks, bumps, driveways } = &ids;
+    let MapFeatureIds { lanes, lines, edges, signs, crosswalks, bumps, driveways } = &ids;
     for kind in [lanes, lines, edges, signs, crosswalks, bumps, driveways] {
         kind.warn(subject::MAP_FEATURES, warnings);
     }
     if dropped > 0 {
-        warnings.push(Warning::new("features-dropped", sentences::features_unread(dropped)));
+        warnings.push(ImportWarning::new("features-dropped", sentences::features_unread(dropped)));
     }
     map
 }

@@ -18,7 +18,7 @@ mod wire;
 
 pub use export::{scenario, write};
 pub use import::scene;
-pub use record::{MAX_RECORD_BYTES, Record, RecordReader, looks_like, masked_crc, write_record};
+pub use record::{MAX_RECORD_BYTES, RecordReader, TfRecord, looks_like, masked_crc, write_record};
 pub use wire::MAX_TRACKS;
 
 use crate::limits::{MAX_DECODED_BYTES, MAX_EXPANSION, MAX_SCENES};
@@ -67,13 +67,13 @@ impl Default for Options {
 }
 
 /// Reads scenes one by one from a stream of any length.
-pub struct Records<R: Read> {
+pub struct ScenarioReader<R: Read> {
     reader: RecordReader<R>,
     options: Options,
     given: usize,
 }
 
-impl<R: Read> Records<R> {
+impl<R: Read> ScenarioReader<R> {
     /// Opens a plain or gzip TFRecord stream.
     ///
     /// # Errors
@@ -84,7 +84,7 @@ impl<R: Read> Records<R> {
     }
 }
 
-impl<R: Read> Iterator for Records<R> {
+impl<R: Read> Iterator for ScenarioReader<R> {
     type Item = Result<Imported, ReadError>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -108,7 +108,7 @@ impl<R: Read> Iterator for Records<R> {
 
 /// Reads a whole file in memory. One entry a record; a broken record does not stop the others.
 pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadError>> {
-    match Records::new(bytes, options.clone()) {
+    match ScenarioReader::new(bytes, options.clone()) {
         Ok(records) => records.collect(),
         Err(error) => vec![Err(error)],
     }
@@ -126,7 +126,7 @@ fn is_example(data: &[u8]) -> bool {
 ///
 /// # Errors
 /// `malformed-file` with the byte for broken protobuf; the faults of a scene otherwise.
-pub fn read_record(record: &Record, options: &Options) -> Result<Imported, ReadError> {
+pub fn read_record(record: &TfRecord, options: &Options) -> Result<Imported, ReadError> {
     if is_example(&record.data) {
         let detail = "a tf.Example record; Scenario records are read (the dataset has both forms)";
         return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());

@@ -42,7 +42,7 @@ pub fn looks_like(head: &[u8]) -> bool {
 
 /// One record's data and where its frame begins in the decoded stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Record {
+pub struct TfRecord {
     /// Offset of `data` in the decoded stream.
     pub offset: u64,
     /// The message.
@@ -59,7 +59,7 @@ pub struct RecordReader<R: Read> {
 }
 
 /// Why a read stopped short.
-enum Stop {
+enum ReadEnd {
     End,
     Fault(ReadError),
 }
@@ -104,50 +104,50 @@ impl<R: Read> RecordReader<R> {
         Ok(())
     }
 
-    fn exactly(&mut self, wanted: u64, what: &str) -> Result<Vec<u8>, Stop> {
+    fn exactly(&mut self, wanted: u64, what: &str) -> Result<Vec<u8>, ReadEnd> {
         let start = self.offset;
         let mut buffer = Vec::new();
-        self.fill(&mut buffer, wanted).map_err(Stop::Fault)?;
+        self.fill(&mut buffer, wanted).map_err(ReadEnd::Fault)?;
         let got = buffer.len() as u64;
         if got == wanted {
             return Ok(buffer);
         }
         self.ended = true;
         if got == 0 && what == "length" {
-            return Err(Stop::End);
+            return Err(ReadEnd::End);
         }
         let detail = format!("the file ends after {got} of the {wanted} bytes of a record's {what}");
-        Err(Stop::Fault(ReadError::malformed(start, detail)))
+        Err(ReadEnd::Fault(ReadError::malformed(start, detail)))
     }
 
-    fn record(&mut self) -> Result<Record, Stop> {
+    fn record(&mut self) -> Result<TfRecord, ReadEnd> {
         let start = self.offset;
         let head = self.exactly(8, "length")?;
         let crc = self.exactly(4, "length checksum")?;
         if self.verify_crc && masked_crc(&head).to_le_bytes() != crc[..] {
             self.ended = true;
             let detail = "the checksum of a record's length does not match: broken, or not a TFRecord file";
-            return Err(Stop::Fault(ReadError::malformed(start, detail)));
+            return Err(ReadEnd::Fault(ReadError::malformed(start, detail)));
         }
         let length = head.iter().rev().fold(0u64, |length, byte| length << 8 | u64::from(*byte));
         if length > self.max_bytes {
             self.ended = true;
             let detail = format!("a record of {length} bytes, at most {} expected", self.max_bytes);
-            return Err(Stop::Fault(ReadError::malformed(start, detail)));
+            return Err(ReadEnd::Fault(ReadError::malformed(start, detail)));
         }
         let offset = self.offset;
         let data = self.exactly(length, "data")?;
         let crc = self.exactly(4, "data checksum")?;
         if self.verify_crc && masked_crc(&data).to_le_bytes() != crc[..] {
             let detail = format!("the checksum of a record of {length} bytes does not match");
-            return Err(Stop::Fault(ReadError::malformed(offset, detail)));
+            return Err(ReadEnd::Fault(ReadError::malformed(offset, detail)));
         }
-        Ok(Record { offset, data })
+        Ok(TfRecord { offset, data })
     }
 }
 
 impl<R: Read> Iterator for RecordReader<R> {
-    type Item = Result<Record, ReadError>;
+    type Item = Result<TfRecord, ReadError>;
 
     /// After a fault in a record's data the next record follows; after one in the framing nothing.
     fn next(&mut self) -> Option<Self::Item> {
@@ -156,11 +156,11 @@ impl<R: Read> Iterator for RecordReader<R> {
         }
         match self.record() {
             Ok(record) => Some(Ok(record)),
-            Err(Stop::Fault(error)) => Some(Err(error)),
-            Err(Stop::End) if self.offset == 0 => {
+            Err(ReadEnd::Fault(error)) => Some(Err(error)),
+            Err(ReadEnd::End) if self.offset == 0 => {
                 Some(Err(ReadError::malformed(0, "the file holds no record")))
             }
-            Err(Stop::End) => None,
+            Err(ReadEnd::End) => None,
         }
     }
 }

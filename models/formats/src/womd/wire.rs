@@ -10,7 +10,7 @@ pub const MAX_TRACKS: usize = 2_048;
 
 /// What a message is, as far as nesting and counting go.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum ScenarioMessage {
     Scenario,
     Track,
     State,
@@ -27,7 +27,7 @@ enum Kind {
     Point,
 }
 
-impl Kind {
+impl ScenarioMessage {
     /// Kind of the message in a field of this message; `None` for a scalar or unknown field.
     fn child(self, field: u64) -> Option<Self> {
         Some(match (self, field) {
@@ -65,15 +65,19 @@ impl Kind {
     }
 }
 
-const KINDS: usize = Kind::Point as usize + 1;
+const KINDS: usize = ScenarioMessage::Point as usize + 1;
 
 /// Walks over one record that begins at `offset` of the decoded file.
 pub fn check(bytes: &[u8], offset: u64) -> Result<(), ReadError> {
     let mut counts = [0; KINDS];
-    walk(Kind::Scenario, Wire { bytes, at: 0, offset }, &mut counts)
+    walk(ScenarioMessage::Scenario, WireCursor { bytes, at: 0, offset }, &mut counts)
 }
 
-fn walk(kind: Kind, mut wire: Wire<'_>, counts: &mut [usize; KINDS]) -> Result<(), ReadError> {
+fn walk(
+    kind: ScenarioMessage,
+    mut wire: WireCursor<'_>,
+    counts: &mut [usize; KINDS],
+) -> Result<(), ReadError> {
     let mut states = 0;
     while let Some((field, value)) = wire.next_field()? {
         let (Some(child), Some(inner)) = (kind.child(field), value) else { continue };
@@ -85,7 +89,7 @@ fn walk(kind: Kind, mut wire: Wire<'_>, counts: &mut [usize; KINDS]) -> Result<(
                 return Err(FieldProblem::new(pointer, code, detail).into());
             }
         }
-        states += usize::from(child == Kind::State);
+        states += usize::from(child == ScenarioMessage::State);
         if states > MAX_STEPS {
             let detail = format!("a track with more than {MAX_STEPS} states");
             return Err(FieldProblem::new("/tracks", code::OUT_OF_RANGE, detail).into());
@@ -98,15 +102,15 @@ fn walk(kind: Kind, mut wire: Wire<'_>, counts: &mut [usize; KINDS]) -> Result<(
 
 /// A cursor over the fields of one message.
 #[derive(Clone, Copy)]
-struct Wire<'a> {
+struct WireCursor<'a> {
     bytes: &'a [u8],
     at: usize,
     offset: u64,
 }
 
-impl<'a> Wire<'a> {
+impl<'a> WireCursor<'a> {
     /// Field number and, where it is length-delimited, its content.
-    fn next_field(&mut self) -> Result<Option<(u64, Option<Wire<'a>>)>, ReadError> {
+    fn next_field(&mut self) -> Result<Option<(u64, Option<WireCursor<'a>>)>, ReadError> {
         if self.at >= self.bytes.len() {
             return Ok(None);
         }
@@ -132,7 +136,7 @@ impl<'a> Wire<'a> {
         Ok(Some((field, value.filter(|_| wire_type == 2))))
     }
 
-    fn take(&mut self, length: u64) -> Result<Option<Wire<'a>>, ReadError> {
+    fn take(&mut self, length: u64) -> Result<Option<WireCursor<'a>>, ReadError> {
         let start = self.at;
         let rest = (self.bytes.len() - start) as u64;
         if length > rest {
@@ -141,7 +145,7 @@ impl<'a> Wire<'a> {
         }
         self.at = start + length as usize;
         let bytes = self.bytes.get(start..self.at).unwrap_or_default();
-        Ok(Some(Wire { bytes, at: 0, offset: self.offset + start as u64 }))
+        Ok(Some(WireCursor { bytes, at: 0, offset: self.offset + start as u64 }))
     }
 
     fn varint(&mut self) -> Result<u64, ReadError> {
@@ -168,7 +172,7 @@ impl<'a> Wire<'a> {
 #[cfg(test)]
 mod tests {
     use super::check;
-    use crate::problem::Kind;
+    use crate::problem::RefusalKind;
 
     #[test]
     fn faults_have_their_byte() {
@@ -182,7 +186,7 @@ mod tests {
             (&[0x62, 0xff, 0xff, 0xff, 0xff, 0x0f], 6),
         ] {
             let error = check(bytes, 100).expect_err("broken");
-            assert_eq!(error.kind, Kind::MalformedFile { offset: 100 + at }, "{bytes:x?}");
+            assert_eq!(error.kind, RefusalKind::MalformedFile { offset: 100 + at }, "{bytes:x?}");
         }
     }
 

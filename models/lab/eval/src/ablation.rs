@@ -5,7 +5,7 @@ use super::quality::request;
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::TableSpec;
 use super::{Case, Judged, Site, Subset};
 use anyhow::Result;
 use experts::{Generator, Request, Shown};
@@ -146,7 +146,7 @@ fn rows(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<CaseAns
 }
 
 /// Table 7.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 7,
     name: "ablations",
     make: |trial| Ok(ablation(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),

@@ -5,7 +5,7 @@ use super::rivals::{Together, least_effort};
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::{Made, Table};
+use super::table::{Made, TableSpec};
 use super::together::{
     Ask, Boxes, MOMENTS, Motions, STRIDE, logged_pairs, motions_by, motions_of, motions_of_log, scenes,
 };
@@ -16,9 +16,9 @@ use rayon::prelude::*;
 use scene::{HORIZON_STEPS, STEP_S, State};
 use std::collections::BTreeSet;
 
-/// What one scene comes to.
+/// Coherence figures of one scene.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Verdict {
+pub(super) struct SceneCoherence {
     /// Moving road users.
     pub(super) moving: f64,
     /// Those in an overlap that begins within 3, 6 and 9 s.
@@ -38,7 +38,11 @@ const STEPS_A_SECOND: f64 = 10.0;
 const WITHIN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
 /// Judges one scene; pairs that are left out may overlap.
-pub(super) fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>) -> Verdict {
+pub(super) fn judge(
+    site: &Site<'_>,
+    motions: &Motions,
+    left_out: &BTreeSet<(usize, usize)>,
+) -> SceneCoherence {
     let moving: BTreeSet<usize> =
         site.cases.iter().map(|c| c.agent).filter(|i| motions[*i].is_some()).collect();
     let meetings: Vec<_> =
@@ -52,11 +56,11 @@ pub(super) fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usi
     };
     let paper: BTreeSet<usize> = meetings.iter().filter(|m| m.paper).flat_map(|m| both(m.pair)).collect();
     let present = motions.iter().flatten().count().max(1) as f64;
-    let mut out = Verdict {
+    let mut out = SceneCoherence {
         moving: moving.len() as f64,
         overlapping: WITHIN_S.map(within),
         paper: paper.len() as f64 / present,
-        ..Verdict::default()
+        ..SceneCoherence::default()
     };
     for &i in &moving {
         let Some(states) = &motions[i] else { continue };
@@ -81,7 +85,7 @@ const LINES: [(&str, usize, f64, Shown, bool); 5] = [
 ];
 
 /// Table 2.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 2,
     name: "coherence",
     make: |trial| {
@@ -133,7 +137,7 @@ fn coherence(
     let sites: Vec<&Site<'_>> = sites.iter().filter(|s| s.cases.len() >= 2).collect();
     let left_out: Vec<BTreeSet<(usize, usize)>> = sites.par_iter().map(|site| logged_pairs(site)).collect();
     let nothing = BTreeSet::new();
-    let verdicts = |motions: &[Motions], logs: bool| -> Vec<Verdict> {
+    let verdicts = |motions: &[Motions], logs: bool| -> Vec<SceneCoherence> {
         let jobs: Vec<_> = sites.iter().zip(motions).zip(&left_out).collect();
         jobs.par_iter()
             .map(|((site, motions), out)| judge(site, motions, if logs { &nothing } else { out }))
@@ -141,7 +145,7 @@ fn coherence(
     };
     for goals in [false, true] {
         let word = if goals { "all fixed" } else { "none" };
-        let mut line = |name: &str, verdicts: &[Verdict]| {
+        let mut line = |name: &str, verdicts: &[SceneCoherence]| {
             sheet.push([word, name], cells(boot, &sites, verdicts));
         };
         let logs: Vec<Motions> = sites.iter().map(|site| motions_of_log(site)).collect();
@@ -196,8 +200,8 @@ fn generated_motions(own: &Judged, sites: &[&Site<'_>], ask: Ask) -> Result<Vec<
     sites.par_iter().map(of).collect()
 }
 
-fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[Verdict]) -> Vec<Cell> {
-    let share = |value: &dyn Fn(&Verdict) -> (f64, f64), form| {
+fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[SceneCoherence]) -> Vec<Cell> {
+    let share = |value: &dyn Fn(&SceneCoherence) -> (f64, f64), form| {
         let values = sites.iter().zip(verdicts).map(|(site, v)| {
             let (part, whole) = value(v);
             Value::share(site.index, part, whole)

@@ -4,7 +4,7 @@
 use super::measure::{at, goal_error, is_met, is_outside_limits};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::TableSpec;
 use super::together::STRIDE;
 use super::{Case, Judged, Site, Subset};
 use anyhow::Result;
@@ -35,7 +35,7 @@ enum DragDirection {
 
 /// One counterfactual drag.
 #[derive(Clone, Debug)]
-struct Drag {
+struct CounterfactualDrag {
     site: usize,
     way: DragDirection,
     /// Speed and heading are fixed too.
@@ -57,7 +57,7 @@ struct Drag {
 }
 
 /// Table 3.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 3,
     name: "control",
     make: |trial| Ok(control(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
@@ -71,14 +71,15 @@ fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
     let picked = picked(sites, seed, MOST_CASES);
     let mut sheets = [reach_sheet(), limits_sheet()];
     for own in judged {
-        let drags: Result<Vec<Vec<Drag>>> = picked
+        let drags: Result<Vec<Vec<CounterfactualDrag>>> = picked
             .par_iter()
             .map(|&(s, c)| dragged(&own.generator, &sites[s], &sites[s].cases[c], seed))
             .collect();
-        let drags: Vec<Drag> = drags?.into_iter().flatten().collect();
+        let drags: Vec<CounterfactualDrag> = drags?.into_iter().flatten().collect();
         for (way, name) in [(DragDirection::Along, "along"), (DragDirection::Across, "across")] {
             for full in [false, true] {
-                let mine: Vec<&Drag> = drags.iter().filter(|d| d.way == way && d.full == full).collect();
+                let mine: Vec<&CounterfactualDrag> =
+                    drags.iter().filter(|d| d.way == way && d.full == full).collect();
                 let fields = if full { "position, speed, heading" } else { "position" };
                 let keys = [own.name.as_str(), name, fields];
                 sheets[0].push(keys, reach_cells(boot, &mine));
@@ -108,7 +109,12 @@ pub(super) fn dragged_goal(site: &Site<'_>, case: &Case, along: bool, metres: f6
 }
 
 /// All drags of one road user.
-fn dragged(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Result<Vec<Drag>> {
+fn dragged(
+    generator: &Generator,
+    site: &Site<'_>,
+    case: &Case,
+    seed: u64,
+) -> Result<Vec<CounterfactualDrag>> {
     let log = site.log(case);
     let logged = case.goal(site.scene, Subset::PosSpeedHeading);
     let Some(base) = logged.position else { return Ok(Vec::new()) };
@@ -188,7 +194,7 @@ fn drag(
     goal: Goal,
     nudged: Goal,
     seed: u64,
-) -> Result<Drag> {
+) -> Result<CounterfactualDrag> {
     let id = &site.log(case).id;
     let answered = generator.answer(request(site.blind.clone(), case, goal, seed))?;
     let again = generator.answer(request(site.blind.clone(), case, nudged, seed))?;
@@ -206,7 +212,7 @@ fn drag(
     let away = |s: &&State| site.graph.nearest_for(s.position(), 2.5, AgentType::Vehicle).is_empty();
     let driven = case.agent_type == AgentType::Vehicle && !away(&&case.start);
     let looked_at = || states.iter().take(case.goal_step).step_by(STRIDE).filter(|_| driven);
-    Ok(Drag {
+    Ok(CounterfactualDrag {
         site: site.index,
         way: DragDirection::Along,
         full: false,
@@ -284,11 +290,11 @@ fn reach_sheet() -> Sheet {
     )
 }
 
-fn reach_cells(boot: &Bootstrap, drags: &[&Drag]) -> Vec<Cell> {
-    let flags = |holds: fn(&Drag) -> bool| {
+fn reach_cells(boot: &Bootstrap, drags: &[&CounterfactualDrag]) -> Vec<Cell> {
+    let flags = |holds: fn(&CounterfactualDrag) -> bool| {
         Cell::of(boot.estimate(drags.iter().map(|d| Value::flag(d.site, holds(d)))), Form::Percent)
     };
-    let of = |keep: fn(&Drag) -> bool, value: fn(&Drag) -> f64| {
+    let of = |keep: fn(&CounterfactualDrag) -> bool, value: fn(&CounterfactualDrag) -> f64| {
         sorted(drags.iter().filter(|d| keep(d)).map(|d| value(d)))
     };
     let met = of(|d| d.met, |d| d.left_m);
@@ -330,7 +336,7 @@ fn limits_sheet() -> Sheet {
     )
 }
 
-fn limit_cells(boot: &Bootstrap, drags: &[&Drag]) -> Vec<Cell> {
+fn limit_cells(boot: &Bootstrap, drags: &[&CounterfactualDrag]) -> Vec<Cell> {
     let off = boot.estimate(drags.iter().map(|d| Value::share(d.site, d.off.0, d.off.1)));
     let hit = |i: usize| {
         let flags = drags.iter().filter_map(|d| Some(Value::flag(d.site, d.hits?[i])));

@@ -1,7 +1,7 @@
 //! Table 6: how long answers take, how that grows, how many scenes an hour, how much memory.
 
 use super::sheet::{Cell, Form, Sheet};
-use super::table::{Made, Table, Trial};
+use super::table::{Made, TableSpec, Trial};
 use super::{Judged, Subset, cases};
 use anyhow::Result;
 use experts::{Cancel, Event, Generator, Request};
@@ -160,7 +160,7 @@ fn resident_mb() -> Option<f64> {
 }
 
 /// Table 6.
-pub(super) const TABLE: Table = Table { number: 6, name: "cost", make: cost };
+pub(super) const TABLE: TableSpec = TableSpec { number: 6, name: "cost", make: cost };
 
 /// Two sheets: milliseconds; then scenes an hour and memory.
 fn cost(trial: &mut Trial<'_>) -> Result<Made> {

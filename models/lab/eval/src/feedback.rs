@@ -3,7 +3,7 @@
 
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::TableSpec;
 use super::{Case, Judged, Site, type_name};
 use anyhow::Result;
 use experts::{Generator, Request};
@@ -36,7 +36,7 @@ const TRIES: u8 = 20;
 const CASES_A_TYPE: usize = 2;
 
 /// Table 10.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 10,
     name: "feedback",
     make: |trial| Ok(vec![feedback(&trial.judged, &trial.sites, &trial.boot, trial.seed)?].into()),

@@ -44,7 +44,7 @@ pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
 pub use report::{CropReport, EvalReport, TABLES_FILE};
 pub use run::{EvalOptions, run};
-pub use table::Table;
+pub use table::TableSpec;
 pub use tables::TABLES;
 
 use experts::Generator;

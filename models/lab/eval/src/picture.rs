@@ -1,6 +1,6 @@
 //! Pictures of futures over the map, as SVG.
 
-use super::quality::{Method, Outcome, alone};
+use super::quality::{AnswerSource, Outcome, alone};
 use super::{Site, Subset, type_name};
 use anyhow::Result;
 use experts::Generator;
@@ -30,7 +30,7 @@ pub fn of_outcomes(
     for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
         for subset in [Subset::None, Subset::Pos] {
             let mine = |o: &&Outcome| {
-                o.method == Method::Refined(0) && o.agent_type == agent_type && o.subset == subset
+                o.method == AnswerSource::Refined(0) && o.agent_type == agent_type && o.subset == subset
             };
             let mut all: Vec<&Outcome> = outcomes.iter().filter(mine).collect();
             all.sort_by(|a, b| a.measured.min_ade.total_cmp(&b.measured.min_ade));

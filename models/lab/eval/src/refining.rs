@@ -1,10 +1,10 @@
 //! Table 8: what refinement brings, and what each of its parts does.
 
-use super::coherence::{Verdict, from_log_m, judge};
+use super::coherence::{SceneCoherence, from_log_m, judge};
 use super::realism::closeness;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::{Made, Table};
+use super::table::{Made, TableSpec};
 use super::together::{Ask, Motions, logged_pairs, motions_of, scenes};
 use super::{Judged, Site};
 use anyhow::Result;
@@ -80,15 +80,15 @@ fn row(
     let chosen = run(Shown::Chosen, true, 1)?;
     let took_ms = started.elapsed().as_secs_f64() * 1e3;
     let (composite, (near, counted)) = closeness(site, &draws, SOON_S);
-    let judged = |all: &[Motions]| all.iter().map(|m| judge(site, m, out)).collect::<Vec<Verdict>>();
+    let judged = |all: &[Motions]| all.iter().map(|m| judge(site, m, out)).collect::<Vec<SceneCoherence>>();
     let (draws_judged, chosen) = (judged(&draws), judged(&chosen));
-    let share = |all: &[Verdict], value: &dyn Fn(&Verdict) -> (f64, f64)| {
+    let share = |all: &[SceneCoherence], value: &dyn Fn(&SceneCoherence) -> (f64, f64)| {
         let (part, whole) = all.iter().map(value).fold((0.0, 0.0), |t, v| (t.0 + v.0, t.1 + v.1));
         (whole > 0.0).then(|| Value::share(site.index, part, whole))
     };
-    let overlap = |v: &Verdict| (v.overlapping[2], v.moving);
-    let edges = |v: &Verdict| (v.road.past_edges, v.road.edge_steps);
-    let distance = |v: &Verdict| (v.distance, v.moving);
+    let overlap = |v: &SceneCoherence| (v.overlapping[2], v.moving);
+    let edges = |v: &SceneCoherence| (v.road.past_edges, v.road.edge_steps);
+    let distance = |v: &SceneCoherence| (v.distance, v.moving);
     let best = |agent: usize| {
         let apart = draws.iter().filter_map(|m| Some(from_log_m(site, agent, m[agent].as_ref()?)));
         apart.reduce(f64::min)
@@ -109,7 +109,7 @@ fn row(
 }
 
 /// Table 8.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 8,
     name: "refinement",
     make: |trial| {

@@ -2,7 +2,7 @@
 
 use super::report::{CropReport, EvalReport};
 use super::stats::Bootstrap;
-use super::table::{Table, Trial};
+use super::table::{TableSpec, Trial};
 use super::tables::TABLES;
 use super::{Judged, Site};
 use anyhow::Result;
@@ -15,7 +15,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug)]
 pub struct EvalOptions {
     /// Tables, in any order.
-    pub tables: Vec<&'static Table>,
+    pub tables: Vec<&'static TableSpec>,
     /// Draws noise, resamples, drags and random pictures.
     pub seed: u64,
     /// Pictures of table 1's best, worst and random cases.
@@ -118,7 +118,7 @@ mod tests {
             .collect();
         let generator = Generator::random(1).unwrap().with_threads(threads);
         let judged = vec![Judged { name: "random".into(), generator }];
-        let tables = tables.iter().filter_map(|number| Table::numbered(*number)).collect();
+        let tables = tables.iter().filter_map(|number| TableSpec::numbered(*number)).collect();
         let options = EvalOptions { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
         run(judged, baselines, &scenes, &options, &|_| {}, &|_| Ok(()))
     }
@@ -127,7 +127,7 @@ mod tests {
     fn each_table_is_handed_over_as_it_is_made() {
         let scenes = [scene(vec![log("a", 8.0, 91)])];
         let judged = vec![Judged { name: "random".into(), generator: Generator::random(1).unwrap() }];
-        let tables = [1, 2].into_iter().filter_map(Table::numbered).collect();
+        let tables = [1, 2].into_iter().filter_map(TableSpec::numbered).collect();
         let options =
             EvalOptions { tables, seed: 5, pictures: false, replan_steps: vec![90], crop: Crop::default() };
         let folder = tempfile::tempdir().unwrap();

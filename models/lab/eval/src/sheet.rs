@@ -87,7 +87,7 @@ impl Cell {
 
 /// One line of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
+pub struct SheetRow {
     /// What the line is about, one entry for each of [`Sheet::keys`].
     pub keys: Vec<String>,
     /// One entry for each of [`Sheet::columns`].
@@ -106,7 +106,7 @@ pub struct Sheet {
     /// Names of the columns of figures, with units.
     pub columns: Vec<String>,
     /// Body.
-    pub lines: Vec<Line>,
+    pub lines: Vec<SheetRow>,
 }
 
 impl Sheet {
@@ -124,7 +124,7 @@ impl Sheet {
 
     /// Adds a line.
     pub fn push<S: Into<String>>(&mut self, keys: impl IntoIterator<Item = S>, cells: Vec<Cell>) {
-        self.lines.push(Line { keys: keys.into_iter().map(Into::into).collect(), cells });
+        self.lines.push(SheetRow { keys: keys.into_iter().map(Into::into).collect(), cells });
     }
 
     /// As Markdown, with a column of sample counts where the figures have them.
@@ -150,7 +150,7 @@ impl Sheet {
 }
 
 /// Sample count of a line's first figure; others say theirs where it is another.
-fn samples(line: &Line) -> u64 {
+fn samples(line: &SheetRow) -> u64 {
     let of = |cell: &Cell| match cell {
         Cell::Estimate { estimate, .. } => Some(estimate.samples),
         _ => None,

@@ -9,7 +9,7 @@ use scene::Scene;
 
 /// A table of the evaluation.
 #[derive(Debug)]
-pub struct Table {
+pub struct TableSpec {
     /// Its number, which the titles of its sheets begin with.
     pub number: usize,
     /// What it is about.

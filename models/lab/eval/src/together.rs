@@ -183,12 +183,12 @@ impl Boxes {
     }
 
     /// First moment at which each pair of agents overlaps, and whether it ever does so in the paper's form.
-    pub fn meetings(&self) -> Vec<Meeting> {
+    pub fn meetings(&self) -> Vec<OverlappingPair> {
         self.meetings_over(PAPER_IOU)
     }
 
     /// The same with another threshold of the intersection over union in the paper's form.
-    pub fn meetings_over(&self, threshold: f64) -> Vec<Meeting> {
+    pub fn meetings_over(&self, threshold: f64) -> Vec<OverlappingPair> {
         let mut out = Vec::new();
         for (k, (i, a)) in self.boxes.iter().enumerate() {
             for (j, b) in &self.boxes[k + 1..] {
@@ -197,7 +197,7 @@ impl Boxes {
                     continue;
                 };
                 let paper = pairs().any(|(_, a, b)| iou(&a, &b) > threshold);
-                out.push(Meeting { pair: (*i, *j), first, paper });
+                out.push(OverlappingPair { pair: (*i, *j), first, paper });
             }
         }
         out
@@ -206,7 +206,7 @@ impl Boxes {
 
 /// Two road users whose boxes overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Meeting {
+pub struct OverlappingPair {
     /// Agents of the scene, the lower index first.
     pub pair: (usize, usize),
     /// Moment at which it begins, from 0.

@@ -6,7 +6,7 @@ use super::measure::{goal_error, is_met};
 use super::picture::{futures_svg, who};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::{Made, Table};
+use super::table::{Made, TableSpec};
 use super::{Case, Judged, Site};
 use anyhow::Result;
 use experts::request::ShownLast;
@@ -49,7 +49,7 @@ const KINDS: [(FaultKind, &str); 8] = [
 ];
 
 /// Table 9.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 9,
     name: "trust",
     make: |trial| trust(&trial.judged, &trial.sites, &trial.boot, trial.seed, trial.pictures),
@@ -334,14 +334,14 @@ fn repeats(futures: &AgentFutures) -> bool {
 
 /// A driver before a line that is red at the start: probability of running it without a goal, and whether the shown
 /// future does.
-struct Waiting {
+struct RedLightCase {
     site: usize,
     runs: f64,
     shown: bool,
 }
 
-fn before_red(generator: &Generator, sites: &[Site<'_>], seed: u64) -> Result<Vec<Waiting>> {
-    let found: Result<Vec<Vec<Waiting>>> = sites
+fn before_red(generator: &Generator, sites: &[Site<'_>], seed: u64) -> Result<Vec<RedLightCase>> {
+    let found: Result<Vec<Vec<RedLightCase>>> = sites
         .par_iter()
         .map(|site| {
             let ids: BTreeSet<AgentId> =
@@ -357,7 +357,7 @@ fn before_red(generator: &Generator, sites: &[Site<'_>], seed: u64) -> Result<Ve
                 let futures = futures(&answer, id)?;
                 let running = futures.modes.iter().filter(|f| runs(f)).map(|f| f.probability).sum();
                 let shown = futures.modes.get(futures.chosen).is_some_and(runs);
-                Some(Waiting { site: site.index, runs: running, shown })
+                Some(RedLightCase { site: site.index, runs: running, shown })
             };
             Ok(ids.iter().filter_map(waiting).collect())
         })
@@ -476,7 +476,7 @@ fn lights_sheet() -> Sheet {
     )
 }
 
-fn light_cells(boot: &Bootstrap, waiting: &[Waiting]) -> Vec<Cell> {
+fn light_cells(boot: &Bootstrap, waiting: &[RedLightCase]) -> Vec<Cell> {
     vec![
         Cell::Count(waiting.len() as u64),
         Cell::of(boot.estimate(waiting.iter().map(|w| Value::new(w.site, w.runs))), Form::Percent),

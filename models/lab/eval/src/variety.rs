@@ -4,7 +4,7 @@ use super::measure::measure;
 use super::quality::request;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::TableSpec;
 use super::{Case, Judged, Site, Subset, type_name};
 use anyhow::Result;
 use experts::{Generator, Request};
@@ -23,7 +23,7 @@ const SAME_EXIT_RAD: f64 = 0.5;
 const ON_ROUTE_M: f64 = 3.0;
 
 /// Table 5.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 5,
     name: "variety",
     make: |trial| Ok(variety(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
@@ -88,7 +88,7 @@ fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
                 }
             }
         }
-        let found: Result<Vec<Vec<Crossing>>> = sites
+        let found: Result<Vec<Vec<RedLineCrossing>>> = sites
             .par_iter()
             .map(|site| {
                 let vehicles = site.cases.iter().filter(|c| c.agent_type == AgentType::Vehicle);
@@ -96,8 +96,8 @@ fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
                 Ok(all.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
             })
             .collect();
-        let found: Vec<Crossing> = found?.into_iter().flatten().collect();
-        let share = |value: fn(&Crossing) -> f64, form| {
+        let found: Vec<RedLineCrossing> = found?.into_iter().flatten().collect();
+        let share = |value: fn(&RedLineCrossing) -> f64, form| {
             Cell::of(boot.estimate(found.iter().map(|c| Value::new(c.site, value(c)))), form)
         };
         exits.push(
@@ -193,14 +193,19 @@ fn pairwise(futures: &AgentFutures, step: usize) -> f64 {
     if n > 0.0 { sum / n } else { 0.0 }
 }
 
-struct Crossing {
+struct RedLineCrossing {
     site: usize,
     exits: f64,
     found: f64,
     beyond: f64,
 }
 
-fn crossing(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Result<Option<Crossing>> {
+fn crossing(
+    generator: &Generator,
+    site: &Site<'_>,
+    case: &Case,
+    seed: u64,
+) -> Result<Option<RedLineCrossing>> {
     let exits = exits(&site.graph, case);
     if exits.len() < 2 {
         return Ok(None);
@@ -216,7 +221,7 @@ fn crossing(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> R
         .filter_map(|future| exit_of(&exits, future))
         .collect();
     let found: BTreeSet<usize> = taken.iter().copied().collect();
-    Ok(Some(Crossing {
+    Ok(Some(RedLineCrossing {
         site: site.index,
         exits: exits.len() as f64,
         found: found.len() as f64,

@@ -29,8 +29,8 @@ pub struct CollisionOptions {
     pub seed: u64,
 }
 
-/// Shares of those who collide in one scene.
-struct Shares {
+/// Shares of the road users that collide in one scene.
+struct CollisionShares {
     scene: usize,
     log: f64,
     /// Least effort to each end, planned once.
@@ -85,7 +85,7 @@ pub fn table(
         &["Rollout Interval", "Model"],
         &["SCR", "paper"],
     );
-    let cell = |value: &dyn Fn(&Shares) -> Option<f64>| {
+    let cell = |value: &dyn Fn(&CollisionShares) -> Option<f64>| {
         let values = shares.iter().filter_map(|s| Some(Value::new(s.scene, value(s)?)));
         Cell::of(boot.estimate(values), Form::Percent)
     };
@@ -108,7 +108,7 @@ pub fn table(
     Ok((sheet, counts))
 }
 
-fn judge(cut: &Cut, scene: usize, entrants: &Entrants, options: CollisionOptions) -> Result<Shares> {
+fn judge(cut: &Cut, scene: usize, entrants: &Entrants, options: CollisionOptions) -> Result<CollisionShares> {
     let site = Site::new(scene, &cut.scene);
     let left_out = logged_pairs(&site);
     let share = |motions: &Motions, left_out: &BTreeSet<(usize, usize)>| {
@@ -140,7 +140,7 @@ fn judge(cut: &Cut, scene: usize, entrants: &Entrants, options: CollisionOptions
     let formula = motions_by(&site, true, |i, start, goal, step| {
         least_effort(&site.blind.agents[i], start, goal, step)
     });
-    Ok(Shares {
+    Ok(CollisionShares {
         scene,
         log: share(&motions_of_log(&site), &BTreeSet::new()),
         formula: share(&formula, &left_out),

@@ -23,7 +23,7 @@ mod training;
 pub use collisions::CollisionOptions;
 pub use figure::FIGURE_FILE;
 pub use report::TABLES_FILE;
-pub use run::{Options, OtherRun, Parts, forget, run};
+pub use run::{OtherRun, Parts, RunOptions, forget, run};
 pub use sets::{Centre, Data, SetOptions, Sets};
 pub use training::{Length, Schedule, Trained};
 

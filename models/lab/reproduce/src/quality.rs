@@ -13,8 +13,8 @@ use lab_eval::stats::{Bootstrap, Value};
 use lab_eval::{Case, Site, Subset};
 use scene::{AgentFutures, Future};
 
-/// Errors of one road user under all methods, in the order of [`Method::ALL`]; `None` for who does not answer.
-struct Judged {
+/// Errors of one road user under all methods, in the order of [`Method::ALL`]; `None` without an answer.
+struct AgentErrors {
     centre: Centre,
     scene: usize,
     errors: [Option<Measured>; Method::ALL.len()],
@@ -35,7 +35,7 @@ pub fn table(
 ) -> Result<Sheet> {
     let scenes = scene_index(&sets.tests);
     let told = |done: usize| progress(&format!("Table I: {done} of {} squares", sets.tests.len()));
-    let judged: Vec<Judged> = each_case(data, options, &sets.tests, stop, &told, |_, case, cut| {
+    let judged: Vec<AgentErrors> = each_case(data, options, &sets.tests, stop, &told, |_, case, cut| {
         judge(case, &cut, scenes[&case.place()], options, entrants, seed)
     })?
     .into_iter()
@@ -107,7 +107,7 @@ fn judge(
     options: &SetOptions,
     entrants: &Entrants,
     seed: u64,
-) -> Result<Vec<Judged>> {
+) -> Result<Vec<AgentErrors>> {
     let interval = cut.interval(options.interval_steps);
     let site = Site::new(scene, &interval);
     let mut out = Vec::new();
@@ -123,7 +123,7 @@ fn judge(
             let subset = Subset::PosSpeedHeading;
             *slot = Some(measure(site.log(&own), &own, subset, &futures.modes, futures.chosen));
         }
-        out.push(Judged { centre: case.centre, scene, errors });
+        out.push(AgentErrors { centre: case.centre, scene, errors });
     }
     Ok(out)
 }

@@ -23,9 +23,9 @@ pub struct Parts {
     pub figure: bool,
 }
 
-/// What to do.
+/// Options of a run.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct RunOptions {
     /// Where the scenes are.
     pub data: Data,
     /// Folder of the run.
@@ -77,7 +77,7 @@ const SETS_FILE: &str = "sets.json";
 /// # Errors
 /// [`OtherRun`] where the folder is another run's, [`crate::Stopped`] where it was asked to end, and what files and
 /// networks report.
-pub fn run(options: &Options, engine: Engine, progress: &dyn Fn(&str)) -> Result<String> {
+pub fn run(options: &RunOptions, engine: Engine, progress: &dyn Fn(&str)) -> Result<String> {
     let folder = options.out.as_path();
     begin(options)?;
     let sets = sets_of(options, progress)?;
@@ -122,7 +122,7 @@ pub fn run(options: &Options, engine: Engine, progress: &dyn Fn(&str)) -> Result
 }
 
 /// Takes hold of the folder, or finds that it is this run's.
-fn begin(options: &Options) -> Result<()> {
+fn begin(options: &RunOptions) -> Result<()> {
     let mut names = String::new();
     for part in [Part::Data, Part::Test] {
         for file in options.data.files(part)? {
@@ -160,7 +160,7 @@ fn begin(options: &Options) -> Result<()> {
 }
 
 /// The sets of a run, made where they are not there.
-fn sets_of(options: &Options, progress: &dyn Fn(&str)) -> Result<Sets> {
+fn sets_of(options: &RunOptions, progress: &dyn Fn(&str)) -> Result<Sets> {
     let path = options.out.join(SETS_FILE);
     if path.exists() {
         let text = std::fs::read(&path).with_context(|| format!("read {}", path.display()))?;

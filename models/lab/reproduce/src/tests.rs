@@ -141,9 +141,9 @@ fn the_scenes_where_most_meet_are_chosen() {
     assert_eq!(sets::interactive(&sets, Centre::Pedestrian, 1).len(), 1);
 }
 
-fn run_options(data: &Data, out: PathBuf) -> Options {
+fn run_options(data: &Data, out: PathBuf) -> RunOptions {
     let few = Length::Steps(2);
-    Options {
+    RunOptions {
         data: data.clone(),
         out,
         sets: options(),
@@ -168,7 +168,8 @@ fn a_run_repeats_goes_on_where_it_was_stopped_and_knows_its_folder() {
     let (first, second) = (folder.path().join("data"), folder.path().join("test"));
     let data = data(write(&first, 0..8), Some(write(&second, 20..22)));
     let of = |name: &str| run_options(&data, folder.path().join(name));
-    let go = |options: &Options, progress: &dyn Fn(&str)| run(options, Engine::built_in().unwrap(), progress);
+    let go =
+        |options: &RunOptions, progress: &dyn Fn(&str)| run(options, Engine::built_in().unwrap(), progress);
     let straight = of("straight");
     let text = go(&straight, &|_| {}).unwrap();
     let expected = results(&straight.out);
@@ -187,7 +188,7 @@ fn a_run_repeats_goes_on_where_it_was_stopped_and_knows_its_folder() {
     // Once more changes nothing, and trains nothing.
     go(&stopped, &|line| assert!(!line.contains("steps"), "{line}")).unwrap();
     assert!(results(&stopped.out) == expected);
-    let other = go(&Options { condition_width: 24, ..stopped.clone() }, &|_| {}).unwrap_err();
+    let other = go(&RunOptions { condition_width: 24, ..stopped.clone() }, &|_| {}).unwrap_err();
     assert!(other.is::<OtherRun>() && other.to_string().contains("condition width"), "{other}");
     forget(&stopped.out).unwrap();
     assert!(!stopped.out.join("weights").exists() && stopped.out.join(TABLES_FILE).exists());

@@ -74,7 +74,7 @@ impl Schedule {
 
 /// One training.
 #[derive(Clone, Debug)]
-struct Job {
+struct TrainingJob {
     method: Method,
     /// Below the folder, without ending.
     name: String,
@@ -86,7 +86,7 @@ struct Job {
     init: Option<String>,
 }
 
-impl Job {
+impl TrainingJob {
     fn steps(&self, schedule: &Schedule) -> u64 {
         self.length.steps(self.count, schedule.batch)
     }
@@ -107,7 +107,7 @@ impl Job {
 }
 
 /// What is trained, in order.
-fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<Job> {
+fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<TrainingJob> {
     // Records that are trained on: those of validation lie in the same file.
     let share = |centre: Centre, records: usize| {
         let judged = &sets.sets[centre.index()].judged;
@@ -116,7 +116,7 @@ fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<Job> {
     };
     let learned = |centre: Centre| share(centre, sets.sets[centre.index()].records);
     let mut out = Vec::new();
-    let job = |method, name: &str, expert, records: Vec<PathBuf>, count| Job {
+    let job = |method, name: &str, expert, records: Vec<PathBuf>, count| TrainingJob {
         method,
         name: name.into(),
         expert,
@@ -143,9 +143,13 @@ fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<Job> {
             job(method, name, centre.expert(), vec![records_path(folder, centre)], count)
         };
         let (first, second) = (format!("paper-denoiser/{name}"), format!("paper-initializer/{name}"));
-        out.push(Job { stage: Stage::Denoiser, length: schedule.denoiser, ..of(Method::Paper, &first) });
-        out.push(Job { init: Some(first), ..of(Method::Paper, &second) });
-        let joint = |job: Job, init: String| Job {
+        out.push(TrainingJob {
+            stage: Stage::Denoiser,
+            length: schedule.denoiser,
+            ..of(Method::Paper, &first)
+        });
+        out.push(TrainingJob { init: Some(first), ..of(Method::Paper, &second) });
+        let joint = |job: TrainingJob, init: String| TrainingJob {
             stage: Stage::Joint,
             length: schedule.joint,
             init: Some(init),
@@ -201,7 +205,7 @@ impl Training<'_> {
     /// When records or weights cannot be read or written, or the run is stopped.
     pub fn run(&self, sets: &Sets, progress: &dyn Fn(&str)) -> Result<Vec<Trained>> {
         let jobs = jobs(self.folder, sets, &self.schedule);
-        let is_done = |job: &&Job| weights_path(self.folder, &job.name).exists();
+        let is_done = |job: &&TrainingJob| weights_path(self.folder, &job.name).exists();
         let left: f64 = jobs.iter().filter(|j| !is_done(j)).map(|j| j.work(&self.schedule)).sum();
         let mut pace = Pace { begun: Instant::now(), done: 0.0, all: left };
         for job in &jobs {
@@ -211,7 +215,7 @@ impl Training<'_> {
             stopped(self.stop)?;
             self.train(job, &mut pace, progress).with_context(|| format!("train {}", job.name))?;
         }
-        let told = |job: &Job| {
+        let told = |job: &TrainingJob| {
             let steps = job.steps(&self.schedule);
             let epochs = (steps * self.schedule.batch as u64) as f64 / job.count.max(1) as f64;
             Trained { name: job.name.clone(), stage: job.stage, steps, epochs }
@@ -219,7 +223,7 @@ impl Training<'_> {
         Ok(jobs.iter().map(told).collect())
     }
 
-    fn train(&self, job: &Job, pace: &mut Pace, progress: &dyn Fn(&str)) -> Result<()> {
+    fn train(&self, job: &TrainingJob, pace: &mut Pace, progress: &dyn Fn(&str)) -> Result<()> {
         // Elsewhere until it is done: what lies among the weights is finished.
         let out = self.folder.join(format!("training/{}.safetensors", job.name));
         if let Some(parent) = out.parent() {
@@ -270,7 +274,7 @@ impl Training<'_> {
         formats::files::replace(&path, &bytes).with_context(|| format!("write {}", path.display()))
     }
 
-    fn set<A>(&self, options: TrainOptions<A>, job: &Job, init: Option<PathBuf>) -> TrainOptions<A> {
+    fn set<A>(&self, options: TrainOptions<A>, job: &TrainingJob, init: Option<PathBuf>) -> TrainOptions<A> {
         let steps = job.steps(&self.schedule);
         TrainOptions {
             expert: job.expert.into(),

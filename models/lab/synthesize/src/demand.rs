@@ -10,9 +10,9 @@ use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// How much traffic there is; factors on the drawn amounts.
+/// Factors on the drawn amounts of traffic.
 #[derive(Clone, Copy, Debug)]
-pub struct Crowd {
+pub struct DemandFactors {
     /// Motor vehicles.
     pub traffic: f64,
     /// Cyclists on the road, expected number.
@@ -23,7 +23,7 @@ pub struct Crowd {
     pub buses: f64,
 }
 
-impl Crowd {
+impl DemandFactors {
     /// Draws one.
     pub fn new(draw: &mut Stream) -> Self {
         Self {
@@ -63,7 +63,7 @@ pub fn write(
     network: &Network,
     net: &Net,
     fleet: &Fleet,
-    crowd: Crowd,
+    crowd: DemandFactors,
     draw: &mut Stream,
     folder: &Path,
 ) -> std::io::Result<()> {
@@ -135,7 +135,7 @@ impl Trips<'_> {
         self.normal().map(|e| (e, spread(e))).collect()
     }
 
-    fn vehicles(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
+    fn vehicles(&mut self, fleet: &Fleet, crowd: DemandFactors, draw: &mut Stream) {
         let net = self.net;
         let reachable = self.reachable(&[LaneKind::Vehicle]);
         let carries = |e: &usize| self.lanes(&net.edges[*e], LaneKind::Vehicle) > 0;
@@ -211,7 +211,7 @@ impl Trips<'_> {
         )
     }
 
-    fn cyclists(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
+    fn cyclists(&mut self, fleet: &Fleet, crowd: DemandFactors, draw: &mut Stream) {
         let net = self.net;
         let reachable = self.reachable(&[LaneKind::Vehicle, LaneKind::Bike]);
         let usable = |e: &usize| {
@@ -248,12 +248,12 @@ impl Trips<'_> {
         }
     }
 
-    fn people(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
+    fn people(&mut self, fleet: &Fleet, crowd: DemandFactors, draw: &mut Stream) {
         let net = self.net;
         let walks = |l: usize| {
             matches!(net.lanes[l].kind, LaneKind::Sidewalk | LaneKind::Crossing | LaneKind::WalkingArea)
         };
-        let mut parts = Parts((0..net.edges.len()).collect());
+        let mut parts = ConnectedEdges((0..net.edges.len()).collect());
         for (i, lane) in net.lanes.iter().enumerate().filter(|(i, _)| walks(*i)) {
             for &next in lane.successors.iter().filter(|n| walks(**n)) {
                 parts.join(net.lanes[i].edge, net.lanes[next].edge);
@@ -292,10 +292,10 @@ impl Trips<'_> {
     }
 }
 
-/// Which edges hang together, for people on foot.
-struct Parts(Vec<usize>);
+/// Edges that are connected for pedestrians.
+struct ConnectedEdges(Vec<usize>);
 
-impl Parts {
+impl ConnectedEdges {
     fn root(&mut self, mut i: usize) -> usize {
         while self.0[i] != i {
             self.0[i] = self.0[self.0[i]];

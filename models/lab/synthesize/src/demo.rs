@@ -1,12 +1,12 @@
 //! Demo scenes of our own making: hand-laid networks, simulated traffic, and the nine seconds of it
 //! that show most. `cargo run -p dragtraffic-lab-synthesize --example demo_scenes -- assets/scenes` writes them.
 
-use super::demand::Crowd;
+use super::demand::DemandFactors;
 use super::demo_check;
 use super::demo_networks as networks;
 use super::network::Network;
 use super::programs::Sumo;
-use super::recording::{self, Actor, RecordError, Recording};
+use super::recording::{self, RecordError, SimulatedAgent, SimulatedRecording};
 use super::windows::{self, NOW, STEPS};
 use super::{DT_S, RECORDED_S, demo_clip, demo_mend};
 use formats::polyline::contains;
@@ -28,7 +28,7 @@ pub struct Demo {
     /// What it shows.
     pub notes: &'static str,
     network: fn() -> Network,
-    crowd: Crowd,
+    crowd: DemandFactors,
     seeds: &'static [u64],
     /// Wanted numbers: moving vehicles, parked vehicles, pedestrians, cyclists.
     wanted: [usize; 4],
@@ -47,7 +47,7 @@ pub const DEMOS: [Demo; 5] = [
         name: "Rosa & 5th",
         notes: "Signalised crossing with left-turn lanes, bike lanes, crosswalks and parked cars.",
         network: networks::crossing,
-        crowd: Crowd { traffic: 0.55, cyclists: 26.0, people: 30.0, buses: 0.05 },
+        crowd: DemandFactors { traffic: 0.55, cyclists: 26.0, people: 30.0, buses: 0.05 },
         seeds: &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
         wanted: [16, 14, 10, 5],
         buses: 1,
@@ -59,7 +59,7 @@ pub const DEMOS: [Demo; 5] = [
         name: "Roundabout, 4 arms",
         notes: "Single-lane roundabout with crosswalks on all arms.",
         network: networks::roundabout,
-        crowd: Crowd { traffic: 1.9, cyclists: 26.0, people: 30.0, buses: 0.04 },
+        crowd: DemandFactors { traffic: 1.9, cyclists: 26.0, people: 30.0, buses: 0.04 },
         seeds: &[1, 2, 3, 4],
         wanted: [13, 0, 9, 4],
         buses: 0,
@@ -71,7 +71,7 @@ pub const DEMOS: [Demo; 5] = [
         name: "Ring road merge",
         notes: "Motorway entry; a street with a sidewalk and bike lanes runs beside it.",
         network: networks::motorway,
-        crowd: Crowd { traffic: 1.35, cyclists: 30.0, people: 45.0, buses: 0.01 },
+        crowd: DemandFactors { traffic: 1.35, cyclists: 30.0, people: 45.0, buses: 0.01 },
         seeds: &[1, 2, 3, 4, 5, 6, 7, 8],
         wanted: [30, 0, 6, 4],
         buses: 0,
@@ -83,7 +83,7 @@ pub const DEMOS: [Demo; 5] = [
         name: "School street",
         notes: "Residential street with parked cars, driveways and stop signs.",
         network: networks::residential,
-        crowd: Crowd { traffic: 4.2, cyclists: 22.0, people: 34.0, buses: 0.0 },
+        crowd: DemandFactors { traffic: 4.2, cyclists: 22.0, people: 34.0, buses: 0.0 },
         seeds: &[1, 2, 3, 4],
         wanted: [6, 22, 10, 4],
         buses: 0,
@@ -95,7 +95,7 @@ pub const DEMOS: [Demo; 5] = [
         name: "Market, evening peak",
         notes: "Arterial with two signalised crossings and a bus.",
         network: networks::arterial,
-        crowd: Crowd { traffic: 0.95, cyclists: 24.0, people: 22.0, buses: 0.05 },
+        crowd: DemandFactors { traffic: 0.95, cyclists: 24.0, people: 22.0, buses: 0.05 },
         seeds: &[1, 2, 3, 4, 5, 6, 7, 8],
         wanted: [38, 6, 12, 5],
         buses: 1,
@@ -182,10 +182,10 @@ fn rounded(value: f64, parts: f64) -> f64 {
 
 impl Demo {
     /// The scene from a step on, if nobody in it jumps.
-    fn window(&self, recording: &Recording, start: usize) -> Option<Scene> {
-        let mut cast: Vec<(&Actor, Vec<Option<State>>)> =
+    fn window(&self, recording: &SimulatedRecording, start: usize) -> Option<Scene> {
+        let mut cast: Vec<(&SimulatedAgent, Vec<Option<State>>)> =
             recording.actors.iter().map(|a| (a, shown(a, start))).filter(|(_, s)| usable(s)).collect();
-        let jumps = |a: &Actor| a.track.jumps.iter().any(|s| (start..start + STEPS).contains(s));
+        let jumps = |a: &SimulatedAgent| a.track.jumps.iter().any(|s| (start..start + STEPS).contains(s));
         if cast.iter().any(|(a, _)| jumps(a)) {
             return None;
         }
@@ -216,12 +216,12 @@ impl Demo {
     }
 
     /// Takes out people, cyclists and parked cars beyond the wanted numbers, farthest first.
-    fn thin_out(&self, cast: &mut Vec<(&Actor, Vec<Option<State>>)>) {
+    fn thin_out(&self, cast: &mut Vec<(&SimulatedAgent, Vec<Option<State>>)>) {
         let distance = |states: &[Option<State>]| {
             states.iter().flatten().map(|s| s.position().norm()).fold(f64::INFINITY, f64::min)
         };
         // The nearest moving car comes first: it is the ego.
-        let rank = |a: &Actor| (a.agent_type != AgentType::Vehicle, a.parked);
+        let rank = |a: &SimulatedAgent| (a.agent_type != AgentType::Vehicle, a.parked);
         cast.sort_by(|a, b| {
             let (p, q) = (distance(&a.1), distance(&b.1));
             rank(a.0).cmp(&rank(b.0)).then(p.total_cmp(&q))
@@ -240,7 +240,7 @@ impl Demo {
     }
 
     /// How far a scene is from what the demo is to show.
-    fn misfit(&self, scene: &Scene, recording: &Recording, start: usize) -> f64 {
+    fn misfit(&self, scene: &Scene, recording: &SimulatedRecording, start: usize) -> f64 {
         let parked = |a: &&Agent| a.role.as_deref() == Some("parked");
         let count = |t: AgentType| scene.agents.iter().filter(|a| a.agent_type == t).count();
         let at_rest = scene.agents.iter().filter(parked).count();
@@ -321,7 +321,7 @@ fn shifts(agent: &Agent) -> bool {
     }
 }
 
-fn shown(actor: &Actor, start: usize) -> Vec<Option<State>> {
+fn shown(actor: &SimulatedAgent, start: usize) -> Vec<Option<State>> {
     let inside = |s: &&State| s.position().amax() < SHOWN_M;
     (0..STEPS)
         .map(|step| {
@@ -343,7 +343,7 @@ fn usable(states: &[Option<State>]) -> bool {
     seen >= 20 && pieces + usize::from(states[0].is_some()) == 1
 }
 
-fn agent(n: usize, actor: &Actor, states: Vec<Option<State>>) -> Agent {
+fn agent(n: usize, actor: &SimulatedAgent, states: Vec<Option<State>>) -> Agent {
     let role = if n == 0 { Some("ego") } else { actor.parked.then_some("parked") };
     let body = if actor.agent_type == AgentType::Pedestrian {
         Size { length_m: 0.6, width_m: 0.6, height_m: Some(1.75) }

@@ -1,6 +1,6 @@
 //! Networks of the demo scenes: laid out by hand, so that they show what the editor can do.
 
-use super::network::{Character, MPH, Network, Rank, Section, hermite};
+use super::network::{Character, CrossSection, MPH, Network, Rank, hermite};
 use super::random::Purpose;
 use super::ways::{Arm, MotorwayShape, approach, carriageway, ring};
 use formats::polyline::{arc_lengths, part, point_at};
@@ -19,7 +19,7 @@ fn character(name: &str, cycle_s: u32) -> Character {
     }
 }
 
-const MAIN: Section = Section {
+const MAIN: CrossSection = CrossSection {
     forward: 2,
     backward: 2,
     speed: 35.0 * MPH,
@@ -32,7 +32,7 @@ const MAIN: Section = Section {
     rank: Rank::Arterial,
 };
 
-const SIDE: Section = Section {
+const SIDE: CrossSection = CrossSection {
     forward: 1,
     backward: 1,
     speed: 30.0 * MPH,
@@ -45,7 +45,7 @@ const SIDE: Section = Section {
     rank: Rank::Collector,
 };
 
-const HOMES: Section = Section {
+const HOMES: CrossSection = CrossSection {
     forward: 1,
     backward: 1,
     speed: 25.0 * MPH,
@@ -63,7 +63,15 @@ fn finished(mut net: Network) -> Network {
     net
 }
 
-fn ray(net: &mut Network, from: &str, to: &str, angle_deg: f64, reach: f64, section: Section, turn: bool) {
+fn ray(
+    net: &mut Network,
+    from: &str,
+    to: &str,
+    angle_deg: f64,
+    reach: f64,
+    section: CrossSection,
+    turn: bool,
+) {
     let (start, way) = (net.position(from), direction(angle_deg.to_radians()));
     net.end(to, start + way * reach);
     net.road(from, to, vec![start, start + way * reach], section, (turn, false));
@@ -99,7 +107,8 @@ pub fn roundabout() -> Network {
     let angles: Vec<f64> = [4.0_f64, 92.0, 181.0, 274.0].iter().map(|a| a.to_radians()).collect();
     ring(&mut net, &angles, 15.0, 1, 3.0);
     for (i, &angle) in angles.iter().enumerate() {
-        let s = Section { parking: 0.0, bike: 0.0, median: 1.6, speed: 25.0 * MPH, sidewalk: 3.0, ..SIDE };
+        let s =
+            CrossSection { parking: 0.0, bike: 0.0, median: 1.6, speed: 25.0 * MPH, sidewalk: 3.0, ..SIDE };
         let bend = [0.10, -0.08, 0.06, 0.05][i];
         let arm = Arm { angle, section: s, sidewalk: 3.0, street: [170.0, 60.0 * bend, bend] };
         approach(&mut net, i, arm, 15.0, 1);
@@ -121,7 +130,7 @@ pub fn motorway() -> Network {
     let exit_first = MotorwayShape { entry_first: false, ..shape };
     carriageway(&mut net, &back, "b", exit_first, [350.0, 740.0], [180.0, 140.0], [34.0, 30.0]);
     let (west, east) = (Vec2::new(-230.0, -52.0), Vec2::new(230.0, -49.0));
-    let street = Section { parking: 0.0, median: 0.0, ..SIDE };
+    let street = CrossSection { parking: 0.0, median: 0.0, ..SIDE };
     net.end("p", west);
     net.end("q", east);
     let x = Vec2::new(1.0, 0.0);
@@ -144,7 +153,7 @@ pub fn residential() -> Network {
     net.road("w", "a", part(&line, 0.0, one), HOMES, (false, false));
     net.road("a", "b", part(&line, one, two), HOMES, (false, false));
     net.road("b", "e", part(&line, two, total), HOMES, (false, false));
-    let lane = Section { parking: 0.0, priority: 1, ..HOMES };
+    let lane = CrossSection { parking: 0.0, priority: 1, ..HOMES };
     ray(&mut net, "a", "n", 95.0, 150.0, lane, false);
     ray(&mut net, "b", "s", 277.0, 150.0, lane, false);
     finished(net)
@@ -153,7 +162,7 @@ pub fn residential() -> Network {
 /// Arterial of three lanes each way with two signalised crossings.
 pub fn arterial() -> Network {
     let mut net = Network::new(character("demo-arterial", 55));
-    let road = Section { forward: 3, backward: 3, speed: 40.0 * MPH, ..MAIN };
+    let road = CrossSection { forward: 3, backward: 3, speed: 40.0 * MPH, ..MAIN };
     let middle = |x: f64| Vec2::new(x, 6.0 * (x / 120.0).sin());
     let xs = [-260.0, -62.0, 62.0, 260.0];
     let name = ["w", "a", "b", "e"];
@@ -170,7 +179,7 @@ pub fn arterial() -> Network {
     }
     for (from, to, angle) in [("a", "an", 1.0), ("a", "as", 3.0), ("b", "bn", 1.0), ("b", "bs", 3.0)] {
         let section =
-            if from == "a" { SIDE } else { Section { bike: 0.0, median: 0.0, parking: 0.0, ..SIDE } };
+            if from == "a" { SIDE } else { CrossSection { bike: 0.0, median: 0.0, parking: 0.0, ..SIDE } };
         ray(&mut net, from, to, (FRAC_PI_2 * angle).to_degrees() + 3.0, 150.0, section, from == "a");
     }
     finished(net)

@@ -45,7 +45,7 @@ impl Rank {
 
 /// Lanes of a road, both directions alike. Widths in metres, zero: not there.
 #[derive(Clone, Copy, Debug)]
-pub struct Section {
+pub struct CrossSection {
     /// Lanes forwards.
     pub forward: usize,
     /// Lanes backwards.
@@ -68,14 +68,18 @@ pub struct Section {
     pub rank: Rank,
 }
 
-impl Section {
+impl CrossSection {
     /// Lanes of one direction, from the right.
-    fn strips(&self, lanes: usize) -> Vec<Strip> {
-        let beside = [Strip::Sidewalk(self.sidewalk), Strip::Parking(self.parking), Strip::Bike(self.bike)];
+    fn strips(&self, lanes: usize) -> Vec<LaneStrip> {
+        let beside = [
+            LaneStrip::Sidewalk(self.sidewalk),
+            LaneStrip::Parking(self.parking),
+            LaneStrip::Bike(self.bike),
+        ];
         let there = [self.sidewalk, self.parking, self.bike].map(|width| width > 0.0);
-        let mut strips: Vec<Strip> =
+        let mut strips: Vec<LaneStrip> =
             beside.into_iter().zip(there).filter(|(_, there)| *there).map(|(strip, _)| strip).collect();
-        strips.extend(vec![Strip::Traffic(self.lane); lanes]);
+        strips.extend(vec![LaneStrip::Traffic(self.lane); lanes]);
         strips
     }
 }
@@ -94,14 +98,14 @@ struct Road {
     from: String,
     to: String,
     middle: Vec<Vec2>,
-    section: Section,
+    section: CrossSection,
     /// Left-turn lane at the start (for traffic that arrives there) and at the end.
     turn_lanes: (bool, bool),
 }
 
 /// One lane of a directed edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Strip {
+enum LaneStrip {
     Sidewalk(f64),
     Parking(f64),
     Bike(f64),
@@ -114,7 +118,7 @@ struct EdgeSpec {
     from: String,
     to: String,
     shape: Vec<Vec2>,
-    strips: Vec<Strip>,
+    strips: Vec<LaneStrip>,
     speed: f64,
     priority: i32,
     rank: Rank,
@@ -210,14 +214,14 @@ impl Network {
         from: &str,
         to: &str,
         middle: Vec<Vec2>,
-        section: Section,
+        section: CrossSection,
         turn_lanes: (bool, bool),
     ) {
         self.roads.push(Road { from: from.to_owned(), to: to.to_owned(), middle, section, turn_lanes });
     }
 
     /// Adds a straight road.
-    pub fn straight(&mut self, from: &str, to: &str, section: Section) {
+    pub fn straight(&mut self, from: &str, to: &str, section: CrossSection) {
         let middle = vec![self.position(from), self.position(to)];
         self.road(from, to, middle, section, (false, false));
     }
@@ -229,7 +233,7 @@ impl Network {
         [from, to]: [&str; 2],
         shape: Vec<Vec2>,
         lanes: usize,
-        section: Section,
+        section: CrossSection,
         merging: bool,
     ) {
         self.edges.push((
@@ -278,7 +282,7 @@ impl Network {
                 }
                 let strips = s.strips(lanes);
                 let beside = strips.len() - lanes;
-                let make = |from: String, to: String, shape: Vec<Vec2>, strips: Vec<Strip>| EdgeSpec {
+                let make = |from: String, to: String, shape: Vec<Vec2>, strips: Vec<LaneStrip>| EdgeSpec {
                     from,
                     to,
                     shape,
@@ -301,13 +305,13 @@ impl Network {
                 let first = offset_right(&part(&line, 0.0, split - 9.0), s.median / 2.0);
                 let second = offset_right(&part(&line, split + 9.0, total), s.median / 2.0 - s.lane);
                 for (i, strip) in strips.iter().enumerate() {
-                    if !matches!(strip, Strip::Parking(_)) {
+                    if !matches!(strip, LaneStrip::Parking(_)) {
                         self.connect(&one, i, &two, i);
                     }
                 }
                 self.connect(&one, beside + lanes - 1, &two, beside + lanes);
                 let mut wider = strips.clone();
-                wider.push(Strip::Traffic(s.lane));
+                wider.push(LaneStrip::Traffic(s.lane));
                 self.edges.push((one, make(from, node.clone(), first, strips)));
                 self.edges.push((two, make(node, to, second, wider)));
             }
@@ -358,18 +362,18 @@ impl EdgeSpec {
             shape.join(" "),
             self.rank.name()
         );
-        let traffic = |s: &Strip| matches!(s, Strip::Traffic(_));
+        let traffic = |s: &LaneStrip| matches!(s, LaneStrip::Traffic(_));
         let first = self.strips.iter().position(traffic).unwrap_or(0);
         for (i, strip) in self.strips.iter().enumerate() {
             let rail = "tram rail rail_urban rail_fast rail_electric ship";
             let (width, rule) = match strip {
-                Strip::Sidewalk(w) => (w, "allow=\"pedestrian\"".to_owned()),
-                Strip::Parking(w) => (w, "disallow=\"all\"".to_owned()),
-                Strip::Bike(w) => (w, "allow=\"bicycle\"".to_owned()),
-                Strip::Traffic(w) if self.rank == Rank::Motorway => {
+                LaneStrip::Sidewalk(w) => (w, "allow=\"pedestrian\"".to_owned()),
+                LaneStrip::Parking(w) => (w, "disallow=\"all\"".to_owned()),
+                LaneStrip::Bike(w) => (w, "allow=\"bicycle\"".to_owned()),
+                LaneStrip::Traffic(w) if self.rank == Rank::Motorway => {
                     (w, format!("disallow=\"pedestrian bicycle {rail}\""))
                 }
-                Strip::Traffic(w) => (w, format!("disallow=\"pedestrian {rail}\"")),
+                LaneStrip::Traffic(w) => (w, format!("disallow=\"pedestrian {rail}\"")),
             };
             let merging = if self.merging && i == first { " acceleration=\"1\"" } else { "" };
             let _ = writeln!(text, r#"  <lane index="{i}" {rule} width="{width:.2}"{merging}/>"#);

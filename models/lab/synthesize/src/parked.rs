@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// A parked car.
 #[derive(Clone, Copy, Debug)]
-pub struct Parked {
+pub struct ParkedCar {
     /// Box centre, network frame.
     pub position: Vec2,
     /// Radians.
@@ -23,7 +23,7 @@ pub struct Parked {
 #[derive(Clone, Debug, Default)]
 pub struct ParkedCars {
     /// Cars.
-    pub cars: Vec<Parked>,
+    pub cars: Vec<ParkedCar>,
     /// Open rings.
     pub driveways: Vec<Vec<Vec2>>,
     /// Points of all traffic lanes and half of their width.
@@ -69,7 +69,7 @@ pub fn park(network: &Network, net: &Net, draw: &mut Stream) -> ParkedCars {
 impl ParkedCars {
     fn put(&mut self, position: Vec2, heading_rad: f64, size: Size, clearance: f64) {
         if self.lanes.iter().all(|(p, half)| (p - position).norm() - half > clearance) {
-            self.cars.push(Parked { position, heading_rad, size });
+            self.cars.push(ParkedCar { position, heading_rad, size });
         }
     }
 

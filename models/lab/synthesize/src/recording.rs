@@ -1,6 +1,6 @@
 //! One seed from its network to cleaned tracks of everybody on it.
 
-use super::demand::{self, Crowd};
+use super::demand::{self, DemandFactors};
 use super::fleet::{ActorKind, Fleet};
 use super::footpath::Kerbs;
 use super::network::{Network, Rank};
@@ -32,7 +32,7 @@ pub const CHECK_EVERY: usize = 5;
 pub enum RecordError {
     /// SUMO's programs.
     #[error(transparent)]
-    Program(#[from] ProgramError),
+    SignalProgram(#[from] ProgramError),
     /// Their files.
     #[error("cannot read SUMO's {file}")]
     File {
@@ -46,9 +46,9 @@ pub enum RecordError {
     Io(#[from] std::io::Error),
 }
 
-/// Somebody on the road.
+/// A road user of the simulation.
 #[derive(Clone, Debug)]
-pub struct Actor {
+pub struct SimulatedAgent {
     /// Type in scenes.
     pub agent_type: AgentType,
     /// Finer type in scenes.
@@ -65,7 +65,7 @@ pub struct Actor {
     pub overlaps: Vec<usize>,
 }
 
-impl Actor {
+impl SimulatedAgent {
     /// One of a kind that is not parked.
     pub fn of(kind: &ActorKind, track: Cleaned) -> Self {
         Self {
@@ -80,22 +80,22 @@ impl Actor {
     }
 }
 
-/// Everything of one seed, in the network's frame.
+/// Recording of one seed, in the network's frame.
 #[derive(Debug)]
-pub struct Recording {
+pub struct SimulatedRecording {
     /// How the network was made.
     pub network: Network,
     /// Its map.
     pub map: NetMap,
     /// Everybody.
-    pub actors: Vec<Actor>,
+    pub actors: Vec<SimulatedAgent>,
     /// Signal states.
     pub signals: SignalLog,
     /// Lanes of the map in parking lots.
     lot_lanes: HashSet<String>,
 }
 
-impl Recording {
+impl SimulatedRecording {
     /// Takes the lanes of parking lots off the map: recorded maps seldom have them, and cars drive there
     /// all the same.
     pub fn unmap_lots(&mut self) {
@@ -132,9 +132,9 @@ impl Drop for TempFolder {
 pub fn record(
     sumo: &Sumo,
     network: Network,
-    crowd: Option<Crowd>,
+    crowd: Option<DemandFactors>,
     seed: u64,
-) -> Result<Recording, RecordError> {
+) -> Result<SimulatedRecording, RecordError> {
     let folder = TempFolder::new(seed)?;
     let path = folder.0.as_path();
     network.write(path)?;
@@ -143,7 +143,7 @@ pub fn record(
         .map_err(|source| RecordError::File { file: "net.xml", source })?;
     let mut draw = Purpose::Demand.stream(seed);
     let fleet = Fleet::new(&mut draw, network.character.name.contains("motorway"));
-    let drawn = Crowd::new(&mut draw);
+    let drawn = DemandFactors::new(&mut draw);
     demand::write(&network, &net, &fleet, crowd.unwrap_or(drawn), &mut draw, path)?;
     sumo.simulate(path, seed)?;
     let mut actors = moving(path, &fleet, seed)?;
@@ -166,7 +166,7 @@ pub fn record(
     map.map.driveways.extend(areas(&parked.driveways));
     map.map.drivable.extend(areas(&network.paved));
     for car in &parked.cars {
-        actors.push(Actor {
+        actors.push(SimulatedAgent {
             agent_type: AgentType::Vehicle,
             subtype: Subtype::Car,
             size: car.size,
@@ -181,10 +181,10 @@ pub fn record(
     find_overlaps(&mut actors);
     let in_lot = |lane: &usize| net.edge_of(*lane).road_type == Rank::Lot.name();
     let lot_lanes = (0..net.lanes.len()).filter(in_lot).map(lane_id).collect();
-    Ok(Recording { network, map, actors, signals, lot_lanes })
+    Ok(SimulatedRecording { network, map, actors, signals, lot_lanes })
 }
 
-fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<Actor>, RecordError> {
+fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<SimulatedAgent>, RecordError> {
     let file = std::io::BufReader::new(std::fs::File::open(path.join("fcd.csv"))?);
     let records = fcd::read_csv(file).map_err(|source| RecordError::File { file: "fcd.csv", source })?;
     let mut draw = Purpose::Motion.stream(seed);
@@ -192,7 +192,7 @@ fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<Actor>, RecordErr
     for record in records.into_values() {
         let Some(kind) = fleet.kinds.get(&record.vehicle_type) else { continue };
         let Some(track) = tracks::clean(&record, kind, &mut draw) else { continue };
-        actors.push(Actor::of(kind, track));
+        actors.push(SimulatedAgent::of(kind, track));
     }
     Ok(actors)
 }
@@ -207,7 +207,7 @@ fn read_signals(path: &Path) -> Result<SignalLog, RecordError> {
 }
 
 /// Adds people who stand about: one for every eight who walk.
-fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Stream) {
+fn standing(net: &Net, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     let sidewalks: Vec<&Vec<Vec2>> =
         net.lanes.iter().filter(|l| l.kind == LaneKind::Sidewalk).map(|l| &l.shape).collect();
     let walkers = actors.iter().filter(|a| a.agent_type == AgentType::Pedestrian).count();
@@ -220,7 +220,7 @@ fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Stream) {
         let place = line[at] + Vec2::from(draw.normal_pair()) * 0.4;
         let side = draw.clipped(0.85, 0.1, 0.6, 1.1);
         let heading = draw.between(-PI, PI);
-        actors.push(Actor {
+        actors.push(SimulatedAgent {
             agent_type: AgentType::Pedestrian,
             subtype: Subtype::Adult,
             size: Size { length_m: side, width_m: side, height_m: Some(1.75) },
@@ -234,7 +234,7 @@ fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Stream) {
 
 /// Notes overlaps of wheeled road users. A parked car that somebody touches never existed; where a
 /// cyclist is involved, the cyclist is at fault (on the sidewalk first).
-fn find_overlaps(actors: &mut Vec<Actor>) {
+fn find_overlaps(actors: &mut Vec<SimulatedAgent>) {
     let wheeled: Vec<usize> =
         (0..actors.len()).filter(|&i| actors[i].agent_type != AgentType::Pedestrian).collect();
     let mut gone = vec![false; actors.len()];

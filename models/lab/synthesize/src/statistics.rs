@@ -26,7 +26,7 @@ const SHORTEST: usize = 31;
 /// How a row is summed up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Form {
+enum Aggregate {
     /// Percentiles 1, 5, 50, 95, 99.
     Spread,
     /// Share of true ones.
@@ -36,52 +36,52 @@ enum Form {
 }
 
 /// Rows in the table's order: key, what it is, form.
-const ROWS: [(&str, &str, Form); 45] = [
-    ("count_vehicle", "vehicles in 120 m x 120 m", Form::Mean),
-    ("count_pedestrian", "pedestrians in 120 m x 120 m", Form::Mean),
-    ("count_cyclist", "cyclists in 120 m x 120 m", Form::Mean),
-    ("vehicle_stationary", "vehicles that move less than 0.8 m", Form::Share),
-    ("vehicle_valid", "share of the window that a vehicle is seen", Form::Mean),
-    ("vehicle_length", "vehicle length, m", Form::Spread),
-    ("vehicle_width", "vehicle width, m", Form::Spread),
-    ("vehicle_speed", "vehicle speed when moving, m/s", Form::Spread),
-    ("vehicle_distance", "distance in 9 s of a moving vehicle, m", Form::Spread),
-    ("vehicle_distance_from_rest", "the same from below 0.3 m/s, m", Form::Spread),
-    ("vehicle_distance_fast", "the same from above 12 m/s, m", Form::Spread),
-    ("vehicle_starts_at_rest", "moving vehicles that start below 0.3 m/s", Form::Share),
-    ("vehicle_drift", "distance from constant velocity after 9 s, m", Form::Spread),
-    ("vehicle_acceleration", "vehicle acceleration, m/s2", Form::Spread),
-    ("vehicle_jerk", "vehicle jerk, m/s3", Form::Spread),
-    ("vehicle_yaw_rate", "vehicle yaw rate, deg/s", Form::Spread),
-    ("vehicle_lateral", "vehicle lateral acceleration, m/s2", Form::Spread),
-    ("vehicle_slip", "vehicle velocity off its heading, deg", Form::Spread),
-    ("vehicle_turn_speed", "speed while turning, m/s", Form::Spread),
-    ("vehicle_turn_lateral", "lateral acceleration while turning, m/s2", Form::Spread),
-    ("vehicle_turn_radius", "radius while turning, m", Form::Spread),
-    ("vehicle_wander", "weaving in straight driving, cm", Form::Spread),
-    ("vehicle_lane_offset", "offset from the lane's middle, m", Form::Spread),
-    ("vehicle_heading_offset", "heading off the lane, deg", Form::Spread),
-    ("vehicle_off_lane", "moving vehicles on no lane", Form::Share),
-    ("vehicle_stop_and_go", "moving vehicles that also stand", Form::Share),
-    ("vehicle_turns", "vehicles that turn by more than 45 deg", Form::Share),
-    ("vehicle_turns_any", "vehicles that turn by more than 15 deg", Form::Share),
-    ("vehicle_u_turns", "vehicles that turn by more than 150 deg", Form::Share),
-    ("vehicle_has_leader", "moving vehicles with one ahead within 60 m", Form::Share),
-    ("vehicle_gap", "gap to it, m", Form::Spread),
-    ("vehicle_headway", "time to its place, s", Form::Spread),
-    ("pedestrian_stationary", "pedestrians that move less than 1 m", Form::Share),
-    ("pedestrian_speed", "pedestrian speed when moving, m/s", Form::Spread),
-    ("pedestrian_acceleration", "pedestrian acceleration, m/s2", Form::Spread),
-    ("pedestrian_yaw_rate", "pedestrian yaw rate, deg/s", Form::Spread),
-    ("pedestrian_slip", "pedestrian velocity off its heading, deg", Form::Spread),
-    ("pedestrian_wander", "pedestrian weaving in 3 s, cm", Form::Spread),
-    ("pedestrian_drift", "distance from constant velocity after 9 s, m", Form::Spread),
-    ("cyclist_stationary", "cyclists that move less than 1 m", Form::Share),
-    ("cyclist_speed", "cyclist speed when moving, m/s", Form::Spread),
-    ("cyclist_acceleration", "cyclist acceleration, m/s2", Form::Spread),
-    ("cyclist_yaw_rate", "cyclist yaw rate, deg/s", Form::Spread),
-    ("cyclist_wander", "cyclist weaving in 3 s, cm", Form::Spread),
-    ("cyclist_turns", "cyclists that turn by more than 45 deg", Form::Share),
+const ROWS: [(&str, &str, Aggregate); 45] = [
+    ("count_vehicle", "vehicles in 120 m x 120 m", Aggregate::Mean),
+    ("count_pedestrian", "pedestrians in 120 m x 120 m", Aggregate::Mean),
+    ("count_cyclist", "cyclists in 120 m x 120 m", Aggregate::Mean),
+    ("vehicle_stationary", "vehicles that move less than 0.8 m", Aggregate::Share),
+    ("vehicle_valid", "share of the window that a vehicle is seen", Aggregate::Mean),
+    ("vehicle_length", "vehicle length, m", Aggregate::Spread),
+    ("vehicle_width", "vehicle width, m", Aggregate::Spread),
+    ("vehicle_speed", "vehicle speed when moving, m/s", Aggregate::Spread),
+    ("vehicle_distance", "distance in 9 s of a moving vehicle, m", Aggregate::Spread),
+    ("vehicle_distance_from_rest", "the same from below 0.3 m/s, m", Aggregate::Spread),
+    ("vehicle_distance_fast", "the same from above 12 m/s, m", Aggregate::Spread),
+    ("vehicle_starts_at_rest", "moving vehicles that start below 0.3 m/s", Aggregate::Share),
+    ("vehicle_drift", "distance from constant velocity after 9 s, m", Aggregate::Spread),
+    ("vehicle_acceleration", "vehicle acceleration, m/s2", Aggregate::Spread),
+    ("vehicle_jerk", "vehicle jerk, m/s3", Aggregate::Spread),
+    ("vehicle_yaw_rate", "vehicle yaw rate, deg/s", Aggregate::Spread),
+    ("vehicle_lateral", "vehicle lateral acceleration, m/s2", Aggregate::Spread),
+    ("vehicle_slip", "vehicle velocity off its heading, deg", Aggregate::Spread),
+    ("vehicle_turn_speed", "speed while turning, m/s", Aggregate::Spread),
+    ("vehicle_turn_lateral", "lateral acceleration while turning, m/s2", Aggregate::Spread),
+    ("vehicle_turn_radius", "radius while turning, m", Aggregate::Spread),
+    ("vehicle_wander", "weaving in straight driving, cm", Aggregate::Spread),
+    ("vehicle_lane_offset", "offset from the lane's middle, m", Aggregate::Spread),
+    ("vehicle_heading_offset", "heading off the lane, deg", Aggregate::Spread),
+    ("vehicle_off_lane", "moving vehicles on no lane", Aggregate::Share),
+    ("vehicle_stop_and_go", "moving vehicles that also stand", Aggregate::Share),
+    ("vehicle_turns", "vehicles that turn by more than 45 deg", Aggregate::Share),
+    ("vehicle_turns_any", "vehicles that turn by more than 15 deg", Aggregate::Share),
+    ("vehicle_u_turns", "vehicles that turn by more than 150 deg", Aggregate::Share),
+    ("vehicle_has_leader", "moving vehicles with one ahead within 60 m", Aggregate::Share),
+    ("vehicle_gap", "gap to it, m", Aggregate::Spread),
+    ("vehicle_headway", "time to its place, s", Aggregate::Spread),
+    ("pedestrian_stationary", "pedestrians that move less than 1 m", Aggregate::Share),
+    ("pedestrian_speed", "pedestrian speed when moving, m/s", Aggregate::Spread),
+    ("pedestrian_acceleration", "pedestrian acceleration, m/s2", Aggregate::Spread),
+    ("pedestrian_yaw_rate", "pedestrian yaw rate, deg/s", Aggregate::Spread),
+    ("pedestrian_slip", "pedestrian velocity off its heading, deg", Aggregate::Spread),
+    ("pedestrian_wander", "pedestrian weaving in 3 s, cm", Aggregate::Spread),
+    ("pedestrian_drift", "distance from constant velocity after 9 s, m", Aggregate::Spread),
+    ("cyclist_stationary", "cyclists that move less than 1 m", Aggregate::Share),
+    ("cyclist_speed", "cyclist speed when moving, m/s", Aggregate::Spread),
+    ("cyclist_acceleration", "cyclist acceleration, m/s2", Aggregate::Spread),
+    ("cyclist_yaw_rate", "cyclist yaw rate, deg/s", Aggregate::Spread),
+    ("cyclist_wander", "cyclist weaving in 3 s, cm", Aggregate::Spread),
+    ("cyclist_turns", "cyclists that turn by more than 45 deg", Aggregate::Share),
 ];
 
 /// Values by row key, gathered scene by scene.
@@ -368,12 +368,12 @@ pub fn markdown(sources: &[(String, Statistics)]) -> String {
 }
 
 impl Summary {
-    fn text(&self, form: Form) -> String {
+    fn text(&self, form: Aggregate) -> String {
         let [p1, p5, p50, p95, p99] = self.percentiles;
         match form {
-            Form::Spread => format!("{p1:.2} {p5:.2} {p50:.2} {p95:.2} {p99:.2}"),
-            Form::Share => format!("{:.1} % of {}", 100.0 * self.mean, self.count),
-            Form::Mean => format!("{:.2} [{p5:.2}, {p95:.2}]", self.mean),
+            Aggregate::Spread => format!("{p1:.2} {p5:.2} {p50:.2} {p95:.2} {p99:.2}"),
+            Aggregate::Share => format!("{:.1} % of {}", 100.0 * self.mean, self.count),
+            Aggregate::Mean => format!("{:.2} [{p5:.2}, {p95:.2}]", self.mean),
         }
     }
 }

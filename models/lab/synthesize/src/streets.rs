@@ -1,6 +1,6 @@
 //! Networks of streets: one crossing with its arms, a grid, an arterial, a parking lot.
 
-use super::network::{Character, MPH, Network, Rank, Section, hermite, left_of, unit};
+use super::network::{Character, CrossSection, MPH, Network, Rank, hermite, left_of, unit};
 use formats::polyline::{arc_lengths, length, part, point_at};
 use scene::Vec2;
 use scene::geometry::{direction, rotate};
@@ -8,13 +8,13 @@ use scene::random::Stream;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Draws a cross-section for a street of this rank.
-pub fn section(draw: &mut Stream, rank: Rank) -> Section {
+pub fn section(draw: &mut Stream, rank: Rank) -> CrossSection {
     let yes = |draw: &mut Stream, p: f64, width: f64| if draw.chance(p) { width } else { 0.0 };
     match rank {
         Rank::Arterial => {
             let lanes = draw.one_of([2, 2, 3]);
             let bike = draw.between(1.5, 1.9);
-            Section {
+            CrossSection {
                 forward: lanes,
                 backward: lanes,
                 speed: draw.one_of([35.0, 35.0, 40.0, 45.0]) * MPH,
@@ -29,7 +29,7 @@ pub fn section(draw: &mut Stream, rank: Rank) -> Section {
         }
         Rank::Collector => {
             let bike = draw.between(1.4, 1.8);
-            Section {
+            CrossSection {
                 forward: 1,
                 backward: 1,
                 speed: draw.one_of([25.0, 30.0, 35.0]) * MPH,
@@ -42,7 +42,7 @@ pub fn section(draw: &mut Stream, rank: Rank) -> Section {
                 rank,
             }
         }
-        _ => Section {
+        _ => CrossSection {
             forward: 1,
             backward: 1,
             speed: 25.0 * MPH,
@@ -119,7 +119,7 @@ pub fn crossing(draw: &mut Stream) -> Network {
     net
 }
 
-fn arm(draw: &mut Stream, net: &mut Network, i: usize, angle: f64, section_: Section) {
+fn arm(draw: &mut Stream, net: &mut Network, i: usize, angle: f64, section_: CrossSection) {
     let (way, across) = (direction(angle), left_of(direction(angle)));
     let drift = if section_.rank == Rank::Arterial { 12.0 } else { 27.0 };
     let end = way * draw.between(230.0, 340.0) + across * draw.normal_about(0.0, drift);
@@ -186,10 +186,10 @@ impl District {
     }
 
     /// Section of the streets of one direction; the first direction is the busier one.
-    fn street(self, draw: &mut Stream, first: bool, main: bool) -> Section {
+    fn street(self, draw: &mut Stream, first: bool, main: bool) -> CrossSection {
         if main && self == Self::Quarter {
             let arterial = section(draw, Rank::Arterial);
-            return Section { median: arterial.median.max(arterial.lane), ..arterial };
+            return CrossSection { median: arterial.median.max(arterial.lane), ..arterial };
         }
         let busy = match (self, first) {
             (Self::Homes, true) | (Self::Quarter, _) => 0.3,
@@ -198,7 +198,7 @@ impl District {
             (Self::Centre, false) => 0.7,
         };
         let rank = if draw.chance(busy) { Rank::Collector } else { Rank::Residential };
-        Section { median: 0.0, ..section(draw, rank) }
+        CrossSection { median: 0.0, ..section(draw, rank) }
     }
 
     fn control(self, draw: &mut Stream, a: Rank, b: Rank) -> &'static str {
@@ -239,7 +239,7 @@ fn blocks(draw: &mut Stream, district: District, reach_m: f64) -> Network {
     let mains = size.map(|n| 1 + draw.below(n as usize - 2) as i32);
     let mut streets =
         |axis: usize| (0..size[axis]).map(|i| district.street(draw, axis == 0, i == mains[axis])).collect();
-    let (columns, rows): (Vec<Section>, Vec<Section>) = (streets(0), streets(1));
+    let (columns, rows): (Vec<CrossSection>, Vec<CrossSection>) = (streets(0), streets(1));
     let one_way: Vec<bool> = (0..size[0]).map(|_| centre && draw.chance(0.35)).collect();
     let name = |i: i32, j: i32| format!("n{}_{}", i + 1, j + 1);
     for i in -1..=size[0] {
@@ -348,7 +348,7 @@ pub fn arterial(draw: &mut Stream) -> Network {
 /// A parking lot behind a junction: an entry, then aisles with perpendicular stalls on both sides.
 fn lot_branch(draw: &mut Stream, net: &mut Network, at: &str, way: Vec2) {
     let (origin, across) = (net.position(at), left_of(way));
-    let aisle = Section {
+    let aisle = CrossSection {
         forward: 1,
         backward: 1,
         speed: 10.0 * MPH,
@@ -366,7 +366,7 @@ fn lot_branch(draw: &mut Stream, net: &mut Network, at: &str, way: Vec2) {
         let base = origin + way * (38.0 + pitch * k as f64);
         let id = format!("l{k}_{at}");
         net.node(&id, base, "priority", Some(if k == 0 { 4.0 } else { 3.0 }));
-        net.straight(&previous, &id, Section { speed: if k == 0 { 15.0 } else { 10.0 } * MPH, ..aisle });
+        net.straight(&previous, &id, CrossSection { speed: if k == 0 { 15.0 } else { 10.0 } * MPH, ..aisle });
         for (name, side) in [("l", 1.0), ("r", -1.0)] {
             let end = base + across * (side * half);
             let end_id = format!("{id}_{name}");

@@ -5,7 +5,7 @@ use super::filters::{gaussian, gradient, interpolate, noise, unwrap};
 use super::fleet::ActorKind;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::polyline::{arc_lengths, point_at};
-use formats::sumo::fcd::Record;
+use formats::sumo::fcd::FcdTrack;
 use scene::geometry::direction;
 use scene::random::Stream;
 use scene::{AgentType, STANDING_MPS, State, Vec2, wrap_angle};
@@ -34,7 +34,7 @@ impl Cleaned {
 }
 
 /// Cleans one recording; `None` when it is too short or has gaps.
-pub fn clean(record: &Record, kind: &ActorKind, draw: &mut Stream) -> Option<Cleaned> {
+pub fn clean(record: &FcdTrack, kind: &ActorKind, draw: &mut Stream) -> Option<Cleaned> {
     let step = |t: f64| ((t - WARM_UP_S) / DT_S).round() as isize;
     let steps: Vec<isize> = record.times_s.iter().map(|t| step(*t)).collect();
     let last_step = (RECORDED_S / DT_S) as isize;
@@ -114,7 +114,12 @@ impl Habit {
 
 /// A vehicle or road cyclist: the recorded front bumper gives a smooth path and progress along it; the
 /// rear axle follows the path.
-fn drive(record: &Record, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
+fn drive(
+    record: &FcdTrack,
+    range: std::ops::Range<usize>,
+    kind: &ActorKind,
+    draw: &mut Stream,
+) -> Vec<State> {
     let body = kind.size.length_m;
     let habit = Habit::new(kind, draw);
     let (points, speeds) = (&record.positions[range.clone()], &record.speeds_mps[range.clone()]);
@@ -212,7 +217,7 @@ fn smooth_path(
 }
 
 /// A person on foot (or a cyclist among them).
-fn walk(record: &Record, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
+fn walk(record: &FcdTrack, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
     let heading_0 = record.headings_rad[range.start];
     let points = blur(&record.positions[range], 5.0);
     let n = points.len();
@@ -303,9 +308,9 @@ mod tests {
     }
 
     /// 10 m/s east, then a stop.
-    fn record() -> Record {
+    fn record() -> FcdTrack {
         let speed = |i: usize| (10.0 - 0.03 * i as f64 * DT_S * 30.0).max(0.0);
-        let mut record = Record { vehicle_type: "car0".into(), ..Record::default() };
+        let mut record = FcdTrack { vehicle_type: "car0".into(), ..FcdTrack::default() };
         let mut x = 0.0;
         for i in 0..300 {
             record.times_s.push(WARM_UP_S + i as f64 * DT_S);

@@ -1,6 +1,6 @@
 //! Networks built of directed edges: roundabouts and motorways with ramps.
 
-use super::network::{MPH, Network, Rank, Section, hermite, left_of, unit};
+use super::network::{CrossSection, MPH, Network, Rank, hermite, left_of, unit};
 use super::streets::{character, section};
 use formats::polyline::{arc_lengths, length, offset_right, part, point_at};
 use scene::Vec2;
@@ -23,7 +23,7 @@ pub fn roundabout(draw: &mut Stream) -> Network {
     let main = section(draw, Rank::Collector);
     let side_rank = if draw.chance(0.4) { Rank::Residential } else { Rank::Collector };
     let side = section(draw, side_rank);
-    let bare = |s: Section| Section { parking: 0.0, bike: 0.0, median: 1.2, ..s };
+    let bare = |s: CrossSection| CrossSection { parking: 0.0, bike: 0.0, median: 1.2, ..s };
     ring(&mut net, &angles, radius, lanes, 0.0);
     for (i, &angle) in angles.iter().enumerate() {
         let s = bare(if i % 2 == 0 { main } else { side });
@@ -48,7 +48,7 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewa
         net.node(id, direction(*angle) * radius, "priority", Some(4.0));
     }
     mouths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let s = Section {
+    let s = CrossSection {
         forward: lanes,
         backward: 0,
         speed: if radius < 17.0 { 15.0 } else { 20.0 } * MPH,
@@ -69,7 +69,7 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewa
         let edge = format!("ring{k}");
         // Across the mouth of an arm there is nowhere to walk.
         let walk = if id.starts_with("ri") { sidewalk } else { 0.0 };
-        net.edge(&edge, [id, next], arc, lanes, Section { sidewalk: walk, ..s }, false);
+        net.edge(&edge, [id, next], arc, lanes, CrossSection { sidewalk: walk, ..s }, false);
         edges.push(edge);
     }
     net.roundabout(mouths.into_iter().map(|m| m.1).collect(), edges);
@@ -81,7 +81,7 @@ pub struct Arm {
     /// Direction from the middle of the ring, radians.
     pub angle: f64,
     /// Section of the street.
-    pub section: Section,
+    pub section: CrossSection,
     /// Width of the sidewalk along entry and exit, metres.
     pub sidewalk: f64,
     /// The street's length, sideways end and bend.
@@ -108,7 +108,7 @@ pub fn approach(net: &mut Network, i: usize, arm: Arm, radius: f64, lanes: usize
     let gap = across * (s.median / 2.0);
     let lead_in = hermite(near + gap, -way, net.position(&entry), inward);
     let lead_out = hermite(net.position(&exit), outward, near - gap, way);
-    let slow = Section { speed: 20.0 * MPH, priority: 3, sidewalk, rank: Rank::Collector, ..s };
+    let slow = CrossSection { speed: 20.0 * MPH, priority: 3, sidewalk, rank: Rank::Collector, ..s };
     net.edge(&format!("in{i}"), [&splitter, &entry], lead_in, s.forward, slow, false);
     net.edge(&format!("out{i}"), [&exit, &splitter], lead_out, s.backward, slow, false);
 }
@@ -172,7 +172,7 @@ pub fn carriageway(
         if k == 0 || k == 5 { net.end(&node(k), place) } else { net.node(&node(k), place, "priority", None) }
     }
     let lane = 3.6;
-    let s = Section {
+    let s = CrossSection {
         forward: shape.lanes,
         backward: 0,
         speed: shape.speed,
@@ -206,7 +206,7 @@ pub fn carriageway(
         let far = mouth + way * if entry { -150.0 } else { 150.0 } + right * aside;
         let ramp = format!("ramp{name}{k}");
         net.end(&ramp, far);
-        let slow = Section { speed: if entry { 45.0 } else { 40.0 } * MPH, priority: 6, ..s };
+        let slow = CrossSection { speed: if entry { 45.0 } else { 40.0 } * MPH, priority: 6, ..s };
         if entry {
             net.edge(
                 &ramp,

@@ -1,6 +1,6 @@
 //! Cuts a recording into windows of 91 steps, each about one road user.
 
-use super::recording::{Actor, CHECK_EVERY, Recording};
+use super::recording::{CHECK_EVERY, SimulatedAgent, SimulatedRecording};
 use super::sight;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::map::NetMap;
@@ -43,7 +43,12 @@ pub struct Drops {
 }
 
 /// Cuts `count` windows at even distances.
-pub fn cut(recording: &Recording, seed: u64, count: usize, draw: &mut Stream) -> (Vec<Scene>, Drops) {
+pub fn cut(
+    recording: &SimulatedRecording,
+    seed: u64,
+    count: usize,
+    draw: &mut Stream,
+) -> (Vec<Scene>, Drops) {
     let last = (RECORDED_S / DT_S) as usize - STEPS;
     let mut used: HashMap<usize, i32> = HashMap::new();
     let mut drops = Drops::default();
@@ -66,21 +71,21 @@ fn in_window(steps: &[usize], start: usize) -> bool {
     steps.iter().any(|s| (start..start + STEPS).contains(s))
 }
 
-fn overlaps_in(actor: &Actor, start: usize) -> bool {
+fn overlaps_in(actor: &SimulatedAgent, start: usize) -> bool {
     actor.overlaps.iter().any(|s| s + CHECK_EVERY > start && *s < start + STEPS)
 }
 
 /// The road user that a window is about: seen all the time, moving if possible, seldom used before.
 fn choose(
-    recording: &Recording,
+    recording: &SimulatedRecording,
     start: usize,
     wanted: AgentType,
     used: &HashMap<usize, i32>,
     draw: &mut Stream,
 ) -> Option<usize> {
     let reach = recording.network.character.reach;
-    let whole = |a: &Actor| a.track.at(start).is_some() && a.track.at(start + STEPS - 1).is_some();
-    let fits = |a: &Actor| {
+    let whole = |a: &SimulatedAgent| a.track.at(start).is_some() && a.track.at(start + STEPS - 1).is_some();
+    let fits = |a: &SimulatedAgent| {
         let near = a.track.at(start + NOW).is_some_and(|s| s.position().norm() < reach);
         near && !a.parked && whole(a) && !in_window(&a.track.jumps, start) && !overlaps_in(a, start)
     };
@@ -120,7 +125,7 @@ struct Cast {
     origin: Vec2,
 }
 
-fn cast(recording: &Recording, start: usize, centre: usize, drops: &mut Drops) -> Option<Cast> {
+fn cast(recording: &SimulatedRecording, start: usize, centre: usize, drops: &mut Drops) -> Option<Cast> {
     let place = recording.actors[centre].track.at(start + NOW)?.position();
     let origin = place.map(|v| snap(v, 512.0));
     let close = |i: &usize| {
@@ -156,7 +161,7 @@ fn cast(recording: &Recording, start: usize, centre: usize, drops: &mut Drops) -
 }
 
 /// Steps of a window and states that are near enough to be seen, about the origin.
-fn seen(actor: &Actor, start: usize, origin: Vec2) -> impl Iterator<Item = (usize, State)> {
+fn seen(actor: &SimulatedAgent, start: usize, origin: Vec2) -> impl Iterator<Item = (usize, State)> {
     let shifted = move |step: usize| {
         let state = actor.track.at(start + step)?;
         let p = state.position() - origin;
@@ -172,7 +177,7 @@ fn snap(value: f64, parts: f64) -> f64 {
 }
 
 /// A scene of the given road users; the first is the ego.
-fn window(recording: &Recording, start: usize, cast: &Cast, id: String, name: String) -> Scene {
+fn window(recording: &SimulatedRecording, start: usize, cast: &Cast, id: String, name: String) -> Scene {
     let mut agents = Vec::new();
     for (n, &i) in cast.actors.iter().enumerate() {
         let actor = &recording.actors[i];
@@ -218,7 +223,7 @@ fn window(recording: &Recording, start: usize, cast: &Cast, id: String, name: St
 }
 
 /// States of the signals of a map's features over a window.
-pub fn signals(recording: &Recording, start: usize, map: &LaneMap, origin: Vec2) -> Vec<Signal> {
+pub fn signals(recording: &SimulatedRecording, start: usize, map: &LaneMap, origin: Vec2) -> Vec<Signal> {
     let lanes = map.lanes.iter().map(|l| l.id.as_str());
     let kept: HashSet<&str> = lanes.chain(map.crosswalks.iter().map(|c| c.id.as_str())).collect();
     let from_s = WARM_UP_S + start as f64 * DT_S;

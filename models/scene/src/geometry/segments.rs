@@ -94,12 +94,12 @@ pub struct SegmentIndex {
     all: Vec<Segment>,
     /// Cells in rows from south to north, each with a piece that passes through it.
     cells: Vec<(u64, u32)>,
-    table: Option<Table>,
+    table: Option<CellTable>,
 }
 
 /// Where each cell of a rectangle of cells begins in the array.
 #[derive(Clone, Debug)]
-struct Table {
+struct CellTable {
     left: i32,
     bottom: i32,
     columns: usize,
@@ -108,7 +108,7 @@ struct Table {
     first: Vec<u32>,
 }
 
-impl Table {
+impl CellTable {
     /// Of sorted cells; `None` where they are few for the ground that they lie on.
     fn of(cells: &[(u64, u32)]) -> Option<Self> {
         let (low, high) = (cells.first()?.0, cells.last()?.0);
@@ -162,7 +162,7 @@ impl SegmentIndex {
         }
         cells.sort_unstable();
         cells.dedup();
-        let table = Table::of(&cells);
+        let table = CellTable::of(&cells);
         Self { all, cells, table }
     }
 

@@ -32,7 +32,7 @@ pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGra
     if states.is_empty() {
         return None;
     }
-    let shape = Shape::of(states);
+    let shape = PathShape::of(states);
     if shape.way_m < STAYS_M {
         return Some(Manoeuvre::Stays);
     }
@@ -61,7 +61,7 @@ pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGra
     Some(turned.filter(|_| taken.junction).or(changed).unwrap_or(Manoeuvre::Straight))
 }
 
-struct Shape {
+struct PathShape {
     way_m: f64,
     /// Of it with the back ahead.
     backwards_m: f64,
@@ -71,7 +71,7 @@ struct Shape {
     aside_m: f64,
 }
 
-impl Shape {
+impl PathShape {
     fn of(states: &[State]) -> Self {
         let mut shape = Self { way_m: 0.0, backwards_m: 0.0, turn_rad: 0.0, aside_m: 0.0 };
         let end = states.len().saturating_sub(1);
@@ -93,14 +93,14 @@ impl Shape {
 }
 
 /// How the lanes lead from start to end.
-struct Taken {
+struct LaneTransition {
     /// Lanes changed to the left, less those to the right.
     shift: i32,
     /// Through a junction, or where the ways part.
     junction: bool,
 }
 
-fn taken(lanes: &LaneGraph, agent_type: AgentType, states: &[State]) -> Option<Taken> {
+fn taken(lanes: &LaneGraph, agent_type: AgentType, states: &[State]) -> Option<LaneTransition> {
     let on = |state: &State| -> Vec<LaneHit> {
         let along = |hit: &LaneHit| wrap_angle(hit.heading_rad - state.heading_rad).abs() < ALONG_LANE_RAD;
         lanes.nearest_for(state.position(), ON_LANE_M, agent_type).into_iter().filter(along).collect()
@@ -122,14 +122,14 @@ fn taken(lanes: &LaneGraph, agent_type: AgentType, states: &[State]) -> Option<T
         let lane = &lanes.lanes()[at];
         let junction = junction || lane.interpolating;
         if is_end(at) {
-            return Some(Taken { shift, junction });
+            return Some(LaneTransition { shift, junction });
         }
         let parts = lane.successors.len() > 1;
         for next in lane.successors.iter().rev() {
             queue.push_front((*next, shift, junction || parts));
         }
         if shift.abs() < MOST_CHANGES {
-            let beside = |side: i32| move |b: &crate::routes::Beside| (b.lane, shift + side);
+            let beside = |side: i32| move |b: &crate::routes::AdjacentLane| (b.lane, shift + side);
             let left = lane.left.iter().filter(|b| b.same_direction).map(beside(1));
             let right = lane.right.iter().filter(|b| b.same_direction).map(beside(-1));
             queue.extend(left.chain(right).map(|(lane, shift)| (lane, shift, junction)));

@@ -9,7 +9,7 @@ mod trace;
 pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
 pub use manoeuvre::manoeuvre;
 pub use relations::relations;
-pub use trace::{Ground, Trace, crossing};
+pub use trace::{SharedGround, Trace, crossing};
 
 use crate::score::goal::goal_error;
 use crate::score::kinematic::{harsh_braking, harsh_steering};
@@ -17,7 +17,7 @@ use crate::score::pairs::{Meeting, Mover};
 use crate::score::recorded;
 use crate::score::report::{RedLight, Stretch};
 use crate::score::road::{RoadScore, score_road};
-use crate::score::signals::{StopLine, crossed_at_red, stop_lines};
+use crate::score::signals::{SignalStopLine, crossed_at_red, stop_lines};
 use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
 use crate::via::passings;
 use crate::{AgentType, LaneMap, Passing, STEP_S, Signal, State, Via};
@@ -38,7 +38,7 @@ pub const HARSH_S: f64 = 0.2;
 pub struct Judge<'a> {
     /// Nobody is in it: the map, the time and the thresholds.
     input: ScoreInput<'a>,
-    lines: Vec<StopLine<'a>>,
+    lines: Vec<SignalStopLine<'a>>,
 }
 
 /// Somebody else with the motion that one may meet.

@@ -1,7 +1,7 @@
 //! How a motion stands to others': who is first where paths cross, who is followed, who is let go first.
 
 use super::trace::{
-    GOES_M, Ground, MOMENT_S, Moment, QUEUE_M, SAME_WAY_RAD, STRIDE, Trace, WINDOW_S, crossing,
+    GOES_M, MOMENT_S, Moment, QUEUE_M, SAME_WAY_RAD, STRIDE, SharedGround, Trace, WINDOW_S, crossing,
 };
 use super::{Relation, RelationKind, rounded};
 use crate::geometry::cross;
@@ -73,7 +73,7 @@ fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
     crosses.or_else(|| follows(me, other))
 }
 
-fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &Ground) -> Option<Found<'a>> {
+fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &SharedGround) -> Option<Found<'a>> {
     let there = me.moments.get(ground.enters.0).and_then(Option::as_ref);
     let place = match there.filter(|_| !ground.beyond) {
         Some(moment) => moment.center,
@@ -91,7 +91,7 @@ fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &Ground) -> Option<Found<
 }
 
 /// It slows down or waits before the shared ground until the other has been there.
-fn gives_way(me: &Trace, ground: &Ground) -> bool {
+fn gives_way(me: &Trace, ground: &SharedGround) -> bool {
     let enters = ground.enters.0;
     let Some(at) = me.moments.get(enters).and_then(Option::as_ref) else { return false };
     let until = enters.min(ground.theirs.1 + (1.0 / MOMENT_S) as usize);

@@ -188,9 +188,9 @@ impl Trace {
     }
 }
 
-/// Ground that two use within [`WINDOW_S`] of each other: moments of both.
+/// Ground that two agents use within [`WINDOW_S`] of each other: moments of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ground {
+pub struct SharedGround {
     /// The moment at which the first of the two comes there, and the other's that it meets first.
     pub(super) enters: (usize, usize),
     /// The pair of moments with the least shift.
@@ -205,7 +205,7 @@ pub struct Ground {
     pub(super) beyond: bool,
 }
 
-impl Ground {
+impl SharedGround {
     /// Who is first: 1 for the first one, -1 for the other, 0 where they meet.
     pub fn order(&self) -> i64 {
         match self.shift {
@@ -223,7 +223,7 @@ impl Ground {
 
 /// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
 /// for two walkers.
-pub fn crossing(me: &Trace, other: &Trace) -> Option<Ground> {
+pub fn crossing(me: &Trace, other: &Trace) -> Option<SharedGround> {
     let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
     if walkers || other.way_m < GOES_M || !me.may_meet(other) {
         return None;
@@ -242,10 +242,10 @@ fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
     starts_on(other, me) || starts_on(me, other)
 }
 
-fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
+fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
     let window = (WINDOW_S / MOMENT_S) as usize;
     let reach = me.radius_m + other.radius_m;
-    let mut found: Option<Ground> = None;
+    let mut found: Option<SharedGround> = None;
     let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?, false)));
     let last = me.moments.len().saturating_sub(1);
     let beyond = me.goes_on.iter().map(|moment| (last, moment, true));
@@ -275,7 +275,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
             }
             if other.overlaps(moment, me, here) {
                 let shift = j as i64 - i as i64;
-                let now = Ground {
+                let now = SharedGround {
                     enters: (i, j),
                     nearest: (i, j),
                     mine: (i, i),
@@ -291,7 +291,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
     found
 }
 
-impl Ground {
+impl SharedGround {
     fn and(self, more: &Self) -> Self {
         let span = |a: (usize, usize), b: (usize, usize)| (a.0.min(b.0), a.1.max(b.1));
         let nearer = more.shift.0.abs() < (self.nearest.1 as i64 - self.nearest.0 as i64).abs();

@@ -6,7 +6,7 @@
 
 use super::drive::{rollout, sensitivities};
 use super::walk::position_row;
-use super::{CONTROLS, Gear, Kind, Knots, MotionModel};
+use super::{CONTROLS, Gear, Knots, MotionKind, MotionModel};
 use crate::{KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
@@ -36,8 +36,8 @@ pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
         return model.coasting();
     }
     match model.kind {
-        Kind::Drive => fit_drive(model, samples),
-        Kind::Walk => fit_walk(model, samples),
+        MotionKind::Drive => fit_drive(model, samples),
+        MotionKind::Walk => fit_walk(model, samples),
     }
 }
 
@@ -47,7 +47,7 @@ pub fn refit_after(model: &MotionModel, knots: &Knots, step: usize, samples: &[S
     // Up to the one before, the motion before that step depends on them.
     let free = step.div_ceil(KNOT_STEPS) + 1;
     let after = samples.partition_point(|s| s.step <= step);
-    if model.kind != Kind::Drive || free >= KNOTS || after == samples.len() {
+    if model.kind != MotionKind::Drive || free >= KNOTS || after == samples.len() {
         return *knots;
     }
     refine_positions(model, &samples[after..], *knots, free)

@@ -12,7 +12,7 @@ pub mod walk;
 mod whiten;
 
 pub use fit::{Sampled, fit, refit_after};
-pub use project::{GoalError, Limiting, Pass, Projection, Reach, Target, project, project_through};
+pub use project::{Limiting, Pass, Projection, Reach, Target, TargetError, project, project_through};
 pub use tension::Tension;
 pub use whiten::knot_covariance_factor;
 
@@ -92,7 +92,7 @@ pub enum Gear {
 
 /// How a road user moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum MotionKind {
     /// Wheels: acceleration and curvature.
     Drive,
     /// Feet: velocity.
@@ -103,7 +103,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionModel {
     /// Wheels or feet.
-    pub kind: Kind,
+    pub kind: MotionKind,
     /// Bounds that no rollout breaks.
     pub limits: Limits,
     /// Start of the box centre, scene frame.
@@ -123,7 +123,7 @@ impl MotionModel {
     /// The model of a road user of this kind and size from this start.
     pub fn new(agent_type: AgentType, subtype: Subtype, size: Size, start: State) -> Self {
         let limits = Limits::of(agent_type, subtype, size.length_m);
-        let kind = if agent_type == AgentType::Pedestrian { Kind::Walk } else { Kind::Drive };
+        let kind = if agent_type == AgentType::Pedestrian { MotionKind::Walk } else { MotionKind::Drive };
         let offset_m = limits.reference_offset * size.length_m;
         Self { kind, limits, start, offset_m, gear: Gear::Forward, turn_to: None }
     }
@@ -137,11 +137,11 @@ impl MotionModel {
     pub fn start_speed_mps(&self) -> f64 {
         let along = self.start.velocity().dot(&direction(self.start.heading_rad));
         match (self.kind, self.gear) {
-            (Kind::Walk, _) => self.start.speed_mps(),
+            (MotionKind::Walk, _) => self.start.speed_mps(),
             // A logged velocity has a sideways part from turning; the norm is the better speed.
-            (Kind::Drive, Gear::Forward) if along > 0.0 => self.start.speed_mps(),
-            (Kind::Drive, Gear::Forward) => 0.0,
-            (Kind::Drive, Gear::Reverse) => (-along).max(0.0),
+            (MotionKind::Drive, Gear::Forward) if along > 0.0 => self.start.speed_mps(),
+            (MotionKind::Drive, Gear::Forward) => 0.0,
+            (MotionKind::Drive, Gear::Reverse) => (-along).max(0.0),
         }
     }
 
@@ -158,8 +158,8 @@ impl MotionModel {
     /// The knots of staying put or moving on unchanged: no acceleration, no turning.
     pub fn coasting(&self) -> Knots {
         match self.kind {
-            Kind::Drive => Knots::default(),
-            Kind::Walk => {
+            MotionKind::Drive => Knots::default(),
+            MotionKind::Walk => {
                 let v = rotate(self.start.velocity(), -self.start.heading_rad);
                 Knots { first: [v.x; KNOTS], second: [v.y; KNOTS] }
             }
@@ -169,16 +169,16 @@ impl MotionModel {
     /// The nearest knots within the limits.
     pub fn legal(&self, knots: &Knots) -> Knots {
         match self.kind {
-            Kind::Drive => drive::legal(self, knots),
-            Kind::Walk => walk::legal(self, knots),
+            MotionKind::Drive => drive::legal(self, knots),
+            MotionKind::Walk => walk::legal(self, knots),
         }
     }
 
     /// Motion of these knots from the start, scene frame. Never breaks a limit, whatever the knots.
     pub fn rollout(&self, knots: &Knots) -> Trajectory {
         let mut local = match self.kind {
-            Kind::Drive => drive::rollout(self, knots),
-            Kind::Walk => walk::rollout(self, knots),
+            MotionKind::Drive => drive::rollout(self, knots),
+            MotionKind::Walk => walk::rollout(self, knots),
         };
         for state in &mut local {
             state.position = self.to_scene(state.position);
@@ -198,26 +198,26 @@ pub fn limit_excess(model: &MotionModel, states: &[MotionState]) -> f64 {
     let mut worst = f64::NEG_INFINITY;
     for w in states.windows(2) {
         let moved = match model.kind {
-            Kind::Drive => (reference(&w[1]) - reference(&w[0])).norm(),
-            Kind::Walk => (w[1].position - w[0].position).norm(),
+            MotionKind::Drive => (reference(&w[1]) - reference(&w[0])).norm(),
+            MotionKind::Walk => (w[1].position - w[0].position).norm(),
         };
         let speed = moved / STEP_S;
         worst = worst.max(speed - top - 1e-6);
         match model.kind {
-            Kind::Drive => {
+            MotionKind::Drive => {
                 let turn = wrap_angle(w[1].heading_rad - w[0].heading_rad).abs();
                 if speed > 0.05 {
                     worst = worst.max(turn / moved - l.curvature_per_m - 1e-3);
                 }
                 worst = worst.max(speed * turn / STEP_S - l.lateral_mps2 - 1e-2);
             }
-            Kind::Walk => {
+            MotionKind::Walk => {
                 let change = (w[1].velocity - w[0].velocity).norm() / STEP_S;
                 worst = worst.max(change - l.accel_mps2 - 1e-6);
             }
         }
     }
-    if model.kind == Kind::Drive {
+    if model.kind == MotionKind::Drive {
         // Speeding up and braking from the distances of neighbouring steps.
         for w in states.windows(3) {
             let first = (reference(&w[1]) - reference(&w[0])).norm();

@@ -7,10 +7,12 @@ use super::drive::{curvature_cut, sensitivities};
 use super::fit::{Sampled, fit};
 use super::walk::{position_row, velocity_row};
 use super::whiten::Whitening;
-use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
+use super::{CONTROLS, Knots, MotionKind, MotionModel, MotionState, Trajectory};
 use crate::geometry::direction;
 use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, MAX_VIAS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// What must hold at one step; `None` leaves a field free. Scene frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,7 +46,7 @@ impl Target {
 
 /// How far a state is from a target; zero for free fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GoalError {
+pub struct TargetError {
     /// Metres.
     pub position_m: f64,
     /// Radians, not negative.
@@ -53,7 +55,7 @@ pub struct GoalError {
     pub speed_mps: f64,
 }
 
-impl GoalError {
+impl TargetError {
     /// Of a state against a target.
     pub fn of(state: &MotionState, target: &Target) -> Self {
         Self {
@@ -73,18 +75,19 @@ impl GoalError {
     }
 }
 
-/// Which limit keeps a goal out of reach.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The limit of motion that binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Limiting {
-    /// Cannot speed up that much.
+    /// Speeding up, m/s2.
     Acceleration,
-    /// Cannot stop or slow down that soon.
+    /// Slowing down, m/s2.
     Braking,
-    /// Top speed.
+    /// Top speed, m/s.
     Speed,
-    /// Sideways grip at this speed.
+    /// Sideways acceleration, m/s2.
     Lateral,
-    /// Steering lock.
+    /// Tightness of a turn, 1/m.
     Curvature,
     /// Somebody is in the way and does not get out of it.
     Traffic,
@@ -94,13 +97,13 @@ pub enum Limiting {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// All fixed fields hold.
-    Reached(GoalError),
+    Reached(TargetError),
     /// No motion within the limits was found that meets it.
     Unreachable {
         /// State at the target's step that came nearest.
         nearest: MotionState,
         /// What is left.
-        residuals: GoalError,
+        residuals: TargetError,
         /// The limit that binds.
         limiting: Limiting,
         /// What it would take in that limit's unit, where a formula tells.
@@ -154,7 +157,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     let near = model.legal(near);
     if target.is_free() {
         let trajectory = model.rollout(&near);
-        return Projection { knots: near, trajectory, reach: Reach::Reached(GoalError::default()) };
+        return Projection { knots: near, trajectory, reach: Reach::Reached(TargetError::default()) };
     }
     let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
     let mut best: Option<(f64, MotionModel, Knots, Trajectory)> = None;
@@ -163,7 +166,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
         let knots = solve::<TARGET_ROWS>(&variant, &near, guess, &target, &[]);
         let knots = calm_after(&variant, knots, &near, &target);
         let trajectory = variant.rollout(&knots);
-        let residuals = GoalError::of(&trajectory[target.step], &target);
+        let residuals = TargetError::of(&trajectory[target.step], &target);
         let norm = residuals.norm();
         if best.as_ref().is_none_or(|b| norm < b.0) {
             best = Some((norm, variant, knots, trajectory));
@@ -200,7 +203,7 @@ pub fn project_through(
     let near = model.legal(near);
     let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
     // Who stands at its goal on foot turns there.
-    let turns = model.kind == Kind::Walk && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
+    let turns = model.kind == MotionKind::Walk && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
     let turn_to = target.heading_rad.filter(|_| turns).map(|heading_rad| (target.step, heading_rad));
     let model = MotionModel { turn_to, ..*model };
     let knots = solve::<THROUGH_ROWS>(&model, &near, *guess, &target, &passes[..passes.len().min(MAX_VIAS)]);
@@ -211,7 +214,7 @@ pub fn project_through(
 
 /// A motion with the verdict on its target.
 fn judged(model: &MotionModel, knots: Knots, trajectory: Trajectory, target: &Target) -> Projection {
-    let residuals = GoalError::of(&trajectory[target.step], target);
+    let residuals = TargetError::of(&trajectory[target.step], target);
     let reach = if residuals.is_met() {
         Reach::Reached(residuals)
     } else {
@@ -229,8 +232,8 @@ fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Targ
     let last = target.step.div_ceil(KNOT_STEPS);
     for i in last + 1..KNOTS {
         (knots.first[i], knots.second[i]) = match model.kind {
-            Kind::Drive => (near.first[i], near.second[i]),
-            Kind::Walk => (knots.first[last], knots.second[last]),
+            MotionKind::Drive => (near.first[i], near.second[i]),
+            MotionKind::Walk => (knots.first[last], knots.second[last]),
         };
     }
     model.legal(&knots)
@@ -253,7 +256,7 @@ fn attempts(
     let from_wide_curve: FirstGuess = |m, _, target, _| curve_guess(m, target, 1.8);
     let mut out: Vec<(MotionModel, FirstGuess)> = Vec::with_capacity(6);
     match model.kind {
-        Kind::Walk => {
+        MotionKind::Walk => {
             let standing = MotionModel { turn_to: target.heading_rad.map(|h| (target.step, h)), ..*model };
             let may_stand = target.heading_rad.is_some() && target.speed_mps.is_none_or(|v| v < STANDING_MPS);
             let must_stand =
@@ -268,7 +271,7 @@ fn attempts(
                 out.extend([(standing, from_near), (standing, from_zero)]);
             }
         }
-        Kind::Drive => {
+        MotionKind::Drive => {
             if warm.is_some() {
                 out.push((*model, from_warm));
             }
@@ -286,13 +289,13 @@ fn attempts(
 }
 
 /// Target minus value, and the value's derivatives; rows that are not asked are zero and inactive.
-struct Linear<const ROWS: usize> {
+struct Linearized<const ROWS: usize> {
     residual: SVector<f64, ROWS>,
     jacobian: SMatrix<f64, ROWS, CONTROLS>,
     active: [bool; ROWS],
 }
 
-impl<const ROWS: usize> Linear<ROWS> {
+impl<const ROWS: usize> Linearized<ROWS> {
     fn none() -> Self {
         Self { residual: SVector::zeros(), jacobian: SMatrix::zeros(), active: [false; ROWS] }
     }
@@ -336,10 +339,10 @@ fn linearise<const ROWS: usize>(
     knots: &Knots,
     target: &Target,
     passes: &[Pass],
-) -> Linear<ROWS> {
+) -> Linearized<ROWS> {
     match model.kind {
-        Kind::Drive => linearise_drive(model, knots, target, passes),
-        Kind::Walk => linearise_walk(model, knots, target, passes),
+        MotionKind::Drive => linearise_drive(model, knots, target, passes),
+        MotionKind::Walk => linearise_walk(model, knots, target, passes),
     }
 }
 
@@ -348,8 +351,8 @@ fn linearise_drive<const ROWS: usize>(
     knots: &Knots,
     target: &Target,
     passes: &[Pass],
-) -> Linear<ROWS> {
-    let mut out = Linear::none();
+) -> Linearized<ROWS> {
+    let mut out = Linearized::none();
     let mut steps: Vec<usize> = passes.iter().map(|pass| pass.step).chain([target.step]).collect();
     steps.sort_unstable();
     steps.dedup();
@@ -382,8 +385,8 @@ fn linearise_walk<const ROWS: usize>(
     knots: &Knots,
     target: &Target,
     passes: &[Pass],
-) -> Linear<ROWS> {
-    let mut out = Linear::none();
+) -> Linearized<ROWS> {
+    let mut out = Linearized::none();
     let apply = |row: &[f64; KNOTS], channel: &[f64; KNOTS]| -> f64 {
         row.iter().zip(channel).map(|(r, u)| r * u).sum()
     };
@@ -448,7 +451,7 @@ fn linearise_walk<const ROWS: usize>(
 
 /// Smallest whitened change from `wanted` that meets the linearised target.
 fn gauss_newton_step<const ROWS: usize>(
-    linear: &Linear<ROWS>,
+    linear: &Linearized<ROWS>,
     residual: &SVector<f64, ROWS>,
     to_wanted: &Controls,
     free: &[bool; CONTROLS],
@@ -502,7 +505,7 @@ fn solve<const ROWS: usize>(
     let mut knots = model.legal(&first_guess);
     let whitening = Whitening::new(model, typical_speed(model, target));
     let everything = [true; CONTROLS];
-    let mut linear: Linear<ROWS> = linearise(model, &knots, target, passes);
+    let mut linear: Linearized<ROWS> = linearise(model, &knots, target, passes);
     for iteration in 0..ITERATIONS {
         let norm = linear.norm();
         if norm < TOLERANCE {
@@ -522,7 +525,7 @@ fn solve<const ROWS: usize>(
             let residual = linear.residual - linear.jacobian * (held - u);
             held + gauss_newton_step(&linear, &residual, &((near - held) * pull), &free, &whitening)
         };
-        let mut best: Option<(Knots, Linear<ROWS>)> = None;
+        let mut best: Option<(Knots, Linearized<ROWS>)> = None;
         for length in [1.0, 0.4, 0.1] {
             let trial = model.legal(&unpack(&(u + (full - u) * length)));
             let trial_linear = linearise(model, &trial, target, passes);
@@ -620,8 +623,8 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
     if let Some(goal) = target.position {
         let local = model.to_local(goal);
         let distance = match model.kind {
-            Kind::Drive => arc_through(local).0,
-            Kind::Walk => local.norm(),
+            MotionKind::Drive => arc_through(local).0,
+            MotionKind::Walk => local.norm(),
         };
         let to_top = ((l.speed_mps - v0) / l.accel_mps2).clamp(0.0, seconds);
         let farthest =
@@ -652,7 +655,7 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
             return (Limiting::Braking, Some(-rate));
         }
     }
-    if model.kind == Kind::Walk {
+    if model.kind == MotionKind::Walk {
         return (Limiting::Acceleration, None);
     }
     explain_turn(model, knots, target)

@@ -109,7 +109,7 @@ fn success_rate(kind: AgentType, speed: f64, subset: u8) -> f64 {
         let target = reachable(&model, &model.legal(&u), [90, 60, 35][i % 3], subset);
         let answer = project(&model, &model.coasting(), &target, None);
         assert!(limit_excess(&model, &answer.trajectory) <= 0.0);
-        let residuals = GoalError::of(&answer.trajectory[target.step], &target);
+        let residuals = TargetError::of(&answer.trajectory[target.step], &target);
         assert_eq!(answer.reach.is_reached(), residuals.is_met());
         met += usize::from(answer.reach.is_reached());
     }

@@ -2,7 +2,7 @@
 //! the more the faster the road user is. Lengths of 4 s for acceleration and 1.5 s for curvature gave the
 //! motions nearest to recorded ones of those tried.
 
-use super::{CONTROLS, Kind, MotionModel};
+use super::{CONTROLS, MotionKind, MotionModel};
 use crate::{KNOT_S, KNOTS};
 use nalgebra::SMatrix;
 use std::sync::LazyLock;
@@ -47,12 +47,12 @@ impl Whitening {
     /// For a model that travels at about `speed_mps`.
     pub(crate) fn new(model: &MotionModel, speed_mps: f64) -> Self {
         match model.kind {
-            Kind::Drive => {
+            MotionKind::Drive => {
                 let slow = if model.limits.curvature_per_m > 0.5 { 0.15 } else { 0.08 };
                 let curvature_sd = (1.2 / (speed_mps * speed_mps + 0.5)).min(slow);
                 Self { first: *ACCELERATION, second: *CURVATURE * curvature_sd }
             }
-            Kind::Walk => Self { first: *VELOCITY * 0.5, second: *VELOCITY * 0.5 },
+            MotionKind::Walk => Self { first: *VELOCITY * 0.5, second: *VELOCITY * 0.5 },
         }
     }
 

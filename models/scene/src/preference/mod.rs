@@ -14,7 +14,7 @@ mod tests;
 mod wishes;
 
 pub use features::{Features, Trait};
-pub use round::{Candidate, Card, Round, choose};
+pub use round::{Candidate, Round, RoundCard, choose};
 pub use taste::Taste;
 pub use wishes::Learned;
 
@@ -64,7 +64,7 @@ pub struct Wish {
 
 /// A card that was judged.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
+pub struct JudgedCard {
     /// What it was like.
     pub features: Features,
     /// What was said.
@@ -82,7 +82,7 @@ pub type Places = BTreeMap<AgentId, Vec<Vec2>>;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Judged cards, the first round's first.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<JudgedCard>,
     /// Wishes that were said outright.
     pub wishes: Vec<Wish>,
     /// Traits that do not count, whatever the answers show.

@@ -3,7 +3,7 @@
 use super::features::{self, Features, PLACE_S};
 use super::taste::Taste;
 use super::wishes::{self, Learned};
-use super::{Answer, Feedback, Places, Verdict, Wish};
+use super::{Feedback, JudgedCard, Places, Verdict, Wish};
 use crate::random::Key;
 use crate::{AgentId, Future, Sample, Scene, Vec2};
 use schemars::JsonSchema;
@@ -36,8 +36,7 @@ pub struct Candidate {
 
 /// A candidate that is shown.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "RoundCard")]
-pub struct Card {
+pub struct RoundCard {
     /// What it is like: sent back with what is said of it.
     pub features: Features,
     /// The share of the learned wishes that it fulfils; absent while none is known.
@@ -53,7 +52,7 @@ pub struct Round {
     /// Positions among the candidates, the best liked first.
     pub taken: Vec<usize>,
     /// As many cards.
-    pub cards: Vec<Card>,
+    pub cards: Vec<RoundCard>,
     /// Shares of belief that each is liked best; they sum to one.
     pub shares: Vec<f64>,
     /// Wishes that the answers agree upon, the surest first.
@@ -101,17 +100,17 @@ impl Candidate {
     }
 
     /// As a card that was judged.
-    pub fn judged(&self, verdict: Verdict, why: Option<Wish>) -> Answer {
-        Answer { features: self.features.clone(), verdict, why, places: self.places.clone() }
+    pub fn judged(&self, verdict: Verdict, why: Option<Wish>) -> JudgedCard {
+        JudgedCard { features: self.features.clone(), verdict, why, places: self.places.clone() }
     }
 
-    fn card(&self) -> Card {
+    fn card(&self) -> RoundCard {
         let rounded = |v: f64| (v * 1000.0).round() / 1000.0;
         let places = self
             .places
             .iter()
             .map(|(id, places)| (id.clone(), places.iter().map(|p| [rounded(p.x), rounded(p.y)]).collect()));
-        Card { features: self.features.clone(), fulfils: None, places: places.collect() }
+        RoundCard { features: self.features.clone(), fulfils: None, places: places.collect() }
     }
 }
 
@@ -147,7 +146,7 @@ pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed:
     let card = |k: &usize| {
         let candidate = &candidates[open[*k]];
         let fulfils = wishes::fulfilled(&wishes, feedback, &candidate.features, &draw);
-        Card { fulfils, ..candidate.card() }
+        RoundCard { fulfils, ..candidate.card() }
     };
     let cards = taken.iter().map(card).collect();
     let most = taken.first().map_or(0.0, |k| known[*k]);

@@ -1,7 +1,7 @@
 //! What was learned, in words that a person can check and take back.
 
 use super::taste::Taste;
-use super::{Answer, Feedback, Trait, Verdict, Way, Wish};
+use super::{Feedback, JudgedCard, Trait, Verdict, Way, Wish};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -68,7 +68,7 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
 }
 
 /// An answer speaks for a wish, or against it.
-fn agrees(answer: &Answer, wish: &Wish, middle: f64) -> Option<bool> {
+fn agrees(answer: &JudgedCard, wish: &Wish, middle: f64) -> Option<bool> {
     let value = answer.features.value(&wish.of)?;
     let wished = is_wished(value, middle, wish.wants)?;
     Some(wished == (answer.verdict == Verdict::Keep))

@@ -63,9 +63,9 @@ impl Fade {
     }
 }
 
-/// How a road user takes to a path.
+/// How fast and how tightly a road user joins a path.
 #[derive(Clone, Copy, Debug)]
-struct Manner {
+struct BlendLimits {
     /// Speed with which it comes, m/s.
     speed_mps: f64,
     /// Length of a fade of a small offset where there is room, metres.
@@ -78,7 +78,7 @@ struct Manner {
     step_m: f64,
 }
 
-impl Manner {
+impl BlendLimits {
     fn of(agent_type: AgentType, speed_mps: f64) -> Self {
         let min_blend_m = if agent_type == AgentType::Pedestrian { 3.0 } else { 8.0 };
         let blend_m = (BLEND_S * speed_mps).clamp(min_blend_m, MAX_BLEND_M);
@@ -110,7 +110,7 @@ pub fn base_path(
     agent_type: AgentType,
     goal: Option<EndPose>,
 ) -> Polyline {
-    let manner = Manner::of(agent_type, speed_mps);
+    let manner = BlendLimits::of(agent_type, speed_mps);
     let inside = (agent_type == AgentType::Vehicle).then(|| inside(path, manner.step_m));
     let path = inside.as_ref().unwrap_or(path);
     let foot = path.project_between(start.position, 0.0, START_SEARCH_M);
@@ -149,7 +149,7 @@ fn inside(path: &Polyline, step_m: f64) -> Polyline {
 }
 
 /// `path`, whose end is beside `goal`, bent over at most `room_m` so that it ends there.
-fn ended(path: &Polyline, goal: EndPose, manner: Manner, room_m: f64) -> Polyline {
+fn ended(path: &Polyline, goal: EndPose, manner: BlendLimits, room_m: f64) -> Polyline {
     let heading = goal.heading_rad.unwrap_or(path.last().heading_rad);
     let backwards = Pose::new(goal.position, wrap_angle(heading + std::f64::consts::PI));
     onto(&path.reversed(), backwards, manner, room_m).reversed()
@@ -157,7 +157,7 @@ fn ended(path: &Polyline, goal: EndPose, manner: Manner, room_m: f64) -> Polylin
 
 /// A lane path that ends beside `goal`, bent so that it ends there, as [`base_path`] does.
 pub(super) fn ending_at(path: &Polyline, goal: EndPose, speed_mps: f64, agent_type: AgentType) -> Polyline {
-    let manner = Manner::of(agent_type, speed_mps);
+    let manner = BlendLimits::of(agent_type, speed_mps);
     ended(path, goal, manner, path.length_m()).resample(manner.step_m)
 }
 
@@ -176,7 +176,7 @@ fn reach(path: &Polyline, from_m: f64, goal: Vec2) -> (Polyline, f64) {
 }
 
 /// One cubic from start to goal; with a free heading it ends as a circle through both would.
-fn direct(start: Pose, goal: EndPose, manner: Manner) -> Polyline {
+fn direct(start: Pose, goal: EndPose, manner: BlendLimits) -> Polyline {
     let chord = goal.position - start.position;
     if chord.norm() < 0.05 {
         return Polyline::new([start.position, goal.position]);
@@ -188,7 +188,7 @@ fn direct(start: Pose, goal: EndPose, manner: Manner) -> Polyline {
 }
 
 /// `path` entered from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
-fn onto(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Polyline {
+fn onto(path: &Polyline, start: Pose, manner: BlendLimits, room_m: f64) -> Polyline {
     let room_m = room_m.min(path.length_m());
     let straight = || Polyline::new([start.position, path.last().position]);
     if room_m < 0.1 {
@@ -235,7 +235,7 @@ fn faded(path: &Polyline, start: Pose, length_m: f64, step_m: f64) -> Option<Pol
 }
 
 /// `path` entered by the cheapest of a few cubics.
-fn joined(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Option<Polyline> {
+fn joined(path: &Polyline, start: Pose, manner: BlendLimits, room_m: f64) -> Option<Polyline> {
     let mut best: Option<(f64, Polyline)> = None;
     let mut s = 4.0_f64.min(room_m);
     loop {

@@ -23,7 +23,7 @@ pub enum LaneSource {
 
 /// A lane beside another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beside {
+pub struct AdjacentLane {
     /// The other lane.
     pub lane: usize,
     /// Arc lengths on the own lane between which the two lie side by side, metres.
@@ -34,7 +34,7 @@ pub struct Beside {
     pub same_direction: bool,
 }
 
-impl Beside {
+impl AdjacentLane {
     /// Arc length on the other lane beside `s_m` on the own one; `None` outside the common part.
     pub fn across(&self, s_m: f64) -> Option<f64> {
         let (from, to) = self.own_m;
@@ -66,9 +66,9 @@ pub struct GraphLane {
     /// Lanes that lead here.
     pub predecessors: Vec<usize>,
     /// Lanes to the left.
-    pub left: Vec<Beside>,
+    pub left: Vec<AdjacentLane>,
     /// Lanes to the right.
-    pub right: Vec<Beside>,
+    pub right: Vec<AdjacentLane>,
     /// Arc length of the place beside this lane's stop sign, metres.
     pub stop_sign_m: Option<f64>,
 }
@@ -86,7 +86,7 @@ impl GraphLane {
     }
 
     /// Lanes on both sides.
-    pub fn beside(&self) -> impl Iterator<Item = &Beside> {
+    pub fn beside(&self) -> impl Iterator<Item = &AdjacentLane> {
         self.left.iter().chain(&self.right)
     }
 

@@ -1,6 +1,6 @@
 //! Links and sides of lanes: as recorded, and rebuilt from the geometry where the record is silent.
 
-use super::graph::{Beside, GraphLane, LaneGraph};
+use super::graph::{AdjacentLane, GraphLane, LaneGraph};
 use crate::map::{Lane, LaneType, Neighbor};
 use crate::{LaneMap, Vec2, wrap_angle};
 use std::collections::HashMap;
@@ -124,7 +124,7 @@ fn point_arcs(lane: &Lane) -> Vec<f64> {
     std::iter::once(0.0).chain(after).collect()
 }
 
-fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbor) -> Option<Beside> {
+fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbor) -> Option<AdjacentLane> {
     let other = graph.lane_index(&neighbor.lane).filter(|other| *other != own)?;
     let lengths = |lane: usize, range: (usize, usize)| {
         let arc = arcs.get(lane)?;
@@ -139,7 +139,7 @@ fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbo
     let same_direction = wrap_angle(there.heading_rad - here.heading_rad).abs() < 1.0;
     let (low, high) = (other_m.0.min(other_m.1), other_m.0.max(other_m.1));
     let other_m = if same_direction { (low, high) } else { (high, low) };
-    Some(Beside { lane: other, own_m, other_m, same_direction })
+    Some(AdjacentLane { lane: other, own_m, other_m, same_direction })
 }
 
 /// Lanes a lane's width apart with the same heading lie side by side. Where lanes lie over each other too often for
@@ -162,9 +162,13 @@ fn side_pieces(lane: &GraphLane) -> usize {
 }
 
 /// What lies left and right; nothing once more lanes have been found than there were left to find.
-fn sides_of(graph: &LaneGraph, own: usize, left_to_find: &mut usize) -> Option<(Vec<Beside>, Vec<Beside>)> {
+fn sides_of(
+    graph: &LaneGraph,
+    own: usize,
+    left_to_find: &mut usize,
+) -> Option<(Vec<AdjacentLane>, Vec<AdjacentLane>)> {
     let lane = &graph.lanes()[own];
-    let (mut left, mut right): (Vec<Beside>, Vec<Beside>) = (Vec::new(), Vec::new());
+    let (mut left, mut right): (Vec<AdjacentLane>, Vec<AdjacentLane>) = (Vec::new(), Vec::new());
     let pieces = side_pieces(lane);
     for k in 0..=pieces {
         let s = lane.path.length_m() * k as f64 / pieces as f64;
@@ -183,7 +187,7 @@ fn sides_of(graph: &LaneGraph, own: usize, left_to_find: &mut usize) -> Option<(
             let side = if hit.lateral_m < 0.0 { &mut left } else { &mut right };
             match side.iter_mut().find(|b| b.lane == hit.lane) {
                 Some(b) => (b.own_m.1, b.other_m.1) = (s, hit.s_m.max(b.other_m.1)),
-                None => side.push(Beside {
+                None => side.push(AdjacentLane {
                     lane: hit.lane,
                     own_m: (s, s),
                     other_m: (hit.s_m, hit.s_m),

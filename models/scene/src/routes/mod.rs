@@ -20,7 +20,7 @@ mod walks;
 pub use crate::geometry::polyline::{Foot, Polyline, Pose};
 pub use ahead::{MAX_ROUTES, best_route_ahead, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
-pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource, assumed_speed_limit_mps};
+pub use graph::{AdjacentLane, GraphLane, LaneGraph, LaneHit, LaneSource, assumed_speed_limit_mps};
 pub use speed::{LaneSignal, Leader, Obstacle, SignalAhead, SpeedRules};
 pub use to_goal::{GoalQuery, GoalRoute, MAX_GOAL_ROUTES, RouteKind, further_routes_to_goal, routes_to_goal};
 

@@ -1,7 +1,7 @@
 //! Shortest chains of lanes between places on lanes.
 
 use super::assemble::Hop;
-use super::graph::Beside;
+use super::graph::AdjacentLane;
 use super::start::StartLane;
 use super::{LaneGraph, LaneHit};
 use crate::AgentType;
@@ -131,7 +131,7 @@ pub(super) fn shortest(
 
 /// Change from a lane to the one beside as soon as the two lie side by side beyond `from_m`: where the lane is left,
 /// and the hop that follows.
-fn change(graph: &LaneGraph, from_m: f64, beside: &Beside, change_m: f64) -> Option<(f64, Hop)> {
+fn change(graph: &LaneGraph, from_m: f64, beside: &AdjacentLane, change_m: f64) -> Option<(f64, Hop)> {
     let left_m = from_m.max(beside.own_m.0);
     let from_m = beside.across(left_m)?;
     let lane = &graph.lanes()[beside.lane];

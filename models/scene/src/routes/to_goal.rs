@@ -134,7 +134,7 @@ fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64, most: usize) 
 }
 
 /// A forward chain with its rank.
-struct Candidate {
+struct RankedChain {
     hops: Vec<Hop>,
     cost: f64,
     goal: LaneHit,
@@ -160,14 +160,14 @@ fn forward(
             let turn = METRES_PER_RAD * query.goal_turn_rad(goal.heading_rad);
             let cost = chain.cost + COST_PER_OFFSET * (goal.distance_m + turn) + 2.0 * start.score;
             let trace = assemble::trace(graph, &chain.hops, TRACE_STEP_M);
-            Candidate { hops: chain.hops, cost, goal, trace }
+            RankedChain { hops: chain.hops, cost, goal, trace }
         }));
     }
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut kept: Vec<&Candidate> = Vec::new();
+    let mut kept: Vec<&RankedChain> = Vec::new();
     let mut routes = Vec::new();
     for candidate in &candidates {
-        let same = |k: &&Candidate| assemble::mean_distance_m(&k.trace, &candidate.trace) < DISTINCT_M;
+        let same = |k: &&RankedChain| assemble::mean_distance_m(&k.trace, &candidate.trace) < DISTINCT_M;
         if routes.len() >= MAX_GOAL_ROUTES || kept.iter().any(same) {
             continue;
         }

@@ -1,7 +1,7 @@
 //! Somebody who is followed brakes to a stand.
 
 use super::stage::Stage;
-use super::{Plan, Role, on_step};
+use super::{Pairing, Plan, on_step};
 use crate::random::Stream;
 
 /// Both drive at least so fast, m/s.
@@ -16,7 +16,7 @@ const BRAKING_MPS2: (f64, f64) = (3.5, 7.5);
 const BEGINS_S: (f64, f64) = (0.2, 1.5);
 
 /// Each driver and who follows it closest in time.
-pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
+pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let drivers = &stage.drivers;
     let role = |follower: usize| {
         let speed = drivers[follower].speed_mps();
@@ -24,7 +24,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
         let fast = speed.min(drivers[leader].speed_mps()) >= LEAST_SPEED_MPS;
         let gap_s = gap_m / speed.max(0.1);
         let close = gap_m > 0.0 && gap_m <= FARTHEST_M && gap_s <= FARTHEST_S;
-        (fast && close).then_some(Role {
+        (fast && close).then_some(Pairing {
             actor: leader,
             other: Some(follower),
             misfit: gap_s,
@@ -36,7 +36,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
 }
 
 /// Where it stands after braking evenly.
-pub(super) fn plan(stage: &Stage<'_>, role: &Role, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let follower = &stage.drivers[role.other?];
     let braking = draw.between(BRAKING_MPS2.0, BRAKING_MPS2.1);

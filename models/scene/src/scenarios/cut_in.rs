@@ -1,7 +1,7 @@
 //! Somebody in a neighbouring lane goes close ahead of another.
 
 use super::stage::Stage;
-use super::{Plan, Role, on_step};
+use super::{Pairing, Plan, on_step};
 use crate::random::Stream;
 
 /// Both drive at least so fast, m/s.
@@ -23,7 +23,7 @@ const PACE: (f64, f64) = (0.5, 1.4);
 const PACE_MORE_MPS: f64 = 2.0;
 
 /// Pairs side by side, with no road edge between them and room ahead of the second.
-pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
+pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let drivers = &stage.drivers;
     let mut roles = Vec::new();
     for (other, before) in drivers.iter().enumerate().filter(|(_, d)| d.speed_mps() >= LEAST_SPEED_MPS) {
@@ -43,7 +43,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
                 // Best is one that has nothing to make up or to wait for.
                 let ideal_m = before.length_m() + 4.0 + 3.0 * (before.speed_mps() - driver.speed_mps());
                 let misfit = (place.ahead_m - ideal_m).abs();
-                roles.push(Role { actor, other: Some(other), misfit, at_m: place.ahead_m, at_s: 0.0 });
+                roles.push(Pairing { actor, other: Some(other), misfit, at_m: place.ahead_m, at_s: 0.0 });
             }
         }
     }
@@ -51,7 +51,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
 }
 
 /// The place in the other's lane, as far ahead of where that one is by then as the gap says.
-pub(super) fn plan(stage: &Stage<'_>, role: &Role, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
     let (driver, before) = (&stage.drivers[role.actor], &stage.drivers[role.other?]);
     let after_s = on_step(draw.between(TAKES_S.0, TAKES_S.1));
     let gap_m = draw.between(GAP_M.0, GAP_M.1);

@@ -2,7 +2,7 @@
 //! past a stop sign, or shortly before or after one whom it would have let go first.
 
 use super::stage::{BEHIND_M, Driver, Stage};
-use super::{Plan, Role, on_step};
+use super::{Pairing, Plan, on_step};
 use crate::random::Stream;
 use crate::{STEP_S, SignalState, Vec2};
 
@@ -30,7 +30,7 @@ const PACE_MORE_MPS: f64 = 4.0;
 const LOOK_STEPS: usize = 80;
 
 /// Who would wait: at a line, or for another one.
-pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
+pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let mut roles = Vec::new();
     for (actor, driver) in stage.drivers.iter().enumerate() {
         let reach_m = FARTHEST_S * driver.speed_mps() + FARTHEST_MORE_M;
@@ -43,18 +43,18 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
             let waits = line_m.map_or(own_s > at_s, |line_m| at_m > line_m);
             if waits && at_m >= NEAREST_M && at_m <= reach_m + 25.0 {
                 let misfit = (own_s - at_s).abs() + if line_m.is_some() { 0.0 } else { 4.0 };
-                roles.push(Role { actor, other: Some(other), misfit, at_m, at_s });
+                roles.push(Pairing { actor, other: Some(other), misfit, at_m, at_s });
             }
         }
         if let (true, Some(at_m)) = (roles.len() == before, line_m) {
-            roles.push(Role { actor, other: None, misfit: 10.0 + 0.1 * at_m, at_m, at_s: 0.0 });
+            roles.push(Pairing { actor, other: None, misfit: 10.0 + 0.1 * at_m, at_m, at_s: 0.0 });
         }
     }
     roles
 }
 
 /// A goal past the place, to be reached about when the other one is there.
-pub(super) fn plan(stage: &Stage<'_>, role: &Role, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let speed = driver.speed_mps();
     let apart_s = draw.between(APART_S.0, APART_S.1) * if draw.chance(0.5) { 1.0 } else { -1.0 };

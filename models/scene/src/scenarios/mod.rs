@@ -54,9 +54,9 @@ const MOST_ROLES: usize = 8;
 /// Least time of a goal after the start, seconds.
 const SOONEST_S: f64 = 0.5;
 
-/// A pair that could play: who, whom it concerns, and how badly it fits (less is better).
+/// An actor, the agent that it concerns, and how badly the two fit (less is better).
 #[derive(Clone, Copy, Debug)]
-struct Role {
+struct Pairing {
     actor: usize,
     other: Option<usize>,
     misfit: f64,
@@ -86,7 +86,7 @@ impl Template {
         seed: u64,
     ) -> Option<Casting> {
         let stage = Stage::new(scene, graph, start_step);
-        let (roles, plan): (Vec<Role>, Planner) = match self {
+        let (roles, plan): (Vec<Pairing>, Planner) = match self {
             Self::Brake => (brake::roles(&stage), brake::plan),
             Self::CutIn => (cut_in::roles(&stage), cut_in::plan),
             Self::Late => (late::roles(&stage), late::plan),
@@ -117,7 +117,7 @@ impl Template {
     }
 }
 
-type Planner = fn(&Stage<'_>, &Role, &mut Stream) -> Option<Plan>;
+type Planner = fn(&Stage<'_>, &Pairing, &mut Stream) -> Option<Plan>;
 
 impl Plan {
     fn fits(&self, horizon_s: f64) -> bool {
@@ -126,9 +126,9 @@ impl Plan {
 }
 
 /// The most fitting pairs, one for each actor.
-fn fitting(mut roles: Vec<Role>) -> Vec<Role> {
+fn fitting(mut roles: Vec<Pairing>) -> Vec<Pairing> {
     roles.sort_by(|a, b| a.misfit.total_cmp(&b.misfit).then(a.actor.cmp(&b.actor)));
-    let mut kept: Vec<Role> = Vec::new();
+    let mut kept: Vec<Pairing> = Vec::new();
     for role in roles {
         if kept.len() < MOST_ROLES && kept.iter().all(|known| known.actor != role.actor) {
             kept.push(role);

@@ -23,9 +23,9 @@ pub(super) struct Driver<'a> {
     pub(super) way: Polyline,
 }
 
-/// Where another is on somebody's way.
+/// Place of another agent, relative to a driver.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct RelativePlace {
     /// Ahead of the way's owner, metres; negative behind it.
     pub(super) ahead_m: f64,
     /// To the left of the way, metres.
@@ -34,7 +34,7 @@ pub(super) struct Place {
     pub(super) turn_rad: f64,
 }
 
-impl Place {
+impl RelativePlace {
     pub(super) fn same_way(&self) -> bool {
         self.turn_rad.abs() < SAME_WAY_RAD
     }
@@ -56,9 +56,9 @@ impl Driver<'_> {
     }
 
     /// Where somebody is on its way.
-    pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> Place {
+    pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> RelativePlace {
         let foot = self.way.project(position);
-        Place {
+        RelativePlace {
             ahead_m: foot.s_m - BEHIND_M,
             left_m: foot.lateral_m,
             turn_rad: wrap_angle(heading_rad - foot.heading_rad),

@@ -109,7 +109,7 @@ impl Kinematic {
 
 /// Values at one step, all absolute but `along`.
 #[derive(Clone, Copy, Debug, Default)]
-struct Moment {
+struct KinematicValues {
     along: f64,
     lateral: f64,
     yaw_rate: Option<f64>,
@@ -122,7 +122,8 @@ pub fn score_kinematic(actor: &Actor<'_>, steps: Range<usize>) -> (Kinematic, Ve
     let limits = KinematicLimits::of(actor.agent_type, actor.subtype, actor.size.length_m);
     let walks = actor.agent_type == AgentType::Pedestrian;
     let states: Vec<Option<&State>> = steps.clone().map(|i| actor.state(i)).collect();
-    let moments: Vec<Option<Moment>> = (0..states.len()).map(|i| moment(&states, i, walks)).collect();
+    let moments: Vec<Option<KinematicValues>> =
+        (0..states.len()).map(|i| moment(&states, i, walks)).collect();
     let mut found = Kinematic {
         speed_mps: states.iter().flatten().map(|s| s.speed_mps()).fold(0.0, f64::max),
         ..Kinematic::default()
@@ -149,7 +150,7 @@ pub fn score_kinematic(actor: &Actor<'_>, steps: Range<usize>) -> (Kinematic, Ve
     (found, stretches(actor, &turns))
 }
 
-fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<Moment> {
+fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<KinematicValues> {
     let (before, here, after) = ((*states.get(i.checked_sub(1)?)?)?, states[i]?, (*states.get(i + 1)?)?);
     let span = 2.0 * STEP_S;
     if walks {
@@ -161,11 +162,11 @@ fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<Moment> {
         } else {
             (a.norm(), 0.0)
         };
-        return Some(Moment { along, lateral, yaw_rate: None, curvature: None });
+        return Some(KinematicValues { along, lateral, yaw_rate: None, curvature: None });
     }
     let (speed, along) = (signed_speed(here), (signed_speed(after) - signed_speed(before)) / span);
     let yaw_rate = wrap_angle(after.heading_rad - before.heading_rad).abs() / span;
-    Some(Moment {
+    Some(KinematicValues {
         // In reverse gear, faster is speeding up. Who stands is in no gear, whatever the sign of its zero.
         along: if speed < 0.0 { -along } else { along },
         lateral: speed.abs() * yaw_rate,
@@ -179,7 +180,7 @@ fn signed_speed(state: &State) -> f64 {
     state.velocity().dot(&crate::geometry::direction(state.heading_rad))
 }
 
-fn jerk(moments: &[Option<Moment>], i: usize) -> Option<f64> {
+fn jerk(moments: &[Option<KinematicValues>], i: usize) -> Option<f64> {
     let (before, after) = (moments.get(i.checked_sub(1)?)?.as_ref()?, moments.get(i + 1)?.as_ref()?);
     Some((after.along - before.along).abs() / (2.0 * STEP_S))
 }

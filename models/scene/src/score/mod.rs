@@ -7,6 +7,7 @@
 //! order given, pairs by (first, second), lists by time.
 
 pub mod accuracy;
+mod baseline_score;
 pub mod drivable;
 pub mod goal;
 pub mod input;
@@ -19,13 +20,12 @@ pub mod report;
 pub mod road;
 pub mod signals;
 mod single;
-mod standing;
 
+pub use baseline_score::BaselineScore;
 pub use drivable::Drivable;
 pub use input::{Actor, Exclude, PairChoice, ScoreInput, Threshold, Thresholds};
 pub use overlap::{CLOSE_M, Overlap, SweptBoxes, overlap};
 pub use report::{AgentScore, SceneScore, Score};
-pub use standing::Standing;
 
 use pairs::PairScores;
 use single::Single;

@@ -1,7 +1,7 @@
 //! Post-encroachment time: how closely two road users follow each other over the same ground where
 //! their paths cross (Allen, Shin and Cooper 1978).
 
-use super::pairs::{Moment, Mover};
+use super::pairs::{Mover, MoverState};
 use crate::geometry::obb::overlaps;
 use crate::geometry::{Vec2, cross};
 use crate::{AgentType, STEP_S};
@@ -58,13 +58,13 @@ fn coarse(mover: &Mover) -> Vec<(usize, Vec2)> {
 
 /// Where two paths cross, and at which step each is there.
 #[derive(Clone, Copy, Debug)]
-struct Crossing {
+struct PathCrossing {
     point: Vec2,
     step_a: usize,
     step_b: usize,
 }
 
-fn crossings(a: &[(usize, Vec2)], b: &[(usize, Vec2)]) -> Vec<Crossing> {
+fn crossings(a: &[(usize, Vec2)], b: &[(usize, Vec2)]) -> Vec<PathCrossing> {
     let mut found = Vec::new();
     let (bounds_a, bounds_b) = (bounds(a), bounds(b));
     for (i, in_a) in bounds_a.iter().enumerate() {
@@ -99,7 +99,7 @@ fn bounds(path: &[(usize, Vec2)]) -> Vec<(Vec2, Vec2)> {
 }
 
 /// Crossing of two straight pieces at a large enough angle.
-fn cross_pieces(p: &[(usize, Vec2)], q: &[(usize, Vec2)]) -> Option<Crossing> {
+fn cross_pieces(p: &[(usize, Vec2)], q: &[(usize, Vec2)]) -> Option<PathCrossing> {
     let ([(step_a, p0), (_, p1)], [(step_b, q0), (_, q1)]) = (p, q) else { return None };
     let (along_p, along_q, between) = (p1 - p0, q1 - q0, q0 - p0);
     let sine = cross(along_p, along_q);
@@ -108,11 +108,11 @@ fn cross_pieces(p: &[(usize, Vec2)], q: &[(usize, Vec2)]) -> Option<Crossing> {
     }
     let (s, t) = (cross(between, along_q) / sine, cross(between, along_p) / sine);
     let inside = (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t);
-    inside.then(|| Crossing { point: p0 + along_p * s, step_a: *step_a, step_b: *step_b })
+    inside.then(|| PathCrossing { point: p0 + along_p * s, step_a: *step_a, step_b: *step_b })
 }
 
 /// Least difference of steps at which the boxes overlap near a crossing, if below `bound`.
-fn least_shift(a: &Mover, b: &Mover, crossing: &Crossing, bound: usize) -> Option<usize> {
+fn least_shift(a: &Mover, b: &Mover, crossing: &PathCrossing, bound: usize) -> Option<usize> {
     let reach = 2.0 * (radius(a, crossing.step_a) + radius(b, crossing.step_b));
     let near_a = near(a, crossing.step_a, crossing.point, reach);
     let near_b = near(b, crossing.step_b, crossing.point, reach);
@@ -121,7 +121,7 @@ fn least_shift(a: &Mover, b: &Mover, crossing: &Crossing, bound: usize) -> Optio
     // Differences of steps that any two of these moments have.
     let shortest = first_b.saturating_sub(last_a).max(first_a.saturating_sub(last_b));
     let longest = last_b.saturating_sub(first_a).max(last_a.saturating_sub(first_b));
-    let hit = |p: &Moment, step_b: Option<usize>| {
+    let hit = |p: &MoverState, step_b: Option<usize>| {
         let index = step_b.and_then(|j| j.checked_sub(first_b));
         let q = index.and_then(|k| near_b.get(k));
         q.is_some_and(|(_, q)| overlaps(&p.outline, &q.outline, 0.0))
@@ -137,7 +137,7 @@ fn radius(mover: &Mover, step: usize) -> f64 {
 
 /// Consecutive moments within `reach` of `point`, about the one of the piece from `step` on that is
 /// nearest to it.
-fn near(mover: &Mover, step: usize, point: Vec2, reach: f64) -> Vec<(usize, &Moment)> {
+fn near(mover: &Mover, step: usize, point: Vec2, reach: f64) -> Vec<(usize, &MoverState)> {
     let distance = |i: usize| {
         let moment = mover.moments.get(i)?.as_ref()?;
         Some((i, (moment.outline.center() - point).norm()))

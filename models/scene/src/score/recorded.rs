@@ -59,7 +59,7 @@ pub(crate) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &m
 pub(super) fn mark_red_lights(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
-    lines: &[signals::StopLine<'_>],
+    lines: &[signals::SignalStopLine<'_>],
     found: &mut [RedLight],
 ) {
     if found.is_empty() {
@@ -80,7 +80,7 @@ fn is_same(logged: &RedLight, red: &RedLight) -> bool {
 pub(crate) fn beyond_log(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
-    lines: &[signals::StopLine<'_>],
+    lines: &[signals::SignalStopLine<'_>],
     mut found: Vec<RedLight>,
 ) -> Vec<RedLight> {
     if !found.is_empty()

@@ -16,7 +16,7 @@ const SAME_LANE_M: f64 = 0.3;
 const TELLING_M: f64 = 20.0;
 
 /// Stop line of a signal.
-pub(crate) struct StopLine<'a> {
+pub(crate) struct SignalStopLine<'a> {
     signal: &'a Signal,
     line: Polyline,
     at: Pose,
@@ -28,7 +28,7 @@ pub(crate) struct StopLine<'a> {
 }
 
 /// The stop lines of the input's signals.
-pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
+pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<SignalStopLine<'a>> {
     if input.signals.is_empty() {
         return Vec::new();
     }
@@ -44,7 +44,7 @@ pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
         at.position = signal.stop.unwrap_or(at.position);
         let goes_on = line.length_m() - s_m > 5.0;
         let ahead = at.direction();
-        Some(StopLine {
+        Some(SignalStopLine {
             signal,
             at,
             ahead,
@@ -57,8 +57,8 @@ pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
 }
 
 /// One crossing of one line.
-struct Crossing<'a, 'b> {
-    line: &'b StopLine<'a>,
+struct LineCrossing<'a, 'b> {
+    line: &'b SignalStopLine<'a>,
     step: usize,
     part: f64,
     /// Mean distance from the signal's lane, metres.
@@ -72,7 +72,7 @@ struct Crossing<'a, 'b> {
 pub(crate) fn crossed_at_red(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
-    lines: &[StopLine<'_>],
+    lines: &[SignalStopLine<'_>],
 ) -> Vec<RedLight> {
     let rides = matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist);
     if lines.is_empty() || !rides || actor.travel_m(input.steps.clone()) <= 1.0 {
@@ -83,7 +83,7 @@ pub(crate) fn crossed_at_red(
         .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), place| {
             (low.inf(&place), high.sup(&place))
         });
-    let mut crossings: Vec<Crossing<'_, '_>> = Vec::new();
+    let mut crossings: Vec<LineCrossing<'_, '_>> = Vec::new();
     for line in lines {
         let reach = Vec2::repeat(0.5 * actor.size.length_m + line.half_width_m);
         let (at, low, high) = (line.at.position, low - reach, high + reach);
@@ -93,7 +93,7 @@ pub(crate) fn crossed_at_red(
         for step in input.steps.clone() {
             if let Some(part) = crosses(actor, line, step) {
                 let off_lane_m = off_lane_m(actor, line, step, input.steps.end);
-                crossings.push(Crossing { line, step, part, off_lane_m });
+                crossings.push(LineCrossing { line, step, part, off_lane_m });
             }
         }
     }
@@ -126,7 +126,12 @@ pub(crate) fn crossed_at_red(
 }
 
 /// Behind a line it takes a lane that no signal controls.
-fn takes_a_free_lane(input: &ScoreInput<'_>, actor: &Actor<'_>, step: usize, lines: &[StopLine<'_>]) -> bool {
+fn takes_a_free_lane(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    step: usize,
+    lines: &[SignalStopLine<'_>],
+) -> bool {
     let place = |i: usize| actor.state(i).map(crate::State::position);
     let Some(here) = place(step) else { return false };
     let told: Vec<Vec2> =
@@ -147,7 +152,7 @@ fn must_stop(state: SignalState) -> bool {
 
 /// The front crosses the line between this step and the next, in the lane's direction: how far along
 /// the step, 0 to 1.
-fn crosses(actor: &Actor<'_>, line: &StopLine<'_>, step: usize) -> Option<f64> {
+fn crosses(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize) -> Option<f64> {
     let (from, to) = (actor.state(step)?, actor.state(step + 1)?);
     let (ahead, reach) = (line.ahead, 0.5 * actor.size.length_m);
     // The front passes the line between the two.
@@ -166,7 +171,7 @@ fn crosses(actor: &Actor<'_>, line: &StopLine<'_>, step: usize) -> Option<f64> {
 }
 
 /// Mean distance of the centre from the signal's lane on the stretch that tells.
-fn off_lane_m(actor: &Actor<'_>, line: &StopLine<'_>, step: usize, end: usize) -> f64 {
+fn off_lane_m(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize, end: usize) -> f64 {
     let Some(here) = actor.state(step).map(crate::State::position) else { return f64::INFINITY };
     let within = |p: &Vec2| (p - here).norm() <= TELLING_M;
     let place = |i: usize| actor.state(i).map(crate::State::position);

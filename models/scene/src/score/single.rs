@@ -8,7 +8,7 @@ use super::pairs::PairTotals;
 use super::recorded;
 use super::report::{AgentScore, RedLight, SceneScore, Stretch};
 use super::road::{RoadScore, score_road};
-use super::signals::{StopLine, crossed_at_red};
+use super::signals::{SignalStopLine, crossed_at_red};
 
 /// What one road user's motion comes to by itself.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub(super) struct Single {
 
 impl Single {
     /// Of one road user of the input, with the stop lines there.
-    pub(super) fn of(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'_>]) -> Self {
+    pub(super) fn of(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[SignalStopLine<'_>]) -> Self {
         let mut road = score_road(input, actor);
         recorded::mark_road(input, actor, &mut road);
         let kinematic = actor.generated.then(|| score_kinematic(actor, input.steps.clone()));

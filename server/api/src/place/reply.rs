@@ -1,6 +1,6 @@
 //! What was placed, as JSON.
 
-use experts::placement::{ArmTraffic, Method, Placement};
+use experts::placement::{ArmTraffic, Placement, PlacementMethod};
 use formats::native::AgentDoc;
 use scene::Scene;
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ pub struct PlaceReply {
     /// Why, in one sentence; null when all were placed.
     pub reason: Option<String>,
     /// `model`, or `lane-sampler` where the weights folder has no placement weights.
-    pub method: Method,
+    pub method: PlacementMethod,
     /// Where roads come into the map or the region, with what came of the traffic asked for.
     pub arms: Vec<ArmDoc>,
     /// Places at kerbs and in lots; null without `parked`.

@@ -2,7 +2,7 @@
 
 use crate::cli::values::{number, within};
 use api::generate::request::more_than_a_turn;
-use formats::native::{Frame, GoalDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc};
+use formats::native::{GoalDoc, GoalFrame, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc};
 
 /// Fastest that any road user may be asked to be, m/s.
 const FASTEST_MPS: f64 = 60.0;
@@ -17,7 +17,7 @@ pub struct AskedGoal {
     /// The goal.
     pub goal: GoalDoc,
     /// Scene, or from the start pose.
-    pub frame: Frame,
+    pub frame: GoalFrame,
 }
 
 /// One key of a value: its name and the range of its number.
@@ -133,7 +133,7 @@ pub fn goal(text: &str) -> Result<AskedGoal, String> {
         time_s: value("time"),
         ..GoalDoc::default()
     };
-    Ok(AskedGoal { goal, frame: if own { Frame::Agent } else { Frame::Scene } })
+    Ok(AskedGoal { goal, frame: if own { GoalFrame::Agent } else { GoalFrame::Scene } })
 }
 
 /// `X,Y[,TIME[,TOLERANCE]]`, or keys: `x y time tolerance`.
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn goals_by_place_and_by_key() {
-        let scene = |goal| Ok(AskedGoal { goal, frame: Frame::Scene });
+        let scene = |goal| Ok(AskedGoal { goal, frame: GoalFrame::Scene });
         let at = |x, y| GoalDoc { x_m: Some(x), y_m: Some(y), ..GoalDoc::default() };
         assert_eq!(goal("61,3.4,12"), scene(GoalDoc { speed_mps: Some(12.0), ..at(61.0, 3.4) }));
         assert_eq!(goal("1,2,,0.5"), scene(GoalDoc { heading_rad: Some(0.5), ..at(1.0, 2.0) }));
@@ -199,7 +199,7 @@ mod tests {
             ..GoalDoc::default()
         };
         let relative = goal("ahead:40,left:3.5,speed:0,time:4").unwrap();
-        assert_eq!(relative, AskedGoal { goal: own, frame: Frame::Agent });
+        assert_eq!(relative, AskedGoal { goal: own, frame: GoalFrame::Agent });
         assert_eq!(goal("ahead:40").unwrap().goal.left_m, Some(0.0));
     }
 

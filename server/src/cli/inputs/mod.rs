@@ -64,7 +64,7 @@ pub struct Item {
     /// What it is called in results.
     pub name: String,
     /// What its reader changed or left out: code and sentence.
-    pub notes: Vec<formats::Warning>,
+    pub notes: Vec<formats::ImportWarning>,
 }
 
 impl Inputs {
@@ -185,6 +185,6 @@ pub fn refused(path: &Path, problem: &Problem) -> Failure {
 }
 
 /// Says what readers changed or left out.
-pub fn tell_notes(source: &Source, notes: &[formats::Warning]) -> Vec<String> {
+pub fn tell_notes(source: &Source, notes: &[formats::ImportWarning]) -> Vec<String> {
     notes.iter().map(|note| format!("{}: {}: {}", source.shown(), note.code, note.detail)).collect()
 }

@@ -33,9 +33,9 @@ pub struct Crowd {
     memory_mb: Vec<f64>,
 }
 
-/// One who drags, milliseconds.
+/// Latency of a client that drags, milliseconds.
 #[derive(Debug, Serialize)]
-pub struct Beside {
+pub struct DragLatency {
     alone: Percentiles,
     beside_heavy: Percentiles,
 }
@@ -46,7 +46,7 @@ pub struct Strain {
     scene: String,
     road_users: usize,
     crowds: Vec<Crowd>,
-    drag: Beside,
+    drag: DragLatency,
 }
 
 /// Crowds of these sizes that ask for one road user's futures again and again, at once after a refusal too, for so
@@ -138,7 +138,7 @@ fn drags(server: &Served, body: &[u8]) -> Result<Percentiles, Failure> {
     Ok(Percentiles::of(times))
 }
 
-fn beside(server: &Served, drag: &[u8], heavy: &[u8]) -> Result<Beside, Failure> {
+fn beside(server: &Served, drag: &[u8], heavy: &[u8]) -> Result<DragLatency, Failure> {
     let alone = drags(server, drag)?;
     let over = Arc::new(AtomicBool::new(false));
     for _ in 0..HEAVY {
@@ -158,5 +158,5 @@ fn beside(server: &Served, drag: &[u8], heavy: &[u8]) -> Result<Beside, Failure>
     std::thread::sleep(Duration::from_secs(2));
     let beside_heavy = drags(server, drag)?;
     over.store(true, Ordering::Relaxed);
-    Ok(Beside { alone, beside_heavy })
+    Ok(DragLatency { alone, beside_heavy })
 }

@@ -5,7 +5,7 @@ use crate::cli::progress::Progress;
 use crate::cli::{Common, Exit, Failure, output};
 use clap::Args;
 use experts::Tuning;
-use lab_eval::{EvalReport, Judged, TABLES, TABLES_FILE, Table};
+use lab_eval::{EvalReport, Judged, TABLES, TABLES_FILE, TableSpec};
 use lab_train::baselines::Baseline;
 use lab_train::scenes::Crop;
 use std::path::PathBuf;
@@ -127,7 +127,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         .collect();
     let baselines = baselines?;
     let options = lab_eval::EvalOptions {
-        tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
+        tables: args.tables.into_iter().filter_map(TableSpec::numbered).collect(),
         seed: args.seed,
         pictures: args.output.is_some(),
         replan_steps: args.replan,

@@ -6,7 +6,7 @@ use crate::cli::{Common, Exit, Failure, interrupt, output};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
 use lab_reproduce::{
-    CollisionOptions, Data, Length, Options, OtherRun, Parts, Schedule, SetOptions, Stopped, paper,
+    CollisionOptions, Data, Length, OtherRun, Parts, RunOptions, Schedule, SetOptions, Stopped, paper,
 };
 use lab_train::scenes::Crop;
 use scene::{HORIZON_STEPS, STEP_S};
@@ -139,14 +139,14 @@ pub fn reproduce(args: ReproduceArgs, common: &Common) -> Result<(), Failure> {
 }
 
 impl ReproduceArgs {
-    fn options(&self, stop: lab_reproduce::Stop) -> Options {
+    fn options(&self, stop: lab_reproduce::Stop) -> RunOptions {
         let base = if self.quick { Schedule::QUICK } else { Schedule::PAPER };
         let [denoiser, regressor, joint] = match self.epochs {
             Some(epochs) => epochs.map(Length::Epochs),
             None => [base.denoiser, base.regressor, base.joint],
         };
         let most = paper::INTERACTIVE.map(|(_, most)| most);
-        Options {
+        RunOptions {
             data: Data {
                 data: self.data.clone(),
                 test: self.test.clone(),

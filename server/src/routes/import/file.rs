@@ -32,7 +32,7 @@ impl ImportFile {
         let source = |part| Arc::new(part) as Arc<dyn Source>;
         let beside =
             Companions { net: net.pop().map(source), columns: columns.pop().map(source), ..companions() };
-        let file = |mut part: upload::Part| {
+        let file = |mut part: upload::FormPart| {
             let label = part.label.take();
             Self { file: source(part), label, beside: beside.clone() }
         };

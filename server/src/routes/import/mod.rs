@@ -10,8 +10,8 @@ use crate::app::App;
 use crate::base::metrics;
 use crate::base::problem::Refusal;
 use crate::http::body::{self, JsonText, Reading};
-use crate::http::extract::{Connection, Params};
-use crate::work::{Asked, Kind};
+use crate::http::extract::{Connection, QueryParams};
+use crate::work::{JobKind, JobRequest};
 use api::import::range;
 use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
@@ -67,7 +67,7 @@ refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
 pub async fn import(
     State(app): State<App>,
     connection: Connection,
-    Params(params): Params<ImportParams>,
+    QueryParams(params): QueryParams<ImportParams>,
     request: Request,
 ) -> Result<Response, Refusal> {
     let media_type = body::media_type(request.headers(), UPLOADS)?;
@@ -79,7 +79,7 @@ pub async fn import(
     let label = known(format.as_deref().unwrap_or("auto"));
     // Readers take about this long a byte.
     let cost = Duration::from_nanos(20 * upload.expected_bytes());
-    let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
+    let asked = JobRequest { kind: JobKind::Import, cost, caller: connection.into() };
     let (most, most_files) = (app.limits.import_scenes as usize, app.limits.import_files as usize);
     let order = ImportOrder {
         upload,

@@ -20,7 +20,7 @@ pub struct ImportedScene {
     /// For people.
     pub(super) name: String,
     /// What the reader changed or left out.
-    pub(super) warnings: Vec<formats::Warning>,
+    pub(super) warnings: Vec<formats::ImportWarning>,
     /// Road users by type.
     pub(super) counts: Counts,
     /// Steps of 0.1 s.

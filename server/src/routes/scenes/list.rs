@@ -3,9 +3,9 @@
 use crate::app::App;
 use crate::base::id;
 use crate::base::problem::Refusal;
-use crate::http::extract::Params;
-use crate::scenes::store::{Page, SceneSummary, Sort};
-use crate::scenes::{Item, tags_of};
+use crate::http::extract::QueryParams;
+use crate::scenes::store::{PageQuery, SceneSummary, Sort};
+use crate::scenes::{SceneItem, tags_of};
 use api::{Code, Problem};
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Default for ListParams {
 /// A page of scenes.
 #[derive(Debug, Serialize, schemars::JsonSchema)]
 pub struct SceneList {
-    scenes: Vec<Item>,
+    scenes: Vec<SceneItem>,
     /// Send as `after` for the next page; null on the last.
     next: Option<String>,
 }
@@ -52,7 +52,7 @@ refusals!(Unlisted: QUERY STORE);
     responses((status = 200, description = "a page", body = ref("#/components/schemas/SceneList")), Unlisted))]
 pub async fn list(
     State(app): State<App>,
-    Params(params): Params<ListParams>,
+    QueryParams(params): QueryParams<ListParams>,
 ) -> Result<axum::Json<SceneList>, Refusal> {
     if !(1..=200).contains(&params.limit) {
         return Err(Problem::range("/query/limit", 1.0, 200.0, params.limit as f64).into());
@@ -71,15 +71,15 @@ pub async fn list(
         let keys = if sort.falls { b.0.cmp(&a.0) } else { a.0.cmp(&b.0) };
         keys.then_with(|| a.1.cmp(&b.1))
     };
-    let place_of = |item: &Item| (sort.key(&item.name, &item.updated_at).to_owned(), item.id.clone());
+    let place_of = |item: &SceneItem| (sort.key(&item.name, &item.updated_at).to_owned(), item.id.clone());
     let mut items = app.catalog.library.items();
     items.retain(|item| {
         wanted(&item.name, &item.tags, item.parent_id.as_ref())
             && after.as_ref().is_none_or(|after| order(after, &place_of(item)).is_lt())
     });
     let saved = move |row: &SceneSummary| wanted(&row.name, &tags_of(row), row.parent_id.as_ref());
-    let rows = app.catalog.store.list(Page { sort, after, most }, saved).await?;
-    items.extend(rows.into_iter().map(Item::from));
+    let rows = app.catalog.store.list(PageQuery { sort, after, most }, saved).await?;
+    items.extend(rows.into_iter().map(SceneItem::from));
     items.sort_by(|a, b| order(&place_of(a), &place_of(b)));
     let more = items.len() > params.limit;
     items.truncate(params.limit);

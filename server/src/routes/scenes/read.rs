@@ -3,7 +3,7 @@
 use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::coding;
-use crate::http::extract::{Id, Params, if_none_match};
+use crate::http::extract::{Id, QueryParams, if_none_match};
 use crate::scenes::{bytes_of, preview};
 use api::Home;
 use api::home::not_found;
@@ -46,7 +46,7 @@ refusals!(Unread: QUERY STORE WORK, NotFound);
 pub async fn read(
     State(app): State<App>,
     Id(id): Id,
-    Params(params): Params<ReadParams>,
+    QueryParams(params): QueryParams<ReadParams>,
     headers: HeaderMap,
 ) -> Result<Response, Refusal> {
     if let Some(opened) = app.catalog.library.open(&id).await? {

@@ -19,9 +19,9 @@ impl Sort {
     }
 }
 
-/// A page that is asked for.
+/// A requested page.
 #[derive(Clone, Debug)]
-pub struct Page {
+pub struct PageQuery {
     /// Order.
     pub sort: Sort,
     /// Key and id of the last one before.
@@ -34,11 +34,11 @@ impl Store {
     /// Scenes of a page that are wanted, without their bodies.
     pub async fn list(
         &self,
-        page: Page,
+        page: PageQuery,
         wanted: impl Fn(&SceneSummary) -> bool + Send + 'static,
     ) -> Result<Vec<SceneSummary>, StoreError> {
         self.read(move |connection| {
-            let Page { sort, after, most } = page;
+            let PageQuery { sort, after, most } = page;
             let key = if sort.by_name { "name" } else { "updated_at" };
             let (beyond, falling) = if sort.falls { ("<", "DESC") } else { (">", "ASC") };
             let from = after.is_some();

@@ -13,7 +13,7 @@ mod reserve;
 
 pub use backup::backup;
 pub use error::StoreError;
-pub use list::{Page, Sort};
+pub use list::{PageQuery, Sort};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;

@@ -1,5 +1,5 @@
 use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
-use super::{Page, Sort, Store, StoreError};
+use super::{PageQuery, Sort, Store, StoreError};
 use crate::base::limits::Limits;
 use api::{Code, Problem};
 use std::sync::Arc;
@@ -73,9 +73,9 @@ async fn a_scene_whose_map_is_not_stored_is_refused_as_such() {
     store.put("c", Expect::Absent, by_hash("aa")).await.unwrap();
 }
 
-fn page(after: Option<(&str, &str)>, most: usize) -> Page {
+fn page(after: Option<(&str, &str)>, most: usize) -> PageQuery {
     let after = after.map(|(key, id)| (key.to_owned(), id.to_owned()));
-    Page { sort: Sort { by_name: true, falls: false }, after, most }
+    PageQuery { sort: Sort { by_name: true, falls: false }, after, most }
 }
 
 #[tokio::test]
@@ -85,14 +85,14 @@ async fn pages_go_on_where_the_last_one_ended_even_when_its_scene_is_gone() {
     for (id, name) in [("a", "one"), ("b", "two"), ("c", "one"), ("d", "three")] {
         store.put(id, Expect::Absent, record(name)).await.unwrap();
     }
-    let ids = async |page: Page| {
+    let ids = async |page: PageQuery| {
         let rows = store.list(page, |row| row.name != "three").await.unwrap();
         rows.into_iter().map(|row| row.id).collect::<Vec<_>>()
     };
     assert_eq!(ids(page(None, 2)).await, ["a", "c"]);
     store.delete("c", Expect::Etags(vec!["*".into()])).await.unwrap();
     assert_eq!(ids(page(Some(("one", "c")), 2)).await, ["b"]);
-    let falling = Page { sort: Sort { by_name: true, falls: true }, ..page(Some(("two", "a")), 9) };
+    let falling = PageQuery { sort: Sort { by_name: true, falls: true }, ..page(Some(("two", "a")), 9) };
     assert_eq!(ids(falling).await, ["b", "a"]);
 }
 

@@ -3,8 +3,8 @@
 use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::sumo::SumoError;
-use crate::sumo::programs::Program;
-use crate::xml::{Element, Event, Scanner};
+use crate::sumo::programs::SignalProgram;
+use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
 use std::collections::HashMap;
 use std::io::BufRead;
@@ -20,12 +20,12 @@ const LANE_WIDTH_M: f64 = 3.2;
 
 /// The element below the root that is open.
 #[derive(Default)]
-enum Open {
+enum OpenElement {
     /// None, or one that is not read.
     #[default]
     Other,
     Edge(NetEdge),
-    Program(Program),
+    Program(SignalProgram),
 }
 
 /// A `<connection>`; it may stand before the lanes that it names.
@@ -43,7 +43,7 @@ struct Reader {
     net: Net,
     /// Elements that are open.
     depth: usize,
-    open: Open,
+    open: OpenElement,
     connections: Vec<Connection>,
     elements: usize,
     attributes: usize,
@@ -64,9 +64,9 @@ impl Net {
         let mut reader = Reader::default();
         while let Some(event) = scanner.next()? {
             match event {
-                Event::Start(element) => reader.start(&element)?,
-                Event::End => reader.end(),
-                Event::Text(_) => {}
+                XmlEvent::Start(element) => reader.start(&element)?,
+                XmlEvent::End => reader.end(),
+                XmlEvent::Text(_) => {}
             }
         }
         Ok(reader.linked())
@@ -87,19 +87,19 @@ impl Reader {
                 self.net.notes.projected =
                     !matches!(element.get("projParameter"), None | Some("!" | "-" | ""));
             }
-            (2, "edge", open) => *open = edge(element)?.map_or(Open::Other, Open::Edge),
-            (2, "tlLogic", open) => *open = Open::Program(program(element)?),
+            (2, "edge", open) => *open = edge(element)?.map_or(OpenElement::Other, OpenElement::Edge),
+            (2, "tlLogic", open) => *open = OpenElement::Program(program(element)?),
             (2, "junction", _) if element.get("type") != Some("internal") => {
                 self.net.junctions.push(junction(element)?);
             }
             (2, "connection", _) => self.connections.push(connection(element)?),
-            (3, "lane", Open::Edge(edge)) => {
+            (3, "lane", OpenElement::Edge(edge)) => {
                 let number = edge.lanes.len();
                 edge.lanes.push(self.net.lanes.len());
                 let lane = lane(element, edge.function, &mut self.net.notes.heights)?;
                 self.net.lanes.push(NetLane { edge: self.net.edges.len(), index: number, ..lane });
             }
-            (3, "phase", Open::Program(program)) => add_phase(element, program)?,
+            (3, "phase", OpenElement::Program(program)) => add_phase(element, program)?,
             _ => {}
         }
         Ok(())
@@ -121,9 +121,9 @@ impl Reader {
     fn end(&mut self) {
         if self.depth == 2 {
             match std::mem::take(&mut self.open) {
-                Open::Edge(edge) => self.net.edges.push(edge),
-                Open::Program(program) => self.net.programs.push(program),
-                Open::Other => {}
+                OpenElement::Edge(edge) => self.net.edges.push(edge),
+                OpenElement::Program(program) => self.net.programs.push(program),
+                OpenElement::Other => {}
             }
         }
         self.depth = self.depth.saturating_sub(1);
@@ -239,8 +239,8 @@ fn connection(element: &Element) -> Result<Connection, SumoError> {
 }
 
 /// A signal program without its phases.
-fn program(element: &Element) -> Result<Program, SumoError> {
-    Ok(Program {
+fn program(element: &Element) -> Result<SignalProgram, SumoError> {
+    Ok(SignalProgram {
         id: owned(element, "id")?,
         kind: element.get("type").unwrap_or("static").to_owned(),
         offset_s: match element.get("offset") {
@@ -253,7 +253,7 @@ fn program(element: &Element) -> Result<Program, SumoError> {
     })
 }
 
-fn add_phase(element: &Element, program: &mut Program) -> Result<(), SumoError> {
+fn add_phase(element: &Element, program: &mut SignalProgram) -> Result<(), SumoError> {
     let duration_s = number(element, "duration")?;
     if duration_s < 0.0 {
         let found = element.required("duration")?;

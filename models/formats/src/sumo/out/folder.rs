@@ -1,6 +1,6 @@
 //! All that SUMO needs of a scene, as one zip.
 
-use super::network::Network;
+use super::network::ExportedNetwork;
 use super::{net, recording, trips};
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
@@ -24,7 +24,7 @@ pub(in crate::sumo) const CONFIGURATION: &str = ".sumocfg";
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let name = pack::file_name(scene);
     let written = recording::road_users(scene, options);
-    let network = Network::of(scene);
+    let network = ExportedNetwork::of(scene);
     let mut losses: BTreeSet<Loss> = recording::losses(scene, options, &written).into_iter().collect();
     let mut files = Vec::new();
     let steps = recording::steps(scene, &written);

@@ -1,7 +1,7 @@
 //! A network as SUMO loads it (`net.xml`): lanes where they are, with links, rules and lights.
 
-use super::network::{Edge, Junction, Link, Network, Role, is_motorway};
-use super::yields::{Ruled, letters};
+use super::network::{Edge, ExportedNetwork, Junction, LaneRole, Link, is_motorway};
+use super::yields::{LinkPriority, letters};
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
@@ -22,7 +22,7 @@ const MOTORWAY: &str = "highway.motorway";
 /// # Errors
 /// `InvalidInput` for a scene without a lane.
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
-    let network = Network::of(scene);
+    let network = ExportedNetwork::of(scene);
     let (_, steps) = options.motion.all(scene);
     let Some(bytes) = document(scene, &network, steps) else {
         let detail = "a network of SUMO has one lane or more; this scene has none";
@@ -36,7 +36,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
 }
 
 /// The file, with lights that go on for so many steps; nothing for a map without lanes.
-pub(super) fn document(scene: &Scene, network: &Network<'_>, steps: usize) -> Option<Vec<u8>> {
+pub(super) fn document(scene: &Scene, network: &ExportedNetwork<'_>, steps: usize) -> Option<Vec<u8>> {
     if network.edges.is_empty() {
         return None;
     }
@@ -71,7 +71,7 @@ pub(super) fn document(scene: &Scene, network: &Network<'_>, steps: usize) -> Op
     Some(out.finish())
 }
 
-fn location(scene: &Scene, network: &Network<'_>, out: &mut Markup) {
+fn location(scene: &Scene, network: &ExportedNetwork<'_>, out: &mut Markup) {
     let points = || network.lines.iter().flatten();
     let first = points().next().copied().unwrap_or_default();
     let (low, high) = points().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
@@ -112,7 +112,7 @@ pub(super) fn limit_mps(lane: &Lane) -> f64 {
     lane.speed_limit_mps.unwrap_or_else(|| assumed_speed_limit_mps(lane.lane_type))
 }
 
-fn write_lane(network: &Network<'_>, lane: usize, id: &str, index: usize, out: &mut Markup) {
+fn write_lane(network: &ExportedNetwork<'_>, lane: usize, id: &str, index: usize, out: &mut Markup) {
     let line = &network.lines[lane];
     let lane = &network.map.lanes[lane];
     let (number, speed) = (index.to_string(), decimal(limit_mps(lane)));
@@ -124,7 +124,7 @@ fn write_lane(network: &Network<'_>, lane: usize, id: &str, index: usize, out: &
     out.empty("lane", &attributes);
 }
 
-fn write_edge(network: &Network<'_>, edge: &Edge, out: &mut Markup) {
+fn write_edge(network: &ExportedNetwork<'_>, edge: &Edge, out: &mut Markup) {
     let lanes = || edge.lanes.iter().map(|lane| &network.map.lanes[*lane]);
     let [from, to] = [edge.from, edge.to].map(|junction| network.junctions[junction].id.as_str());
     // Who drives faster has the right of way where SUMO works it out anew.
@@ -173,7 +173,7 @@ fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
     out.close();
 }
 
-fn write_junction(network: &Network<'_>, junction: &Junction, out: &mut Markup) {
+fn write_junction(network: &ExportedNetwork<'_>, junction: &Junction, out: &mut Markup) {
     let kind = match junction {
         Junction { lights, .. } if !lights.is_empty() => "traffic_light",
         Junction { links, .. } if links.is_empty() => "dead_end",
@@ -207,7 +207,7 @@ fn write_junction(network: &Network<'_>, junction: &Junction, out: &mut Markup) 
 }
 
 /// Where the parts of a way meet, which is where SUMO lets traffic wait within a junction.
-fn waiting(network: &Network<'_>, link: &Link, out: &mut Markup) {
+fn waiting(network: &ExportedNetwork<'_>, link: &Link, out: &mut Markup) {
     for pair in link.via.windows(2) {
         let [(_, before), (lane, id)] = pair else { continue };
         let at = network.lines[*lane].first().copied().unwrap_or_default();
@@ -227,9 +227,9 @@ fn waiting(network: &Network<'_>, link: &Link, out: &mut Markup) {
 }
 
 fn connection(
-    network: &Network<'_>,
+    network: &ExportedNetwork<'_>,
     junction: &Junction,
-    (link, rule): (&Link, Option<&Ruled>),
+    (link, rule): (&Link, Option<&LinkPriority>),
     out: &mut Markup,
 ) {
     let (Some((from, from_lane)), Some((to, to_lane))) = (network.place(link.from), network.place(link.to))
@@ -243,7 +243,7 @@ fn connection(
         turn if turn < -TURNS_RAD.0 => "r",
         _ => "s",
     };
-    let gives_way = rule.is_some_and(Ruled::gives_way);
+    let gives_way = rule.is_some_and(LinkPriority::gives_way);
     let state = match link {
         Link { light: Some(_), .. } => "o",
         Link { stops: true, .. } => "s",
@@ -269,7 +269,7 @@ fn connection(
 }
 
 /// What the map loses; nothing of a map without lanes is written.
-pub(super) fn losses(scene: &Scene, network: &Network<'_>) -> Vec<Loss> {
+pub(super) fn losses(scene: &Scene, network: &ExportedNetwork<'_>) -> Vec<Loss> {
     let map = network.map;
     let mut losses = Vec::new();
     let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
@@ -280,7 +280,7 @@ pub(super) fn losses(scene: &Scene, network: &Network<'_>) -> Vec<Loss> {
     );
     lose(true, code::GEOMETRY_APPROXIMATED, &detail);
     lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
-    let count = network.roles.iter().filter(|role| **role == Role::Lost).count();
+    let count = network.roles.iter().filter(|role| **role == LaneRole::Lost).count();
     lose(count > 0, code::NO_MAP, &format!("{count} lanes of no length"));
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
     lose(lines, code::NO_LINES, "painted lines and road edges: they are drawn anew beside lanes");

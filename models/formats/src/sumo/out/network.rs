@@ -1,6 +1,6 @@
 //! A lane map as SUMO thinks of one: edges of lanes side by side between junctions, and links through these.
 
-use super::yields::{Ruled, rules};
+use super::yields::{LinkPriority, rules};
 use crate::frame::Frame;
 use crate::joints::{Groups, Joints, end_of, join_crossing, start_of};
 use crate::polyline::length;
@@ -18,9 +18,9 @@ const APART_M: f64 = 1.5;
 /// Most links of a junction that SUMO has rules for.
 const MOST_RULED: usize = 256;
 
-/// What becomes of a lane of the map.
+/// How a lane of the map is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum LaneRole {
     /// A lane of an edge, counted from the right.
     On { edge: usize, index: usize },
     /// The way of a link through a junction.
@@ -63,7 +63,7 @@ pub(super) struct Junction {
     /// In the order of the lanes that lead here.
     pub links: Vec<Link>,
     /// Who gives way to whom, one entry a link; none where there are too many.
-    pub rules: Vec<Ruled>,
+    pub rules: Vec<LinkPriority>,
     /// Positions of its lights among the scene's.
     pub lights: Vec<usize>,
     /// Corners of the lanes that end and begin here.
@@ -71,12 +71,12 @@ pub(super) struct Junction {
     pub middle: Vec2,
 }
 
-/// A map on its way out, in the frame of its source.
-pub(super) struct Network<'a> {
+/// A map as it is written, in the frame of its source.
+pub(super) struct ExportedNetwork<'a> {
     pub map: &'a LaneMap,
     /// Centre lines, one a lane of the map.
     pub lines: Vec<Vec<Vec2>>,
-    pub roles: Vec<Role>,
+    pub roles: Vec<LaneRole>,
     pub edges: Vec<Edge>,
     pub junctions: Vec<Junction>,
     /// Signals that rule nothing that is written.
@@ -155,7 +155,7 @@ fn ways(map: &LaneMap, joints: &Joints, lost: impl Fn(usize) -> bool) -> Vec<Way
     ways
 }
 
-impl<'a> Network<'a> {
+impl<'a> ExportedNetwork<'a> {
     pub fn of(scene: &'a Scene) -> Self {
         let map: &LaneMap = &scene.map;
         let frame = Frame::of(&scene.meta.origin);
@@ -168,17 +168,17 @@ impl<'a> Network<'a> {
         let joints = Joints::of(map);
         let lost = |i: usize| length(&lines[i]) < SHORTEST_M;
         let ways = ways(map, &joints, lost);
-        let mut roles = vec![Role::Lost; map.lanes.len()];
+        let mut roles = vec![LaneRole::Lost; map.lanes.len()];
         for lane in ways.iter().flat_map(|way| &way.via) {
-            roles[*lane] = Role::Way;
+            roles[*lane] = LaneRole::Way;
         }
         let mut names = Names::default();
         let mut edges = Vec::new();
-        let is_way: Vec<bool> = roles.iter().map(|role| *role == Role::Way).collect();
+        let is_way: Vec<bool> = roles.iter().map(|role| *role == LaneRole::Way).collect();
         for lanes in abreast(map, &lines, &joints, |i| !lost(i) && !is_way[i]) {
             let Some(first) = lanes.first().and_then(|lane| map.lanes.get(*lane)) else { continue };
             for (index, lane) in lanes.iter().enumerate() {
-                roles[*lane] = Role::On { edge: edges.len(), index };
+                roles[*lane] = LaneRole::On { edge: edges.len(), index };
             }
             edges.push(Edge { id: names.take(&first.id), lanes, from: 0, to: 0 });
         }
@@ -193,7 +193,7 @@ impl<'a> Network<'a> {
     /// The edge and the number of a lane that belongs to one.
     pub fn place(&self, lane: usize) -> Option<(&Edge, usize)> {
         match self.roles.get(lane) {
-            Some(Role::On { edge, index }) => Some((self.edges.get(*edge)?, *index)),
+            Some(LaneRole::On { edge, index }) => Some((self.edges.get(*edge)?, *index)),
             _ => None,
         }
     }
@@ -273,14 +273,14 @@ impl<'a> Network<'a> {
             let lane = scene.map.lane_index(&signal.lane).filter(driven);
             let lane = lane.filter(|lane| match self.roles.get(*lane) {
                 // Behind the first part of a way nobody stops.
-                Some(Role::Way) => {
+                Some(LaneRole::Way) => {
                     let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
-                    ins.iter().all(|lane| matches!(self.roles[*lane], Role::On { .. }))
+                    ins.iter().all(|lane| matches!(self.roles[*lane], LaneRole::On { .. }))
                 }
                 // What leads there through a junction is not ruled by a light behind it.
-                Some(Role::On { .. }) => {
+                Some(LaneRole::On { .. }) => {
                     let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
-                    !ins.is_empty() && ins.iter().all(|lane| matches!(self.roles[*lane], Role::On { .. }))
+                    !ins.is_empty() && ins.iter().all(|lane| matches!(self.roles[*lane], LaneRole::On { .. }))
                 }
                 _ => false,
             });

@@ -1,7 +1,7 @@
 //! Motion as SUMO records it (`fcd-export`).
 
 use super::network::Names;
-use super::words::{Kind, kind};
+use super::words::{VehicleType, kind};
 use crate::format::{EGO, ExportOptions, Exported, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
@@ -15,15 +15,15 @@ use std::io;
 /// Speeds this near to a heading lie along it, m/s.
 const ALONG_MPS: f64 = 0.01;
 
-/// A road user on its way out, in the frame of the source.
-pub(super) struct Written<'a> {
+/// A road user as it is written, in the frame of the source.
+pub(super) struct ExportedAgent<'a> {
     pub name: String,
     pub agent: &'a Agent,
     pub shown: Shown<'a>,
-    pub kind: Kind,
+    pub kind: VehicleType,
 }
 
-impl Written<'_> {
+impl ExportedAgent<'_> {
     /// What SUMO says where somebody is by: the middle of the front bumper, of a person its centre.
     pub fn ahead_m(&self) -> f64 {
         if self.kind.person { 0.0 } else { self.shown.size.length_m / 2.0 }
@@ -35,19 +35,19 @@ impl Written<'_> {
 }
 
 /// Road users that are seen at some time.
-pub(super) fn road_users<'a>(scene: &'a Scene, options: &ExportOptions) -> Vec<Written<'a>> {
+pub(super) fn road_users<'a>(scene: &'a Scene, options: &ExportOptions) -> Vec<ExportedAgent<'a>> {
     let mut names = Names::default();
     let written = |agent: &'a Agent| {
         let shown = options.motion.of(scene, agent);
         shown.track.valid_steps().next()?;
         let kind = kind(shown.agent_type, agent.subtype, &shown.size);
-        Some(Written { name: names.take(&agent.id), agent, shown, kind })
+        Some(ExportedAgent { name: names.take(&agent.id), agent, shown, kind })
     };
     scene.agents.iter().filter_map(written).collect()
 }
 
 /// Steps of what is written: those of the scene, or more where a future is longer.
-pub(super) fn steps(scene: &Scene, written: &[Written<'_>]) -> usize {
+pub(super) fn steps(scene: &Scene, written: &[ExportedAgent<'_>]) -> usize {
     let last = written.iter().filter_map(|user| user.shown.track.last_valid_step()).max();
     scene.time.steps.max(last.map_or(0, |last| last + 1))
 }
@@ -72,7 +72,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     Ok(Exported { bytes: document(scene, &written), losses })
 }
 
-pub(super) fn document(scene: &Scene, written: &[Written<'_>]) -> Vec<u8> {
+pub(super) fn document(scene: &Scene, written: &[ExportedAgent<'_>]) -> Vec<u8> {
     let frame = Frame::of(&scene.meta.origin);
     let mut out = Markup::new();
     out.open("fcd-export", &[]);
@@ -92,7 +92,7 @@ pub(super) fn document(scene: &Scene, written: &[Written<'_>]) -> Vec<u8> {
     out.finish()
 }
 
-fn row(user: &Written<'_>, state: &State, out: &mut Markup) {
+fn row(user: &ExportedAgent<'_>, state: &State, out: &mut Markup) {
     let at = user.point(state);
     // Degrees clockwise from north.
     let angle_deg = (90.0 - state.heading_rad.to_degrees()).rem_euclid(360.0);
@@ -110,12 +110,12 @@ fn row(user: &Written<'_>, state: &State, out: &mut Markup) {
 }
 
 /// What motion loses.
-pub(super) fn losses(scene: &Scene, options: &ExportOptions, written: &[Written<'_>]) -> Vec<Loss> {
+pub(super) fn losses(scene: &Scene, options: &ExportOptions, written: &[ExportedAgent<'_>]) -> Vec<Loss> {
     let mut losses = Vec::new();
     losses.extend(unwritten::conditions(scene, options.motion));
     losses.extend(unwritten::futures(scene, options.motion));
     let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
-    let of_its_kind = |user: &Written<'_>| {
+    let of_its_kind = |user: &ExportedAgent<'_>| {
         let read = kinds::of(&user.kind.id, user.kind.person);
         (read.agent_type, read.subtype) == (user.shown.agent_type, user.agent.subtype)
     };
@@ -124,7 +124,8 @@ pub(super) fn losses(scene: &Scene, options: &ExportOptions, written: &[Written<
         code::NO_SUBTYPE,
         "kinds that SUMO has no word for are usual ones",
     );
-    let heightless = |user: &Written<'_>| user.shown.size.length_m > 60.0 || user.shown.size.width_m > 60.0;
+    let heightless =
+        |user: &ExportedAgent<'_>| user.shown.size.length_m > 60.0 || user.shown.size.width_m > 60.0;
     lose(written.iter().any(heightless), code::NO_SIZES, "sizes beyond 60 m");
     lose(written.len() < scene.agents.len(), code::NO_UNSEEN, "road users whom nobody saw");
     let aside = |state: &State| {

@@ -1,8 +1,8 @@
 //! Where road users go in a network (`rou.xml`), for SUMO to drive them its own way: types, departures, edges.
 
 use super::net::limit_mps;
-use super::network::{Network, Role};
-use super::recording::Written;
+use super::network::{ExportedNetwork, LaneRole};
+use super::recording::ExportedAgent;
 use crate::markup::{Markup, decimal};
 use scene::geometry::wrap_angle;
 use scene::routes::{LaneGraph, LaneHit};
@@ -22,7 +22,7 @@ const FASTEST_MPS: (f64, f64) = (50.0, 14.0);
 
 /// Where somebody enters the network and goes.
 struct Trip<'a> {
-    user: &'a Written<'a>,
+    user: &'a ExportedAgent<'a>,
     depart: usize,
     /// Along the lane to the point that SUMO means, metres.
     at_m: f64,
@@ -32,7 +32,11 @@ struct Trip<'a> {
 }
 
 /// Writes the trips; gives how many road users have none.
-pub(super) fn write(scene: &Scene, network: &Network<'_>, written: &[Written<'_>]) -> (Vec<u8>, usize) {
+pub(super) fn write(
+    scene: &Scene,
+    network: &ExportedNetwork<'_>,
+    written: &[ExportedAgent<'_>],
+) -> (Vec<u8>, usize) {
     let graph = LaneGraph::new(&scene.map);
     let ways = Ways::of(network);
     let mut trips: Vec<Trip<'_>> =
@@ -71,7 +75,7 @@ fn types(trips: &[Trip<'_>], out: &mut Markup) {
     }
 }
 
-fn write_trip(network: &Network<'_>, trip: &Trip<'_>, out: &mut Markup) {
+fn write_trip(network: &ExportedNetwork<'_>, trip: &Trip<'_>, out: &mut Markup) {
     let Some((_, index)) = network.place(trip.lane) else { return };
     let ids: Vec<&str> = trip.edges.iter().map(|edge| network.edges[*edge].id.as_str()).collect();
     let edges = ids.join(" ");
@@ -108,10 +112,10 @@ fn write_trip(network: &Network<'_>, trip: &Trip<'_>, out: &mut Markup) {
 
 /// The way of a road user; nothing for one that is on no edge.
 fn trip<'a>(
-    network: &Network<'_>,
+    network: &ExportedNetwork<'_>,
     graph: &LaneGraph,
     ways: &Ways,
-    user: &'a Written<'a>,
+    user: &'a ExportedAgent<'a>,
 ) -> Option<Trip<'a>> {
     let track = &user.shown.track;
     let mut first = None;
@@ -121,7 +125,7 @@ fn trip<'a>(
         let Some(state) = track.at(step) else { continue };
         let Some(hit) = lane_of(network, graph, user, state, before) else { continue };
         before = Some(hit.lane);
-        let Some(Role::On { edge, .. }) = network.roles.get(hit.lane) else { continue };
+        let Some(LaneRole::On { edge, .. }) = network.roles.get(hit.lane) else { continue };
         first.get_or_insert((step, hit, *state));
         if edges.last() == Some(edge) {
             continue;
@@ -143,9 +147,9 @@ fn trip<'a>(
 }
 
 fn lane_of(
-    network: &Network<'_>,
+    network: &ExportedNetwork<'_>,
     graph: &LaneGraph,
-    user: &Written<'_>,
+    user: &ExportedAgent<'_>,
     state: &State,
     before: Option<usize>,
 ) -> Option<LaneHit> {
@@ -162,7 +166,7 @@ fn lane_of(
         hit.distance_m + further_m
     };
     let hits = graph.nearest_for(state.position(), NEAR_M, user.shown.agent_type);
-    let written = |hit: &LaneHit| network.roles.get(hit.lane).is_some_and(|role| *role != Role::Lost);
+    let written = |hit: &LaneHit| network.roles.get(hit.lane).is_some_and(|role| *role != LaneRole::Lost);
     hits.into_iter().filter(|hit| written(hit) && along(hit)).min_by(|a, b| away_m(a).total_cmp(&away_m(b)))
 }
 
@@ -170,10 +174,10 @@ fn lane_of(
 struct Ways(BTreeMap<usize, BTreeSet<usize>>);
 
 impl Ways {
-    fn of(network: &Network<'_>) -> Self {
+    fn of(network: &ExportedNetwork<'_>) -> Self {
         let mut ways: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         let edge = |lane: usize| match network.roles.get(lane) {
-            Some(Role::On { edge, .. }) => Some(*edge),
+            Some(LaneRole::On { edge, .. }) => Some(*edge),
             _ => None,
         };
         for link in network.junctions.iter().flat_map(|junction| &junction.links) {

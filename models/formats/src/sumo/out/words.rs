@@ -6,7 +6,7 @@ use scene::{AgentType, Size, Subtype};
 
 /// A type of vehicles or persons.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Kind {
+pub(super) struct VehicleType {
     /// Such as `car_4.5x1.8x1.5m`: length, width and height.
     pub id: String,
     /// Whom SUMO lets where.
@@ -34,10 +34,10 @@ fn word(agent_type: AgentType, subtype: Subtype) -> (&'static str, &'static str)
 }
 
 /// The type of a road user.
-pub(super) fn kind(agent_type: AgentType, subtype: Subtype, size: &Size) -> Kind {
+pub(super) fn kind(agent_type: AgentType, subtype: Subtype, size: &Size) -> VehicleType {
     let (word, class) = word(agent_type, subtype);
     let sides = [Some(size.length_m), Some(size.width_m), size.height_m];
     let sides: Vec<String> = sides.into_iter().flatten().map(decimal).collect();
     let id = format!("{word}_{}{}", sides.join("x"), kinds::METRES);
-    Kind { id, class, person: agent_type == AgentType::Pedestrian }
+    VehicleType { id, class, person: agent_type == AgentType::Pedestrian }
 }

@@ -8,16 +8,16 @@ use scene::geometry::cross;
 /// Turning by this much more than another gives way to it, radians.
 const TURNS_MORE_RAD: f64 = 0.3;
 
-/// What a link has to look for.
+/// Links that cross a link, and those that go first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Ruled {
+pub(super) struct LinkPriority {
     /// Links that cross or join it.
     pub foes: Vec<bool>,
     /// Those of them that go first.
     pub first: Vec<bool>,
 }
 
-impl Ruled {
+impl LinkPriority {
     pub fn gives_way(&self) -> bool {
         self.first.contains(&true)
     }
@@ -29,9 +29,10 @@ pub(super) fn letters(list: &[bool]) -> String {
 }
 
 /// Of two links that meet one goes first: who has no stop sign, turns less, or comes from the right.
-pub(super) fn rules(links: &[Link], lines: &[Vec<Vec2>]) -> Vec<Ruled> {
+pub(super) fn rules(links: &[Link], lines: &[Vec<Vec2>]) -> Vec<LinkPriority> {
     let none = || vec![false; links.len()];
-    let mut rules: Vec<Ruled> = links.iter().map(|_| Ruled { foes: none(), first: none() }).collect();
+    let mut rules: Vec<LinkPriority> =
+        links.iter().map(|_| LinkPriority { foes: none(), first: none() }).collect();
     let line = |link: &Link| -> Vec<Vec2> {
         link.via.iter().flat_map(|(lane, _)| lines[*lane].iter().copied()).collect()
     };

@@ -93,7 +93,7 @@ pub struct Interval {
 
 /// How far one distribution is from the log's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Gap {
+pub struct DistributionDistance {
     /// Wasserstein-1, in the measure's unit.
     pub wasserstein: Interval,
     /// Jensen-Shannon divergence over 24 classes, bits.
@@ -104,16 +104,16 @@ pub struct Gap {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct MeasureGaps {
-    pub model: Gap,
-    pub lane_sampler: Gap,
+    pub model: DistributionDistance,
+    pub lane_sampler: DistributionDistance,
     /// One half of the scenes' logs against the other half: what chance leaves.
-    pub log_halves: Gap,
+    pub log_halves: DistributionDistance,
 }
 
 /// Counts and shares of one source of road users.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Facts {
+pub struct PlacementFacts {
     pub asked: usize,
     pub placed: usize,
     /// Pairs of boxes that share area.
@@ -136,14 +136,14 @@ pub struct PlacementReport {
     /// Road users in the logs, by type.
     pub logged: BTreeMap<AgentType, usize>,
     pub rows: BTreeMap<AgentType, BTreeMap<Measure, MeasureGaps>>,
-    pub log: Facts,
-    pub model: Facts,
-    pub lane_sampler: Facts,
+    pub log: PlacementFacts,
+    pub model: PlacementFacts,
+    pub lane_sampler: PlacementFacts,
 }
 
 /// Values of one scene by type and measure, and its counts.
 #[derive(Clone, Debug, Default)]
-struct Values {
+struct SceneMeasures {
     by: BTreeMap<(AgentType, Measure), Vec<f64>>,
     asked: usize,
     placed: usize,
@@ -154,7 +154,7 @@ struct Values {
 }
 
 /// Log, model and lane sampler of one scene.
-type Three = [Values; 3];
+type Three = [SceneMeasures; 3];
 
 /// Compares placements with the logs of scenes.
 ///
@@ -233,7 +233,7 @@ fn of_scene(
     Ok(Some(three))
 }
 
-impl Values {
+impl SceneMeasures {
     fn add(&mut self, graph: &LaneGraph, drivable: &Drivable, agents: &[Agent], step: usize) {
         let there = agents.iter().filter_map(|a| Some((a, a.state_at(step)?)));
         let there: Vec<(&Agent, State, OrientedBox)> =
@@ -277,7 +277,7 @@ fn lane_of(graph: &LaneGraph, state: &State) -> Option<LaneHit> {
 
 type MeasuredOf = (AgentType, Measure);
 
-fn pooled<'a>(scenes: impl Iterator<Item = &'a Values>, key: MeasuredOf) -> Vec<f64> {
+fn pooled<'a>(scenes: impl Iterator<Item = &'a SceneMeasures>, key: MeasuredOf) -> Vec<f64> {
     scenes.flat_map(|s| s.by.get(&key).into_iter().flatten().copied()).collect()
 }
 
@@ -297,28 +297,28 @@ fn figure(value: f64, mut resampled: Vec<f64>) -> Interval {
     Interval { value, low: at(0.025), high: at(0.975) }
 }
 
-fn gap(all: &[Three], slot: usize, key: MeasuredOf, (low, high): (f64, f64)) -> Gap {
+fn gap(all: &[Three], slot: usize, key: MeasuredOf, (low, high): (f64, f64)) -> DistributionDistance {
     let of = |picked: &[usize], slot: usize| pooled(picked.iter().map(|i| &all[*i][slot]), key);
     let whole: Vec<usize> = (0..all.len()).collect();
     let (log, placed) = (of(&whole, 0), of(&whole, slot));
     let resampled = resamples(all.len()).map(|picked| wasserstein(&of(&picked, 0), &of(&picked, slot)));
-    Gap {
+    DistributionDistance {
         wasserstein: figure(wasserstein(&log, &placed), resampled.collect()),
         jensen_shannon: jensen_shannon(&log, &placed, low, high),
     }
 }
 
-fn halves(all: &[Three], key: MeasuredOf, (low, high): (f64, f64)) -> Gap {
+fn halves(all: &[Three], key: MeasuredOf, (low, high): (f64, f64)) -> DistributionDistance {
     let of = |parity: usize| pooled(all.iter().skip(parity).step_by(2).map(|s| &s[0]), key);
     let (even, odd) = (of(0), of(1));
-    Gap {
+    DistributionDistance {
         wasserstein: figure(wasserstein(&even, &odd), Vec::new()),
         jensen_shannon: jensen_shannon(&even, &odd, low, high),
     }
 }
 
-fn facts(all: &[Three], slot: usize) -> Facts {
-    let share = |of: fn(&Values) -> &Vec<f64>| {
+fn facts(all: &[Three], slot: usize) -> PlacementFacts {
+    let share = |of: fn(&SceneMeasures) -> &Vec<f64>| {
         let mean = |picked: &[usize]| {
             let values = picked.iter().flat_map(|i| of(&all[*i][slot]));
             let (sum, n) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v, n + 1.0));
@@ -327,8 +327,8 @@ fn facts(all: &[Three], slot: usize) -> Facts {
         let whole: Vec<usize> = (0..all.len()).collect();
         figure(mean(&whole), resamples(all.len()).map(|picked| mean(&picked)).collect())
     };
-    let sum = |of: fn(&Values) -> usize| all.iter().map(|s| of(&s[slot])).sum();
-    Facts {
+    let sum = |of: fn(&SceneMeasures) -> usize| all.iter().map(|s| of(&s[slot])).sum();
+    PlacementFacts {
         asked: sum(|v| v.asked),
         placed: sum(|v| v.placed),
         overlaps: sum(|v| v.overlaps),

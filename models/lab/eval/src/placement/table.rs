@@ -1,6 +1,6 @@
 //! The table as Markdown.
 
-use super::{Facts, Gap, Interval, PlacementReport};
+use super::{DistributionDistance, Interval, PlacementFacts, PlacementReport};
 use std::fmt::Write as _;
 
 /// The report as Markdown, the same bytes for the same report.
@@ -34,7 +34,7 @@ pub fn markdown(report: &PlacementReport) -> String {
     }
     text.push_str("\n| | log | model | lane sampler |\n|---|---|---|---|\n");
     let three = [&report.log, &report.model, &report.lane_sampler];
-    let mut line = |what: &str, of: &dyn Fn(&Facts) -> String| {
+    let mut line = |what: &str, of: &dyn Fn(&PlacementFacts) -> String| {
         let _ = writeln!(text, "| {what} | {} | {} | {} |", of(three[0]), of(three[1]), of(three[2]));
     };
     line("placed of asked", &|f| format!("{} of {}", f.placed, f.asked));
@@ -45,7 +45,7 @@ pub fn markdown(report: &PlacementReport) -> String {
     text
 }
 
-fn gap(gap: &Gap) -> String {
+fn gap(gap: &DistributionDistance) -> String {
     let w = gap.wasserstein;
     format!("{:.2} [{:.2}, {:.2}] ({:.3})", w.value, w.low, w.high, gap.jensen_shannon)
 }

@@ -11,7 +11,7 @@ use super::measure::{
 use super::parked::parked;
 use super::picture;
 use super::rivals::{Rival, learned};
-use super::table::{Made, Table, Trial};
+use super::table::{Made, TableSpec, Trial};
 use super::{Case, Entrants, Site, Subset};
 use anyhow::Result;
 use experts::{Generator, ReachReport, Request};
@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Table 1, with its pictures.
-pub(super) const TABLE: Table = Table { number: 1, name: "quality", make };
+pub(super) const TABLE: TableSpec = TableSpec { number: 1, name: "quality", make };
 
 fn make(trial: &mut Trial<'_>) -> Result<Made> {
     let outcomes = collect(trial.entrants(), &trial.sites, trial.seed)?;
@@ -34,9 +34,9 @@ fn make(trial: &mut Trial<'_>) -> Result<Made> {
     Ok(Made { sheets, pictures, ..Made::default() })
 }
 
-/// Who answers a case.
+/// Source of the answer to a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Method {
+pub enum AnswerSource {
     /// The product as it is shipped, with the weights of this index.
     Refined(usize),
     /// The same weights without refinement and noise.
@@ -47,7 +47,7 @@ pub enum Method {
     Formula(Rival),
 }
 
-impl Method {
+impl AnswerSource {
     /// All, in the tables' order.
     pub fn all(entrants: Entrants<'_>) -> Vec<Self> {
         let ours = (0..entrants.judged.len()).flat_map(|i| [Self::Refined(i), Self::Initializer(i)]);
@@ -163,7 +163,7 @@ pub struct Outcome {
     /// Condition.
     pub subset: Subset,
     /// Who answered.
-    pub method: Method,
+    pub method: AnswerSource,
     /// Errors.
     pub measured: Measured,
     manner: Manner,
@@ -233,15 +233,17 @@ fn site_outcomes(entrants: Entrants<'_>, site: &Site<'_>, seed: u64) -> Result<V
         let log = site.log(case);
         let manner = Manner::of(log, case);
         for subset in Subset::ALL {
-            for method in Method::all(entrants) {
+            for method in AnswerSource::all(entrants) {
                 let found = match method {
-                    Method::Refined(i) => alone(&judged[i].generator, site, case, subset, true, seed)?,
-                    Method::Initializer(i) => alone(&judged[i].generator, site, case, subset, false, seed)?,
-                    Method::Learned(i) => first(learned(&entrants.baselines[i], site, case, subset)?),
-                    Method::Formula(rival) => first(rival.futures(site, case, subset, seed)),
+                    AnswerSource::Refined(i) => alone(&judged[i].generator, site, case, subset, true, seed)?,
+                    AnswerSource::Initializer(i) => {
+                        alone(&judged[i].generator, site, case, subset, false, seed)?
+                    }
+                    AnswerSource::Learned(i) => first(learned(&entrants.baselines[i], site, case, subset)?),
+                    AnswerSource::Formula(rival) => first(rival.futures(site, case, subset, seed)),
                 };
                 let Some((futures, reported)) = found else { continue };
-                let learned = !matches!(method, Method::Formula(_));
+                let learned = !matches!(method, AnswerSource::Formula(_));
                 out.push(Outcome {
                     site: site.index,
                     case: index,

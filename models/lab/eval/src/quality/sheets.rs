@@ -5,7 +5,7 @@ use super::super::rivals::Rival;
 use super::super::sheet::{Cell, Form, Sheet};
 use super::super::stats::{Bootstrap, Estimate, Value};
 use super::super::{Entrants, Subset, type_name};
-use super::{GROUPS, GoalVerdict, Method, Outcome};
+use super::{AnswerSource, GROUPS, GoalVerdict, Outcome};
 use scene::AgentType;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,7 +36,7 @@ impl<'a> Quality<'a> {
         &self,
         agent_type: AgentType,
         subset: Subset,
-        method: Method,
+        method: AnswerSource,
     ) -> impl Iterator<Item = &'a Outcome> + Clone {
         let fits = move |o: &&Outcome| o.agent_type == agent_type && o.subset == subset && o.method == method;
         self.outcomes.iter().filter(fits)
@@ -60,7 +60,7 @@ impl<'a> Quality<'a> {
                  closest at its end, as in the paper, whose ADE stands under \"closest\". Log loss of the best \
                  future given that the road user moves, as all of these do; six even ones give 1.79.",
                 "The others' motion is withheld, so nobody is kept out of the way of: a guess at it would be an \
-                 obstacle that is not there. Table 2 has everybody generated together.",
+                 obstacle that is not there. TableSpec 2 has everybody generated together.",
             ],
             &["type", "condition", "method"],
             &[
@@ -77,7 +77,7 @@ impl<'a> Quality<'a> {
         );
         for &agent_type in &self.types {
             for subset in Subset::ALL {
-                for method in Method::all(self.entrants) {
+                for method in AnswerSource::all(self.entrants) {
                     let all = || self.of(agent_type, subset, method);
                     if all().next().is_none() {
                         continue;
@@ -85,7 +85,7 @@ impl<'a> Quality<'a> {
                     let plain = |value: ErrorOf| {
                         Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain)
                     };
-                    let likely = matches!(method, Method::Formula(_));
+                    let likely = matches!(method, AnswerSource::Formula(_));
                     sheet.push(
                         [type_name(agent_type).into(), subset.name().into(), method.name(self.entrants)],
                         vec![
@@ -114,7 +114,7 @@ impl<'a> Quality<'a> {
         &self,
         agent_type: AgentType,
         subset: Subset,
-        method: Method,
+        method: AnswerSource,
         value: ErrorOf,
     ) -> BTreeMap<(usize, usize), f64> {
         self.of(agent_type, subset, method).map(|o| ((o.site, o.case), value(&o.measured))).collect()
@@ -125,7 +125,7 @@ impl<'a> Quality<'a> {
         &self,
         agent_type: AgentType,
         subset: Subset,
-        [ours, rival]: [Method; 2],
+        [ours, rival]: [AnswerSource; 2],
         value: ErrorOf,
     ) -> Option<Estimate> {
         let theirs = self.by_case(agent_type, subset, rival, value);
@@ -135,10 +135,10 @@ impl<'a> Quality<'a> {
     }
 
     /// The rival with the least mean, of those that answered every case.
-    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: ErrorOf) -> Option<Method> {
-        let rivals = Method::rivals(self.entrants);
+    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: ErrorOf) -> Option<AnswerSource> {
+        let rivals = AnswerSource::rivals(self.entrants);
         let most = rivals.iter().map(|rival| self.of(agent_type, subset, *rival).count()).max()?;
-        let mean = |rival: Method| {
+        let mean = |rival: AnswerSource| {
             let all = self.by_case(agent_type, subset, rival, value);
             (all.len() == most && most > 0).then(|| (all.values().sum::<f64>() / most as f64, rival))
         };
@@ -162,7 +162,7 @@ impl<'a> Quality<'a> {
         for &agent_type in &self.types {
             for subset in Subset::ALL {
                 for (i, own) in self.entrants.judged.iter().enumerate() {
-                    let ours = Method::Refined(i);
+                    let ours = AnswerSource::Refined(i);
                     let mut line = |name: &str, a: Option<Estimate>, b: Option<Estimate>, best: Cell| {
                         let keys = [type_name(agent_type), subset.name(), &own.name, name];
                         if a.is_some() {
@@ -176,11 +176,11 @@ impl<'a> Quality<'a> {
                         [(best[0], min), (best[1], first)].map(|(rival, value)| against(rival?, value));
                     let names = best.map(|r| r.map_or("-".into(), |r| r.name(self.entrants))).join(", ");
                     line("best rival", a, b, Cell::Text(names));
-                    for rival in Method::rivals(self.entrants) {
+                    for rival in AnswerSource::rivals(self.entrants) {
                         let name = rival.name(self.entrants);
                         line(&name, against(rival, min), against(rival, first), Cell::Nothing);
                     }
-                    let alone = Method::Initializer(i);
+                    let alone = AnswerSource::Initializer(i);
                     line("initializer alone", against(alone, min), against(alone, first), Cell::Nothing);
                 }
             }
@@ -214,7 +214,7 @@ impl<'a> Quality<'a> {
             for subset in Subset::ALL {
                 for (group, name) in GROUPS {
                     let all = || {
-                        let mine = self.of(AgentType::Vehicle, subset, Method::Refined(i));
+                        let mine = self.of(AgentType::Vehicle, subset, AnswerSource::Refined(i));
                         mine.filter(move |o| o.manner.is(group))
                     };
                     if all().next().is_none() {
@@ -225,7 +225,7 @@ impl<'a> Quality<'a> {
                     };
                     let formula = |value: ErrorOf| {
                         let of = |rival| {
-                            let theirs = self.of(AgentType::Vehicle, subset, Method::Formula(rival));
+                            let theirs = self.of(AgentType::Vehicle, subset, AnswerSource::Formula(rival));
                             self.mean(theirs.filter(|o| o.manner.is(group)), |o| Some(value(&o.measured)))
                         };
                         let found = Rival::ALL.into_iter().filter_map(of);
@@ -268,7 +268,7 @@ impl<'a> Quality<'a> {
             &["who", "bin"],
             &["mean probability", "right"],
         );
-        for method in Method::answering(self.entrants) {
+        for method in AnswerSource::answering(self.entrants) {
             let name = method.name(self.entrants);
             let mine = |o: &&Outcome| o.method == method && o.probabilities.len() > 1;
             let mine: Vec<&Outcome> = self.outcomes.iter().filter(mine).collect();
@@ -310,7 +310,7 @@ impl<'a> Quality<'a> {
             &["who", "type", "condition"],
             &["met", "met or reported", "silent", "left", "futures", "outside limits"],
         );
-        for method in Method::answering(self.entrants) {
+        for method in AnswerSource::answering(self.entrants) {
             for &agent_type in &self.types {
                 for subset in Subset::ALL {
                     let all: Vec<(usize, GoalVerdict)> =

@@ -33,7 +33,7 @@ pub(super) fn likelihoods(log: &[Motion], rollouts: &[Vec<Motion>]) -> Likelihoo
             if logged.values[i].is_empty() || simulated().next().is_none() {
                 continue;
             }
-            let histogram = Histogram::new(feature, simulated());
+            let histogram = ReferenceHistogram::new(feature, simulated());
             sum += logged.values[i].iter().map(|v| histogram.probability(*v).ln()).sum::<f64>();
             n += logged.values[i].len() as f64;
         }
@@ -44,13 +44,13 @@ pub(super) fn likelihoods(log: &[Motion], rollouts: &[Vec<Motion>]) -> Likelihoo
     out
 }
 
-struct Histogram {
+struct ReferenceHistogram {
     low: f64,
     high: f64,
     shares: Vec<f64>,
 }
 
-impl Histogram {
+impl ReferenceHistogram {
     fn new(feature: &Feature, values: impl Iterator<Item = f64>) -> Self {
         let (low, high, bins) = feature.bins.unwrap_or((-0.5, 1.5, 2));
         let pseudocount = if feature.bins.is_some() { PSEUDOCOUNT } else { PSEUDOCOUNT_FLAG };

@@ -9,7 +9,7 @@ mod likelihood;
 use super::rivals::{Together, constant_velocity, varied};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::TableSpec;
 use super::together::{
     Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, rests, scenes,
 };
@@ -89,14 +89,14 @@ fn noisy(site: &Site<'_>, goals: bool, seed: u64) -> Vec<Motions> {
 }
 
 /// What one roller does in one scene.
-struct Seen {
+struct RolloutMeasures {
     site: usize,
     likelihoods: Likelihoods,
     /// Vehicles' accelerations, lateral accelerations and jerks.
     motions: [Vec<f64>; 3],
 }
 
-fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<Seen> {
+fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasures> {
     let edges = RoadEdges::new(&site.scene.map);
     let cases: Vec<usize> = site.cases.iter().map(|c| c.agent).collect();
     let log = observe(site, &edges, &motions_of_log(site), &cases);
@@ -111,7 +111,7 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<Seen> {
             }
         }
     }
-    Ok(Seen { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
+    Ok(RolloutMeasures { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
 }
 
 /// How far the log is from rollouts of a scene: the composite likelihood, and the share of moving road users
@@ -128,7 +128,7 @@ pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (
 }
 
 /// Table 4.
-pub(super) const TABLE: Table = Table {
+pub(super) const TABLE: TableSpec = TableSpec {
     number: 4,
     name: "realism",
     make: |trial| Ok(realism(trial.entrants(), &trial.sites, &trial.boot, trial.seed)?.into()),
@@ -172,7 +172,8 @@ fn realism(entrants: Entrants<'_>, sites: &[Site<'_>], boot: &Bootstrap, seed: u
     rollers
         .extend(entrants.judged.iter().flat_map(|own| [Roller::Ours(own, false), Roller::Ours(own, true)]));
     for roller in rollers {
-        let seen: Result<Vec<Seen>> = sites.par_iter().map(|site| look(&roller, site, seed)).collect();
+        let seen: Result<Vec<RolloutMeasures>> =
+            sites.par_iter().map(|site| look(&roller, site, seed)).collect();
         let seen = seen?;
         let figure = |value: &dyn Fn(&Likelihoods) -> Option<f64>| {
             let values = seen.iter().filter_map(|s| Some(Value::new(s.site, value(&s.likelihoods)?)));

@@ -1,7 +1,7 @@
 //! Least effort: the scene's own projection of constant motion onto the goal, and random variations of it.
 
 use nalgebra::SMatrix;
-use scene::motion::{Kind, Knots, MotionModel, Target, project};
+use scene::motion::{Knots, MotionKind, MotionModel, Target, project};
 use scene::random::Key;
 use scene::{Agent, Goal, KNOTS, State};
 
@@ -63,11 +63,11 @@ fn projected(model: &MotionModel, knots: &Knots, goal: &Goal, goal_step: usize) 
 /// Spreads of both channels; curvature varies the less the faster the road user is.
 fn spread(model: &MotionModel, speed_mps: f64) -> [f64; 2] {
     match model.kind {
-        Kind::Drive => {
+        MotionKind::Drive => {
             let slow = if model.limits.curvature_per_m > 0.5 { 0.15 } else { 0.08 };
             [ACCELERATION_SD, (1.2 / (speed_mps * speed_mps + 0.5)).min(slow)]
         }
-        Kind::Walk => [VELOCITY_SD; 2],
+        MotionKind::Walk => [VELOCITY_SD; 2],
     }
 }
 

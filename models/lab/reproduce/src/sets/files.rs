@@ -5,10 +5,10 @@ use super::interest::{INTERACTIVE_M, interest};
 use super::{Centre, Cut, Data, Interest, Part, SetCounts, SetOptions, Sets, Share, TestCase, scenes};
 use crate::{Stop, stopped};
 use anyhow::{Context, Result};
-use lab_train::prepare::{Asked, CaseRecords};
+use lab_train::prepare::{CaseCondition, CaseRecords};
 use lab_train::provenance::Provenance;
 use lab_train::scenes::place_key;
-use lab_train::training::{Writer, is_for_tests, is_held_out};
+use lab_train::training::{RecordWriter, is_for_tests, is_held_out};
 use rayon::prelude::*;
 use scene::random::Key;
 use scene::{STEP_S, Scene};
@@ -61,10 +61,10 @@ pub fn make(
     let mut out = Sets::default();
     let mut places = BTreeMap::new();
     let writer = |path: PathBuf, centre: Centre| {
-        Writer::create(&path, Provenance::of(centre.judged()))
+        RecordWriter::create(&path, Provenance::of(centre.judged()))
             .with_context(|| format!("write {}", path.display()))
     };
-    let mut writers: Vec<Writer> = Vec::new();
+    let mut writers: Vec<RecordWriter> = Vec::new();
     for centre in Centre::ALL {
         writers.push(writer(records_path(folder, centre), centre)?);
     }
@@ -195,10 +195,10 @@ fn chosen(cut: &Cut, options: &SetOptions) -> Vec<usize> {
 }
 
 fn learn(cut: &Cut, chosen: &[usize], centre: Centre, options: &SetOptions, out: &mut OfFile) {
-    let asked = Asked::End(options.interval_steps);
+    let asked = CaseCondition::End(options.interval_steps);
     out.records.push((centre, CaseRecords::new(&cut.scene, chosen, asked, options.draws, options.seed)));
     if centre == Centre::Ego {
-        out.free.push(CaseRecords::new(&cut.scene, chosen, Asked::Nothing, 1, options.seed));
+        out.free.push(CaseRecords::new(&cut.scene, chosen, CaseCondition::Nothing, 1, options.seed));
     }
 }
 

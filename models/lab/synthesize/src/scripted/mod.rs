@@ -6,11 +6,11 @@ mod turning;
 
 use super::filters::interpolate;
 use super::fleet::{ActorKind, Fleet};
-use super::recording::Actor;
+use super::recording::SimulatedAgent;
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::polyline::{arc_lengths, length, part, point_at, resample};
-use formats::sumo::fcd::Record;
+use formats::sumo::fcd::FcdTrack;
 use formats::sumo::kerb::s_curve;
 use formats::sumo::net::{EdgeFunction, LaneKind, Net};
 use scene::geometry::direction;
@@ -33,7 +33,7 @@ const SHARPEST: f64 = 0.20;
 const ALONG_M: f64 = 110.0;
 
 /// Adds scripted road users.
-pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Stream) {
+pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     let lanes = Lanes::new(net);
     let parked: Vec<usize> = (0..actors.len()).filter(|i| actors[*i].parked).collect();
     for i in parked {
@@ -63,7 +63,7 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Stream)
         let Some(record) = (0..40).find_map(|_| lanes.turning_back(draw)) else { continue };
         let Some(track) = tracks::clean(&record, kind, draw) else { continue };
         if free(&track, None, &kind.size, actors, CLEAR_M) {
-            actors.push(Actor::of(kind, track));
+            actors.push(SimulatedAgent::of(kind, track));
         }
     }
     let walkers = actors.iter().filter(|a| a.agent_type == AgentType::Pedestrian).count();
@@ -72,13 +72,19 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Stream)
         let Some(record) = lanes.crossing(draw) else { continue };
         let Some(track) = tracks::clean(&record, kind, draw) else { continue };
         if free(&track, None, &kind.size, actors, WALK_CLEAR_M) {
-            actors.push(Actor::of(kind, track));
+            actors.push(SimulatedAgent::of(kind, track));
         }
     }
 }
 
 /// Whether a track keeps its distance from all others, but `own`, for as long as it moves.
-fn free(track: &Cleaned, own: Option<usize>, size: &scene::Size, actors: &[Actor], clear_m: f64) -> bool {
+fn free(
+    track: &Cleaned,
+    own: Option<usize>,
+    size: &scene::Size,
+    actors: &[SimulatedAgent],
+    clear_m: f64,
+) -> bool {
     let moving: Vec<usize> = (0..track.states.len())
         .filter(|i| track.states[*i].speed_mps() > 0.05)
         .map(|i| track.first + i)
@@ -104,12 +110,12 @@ struct Lanes<'a> {
     /// Points of all carriageways with half of their lane's width.
     road: Vec<(Vec2, f64)>,
     /// Places on traffic lanes outside junctions, every metre, not near the lanes' ends.
-    places: Vec<Place>,
+    places: Vec<LanePlace>,
     sidewalks: Vec<usize>,
 }
 
 /// A place on a lane.
-struct Place {
+struct LanePlace {
     lane: usize,
     s_m: f64,
     position: Vec2,
@@ -139,7 +145,7 @@ impl<'a> Lanes<'a> {
             let mut s_m = 6.0;
             while s_m < lengths[lengths.len() - 1] - 12.0 {
                 let position = point_at(&lane.shape, &lengths, s_m);
-                places.push(Place {
+                places.push(LanePlace {
                     lane: i,
                     s_m,
                     position,
@@ -154,10 +160,10 @@ impl<'a> Lanes<'a> {
     /// The traffic lane beside a parked car: its index and the arc length of the foot.
     fn beside(&self, place: Vec2, heading_rad: f64) -> Option<(usize, f64)> {
         // Only those that face the lane's way, more or less.
-        let fits = |p: &&Place| {
+        let fits = |p: &&LanePlace| {
             (p.position - place).norm() < 11.0 && wrap_angle(p.heading_rad - heading_rad).abs() < 1.75
         };
-        let away = |p: &Place| (p.position - place).norm();
+        let away = |p: &LanePlace| (p.position - place).norm();
         let nearest = self.places.iter().filter(fits).min_by(|a, b| away(a).total_cmp(&away(b)))?;
         Some((nearest.lane, nearest.s_m))
     }
@@ -189,7 +195,7 @@ impl<'a> Lanes<'a> {
     }
 
     /// Out of a parking place or driveway, then along the lanes.
-    fn leaving(&self, car: &Actor, draw: &mut Stream) -> Option<Record> {
+    fn leaving(&self, car: &SimulatedAgent, draw: &mut Stream) -> Option<FcdTrack> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
         let front = front_of(state, car);
@@ -215,7 +221,7 @@ impl<'a> Lanes<'a> {
     }
 
     /// Along the lane, then into the place where the car is parked (parallel to the road alone).
-    fn arriving(&self, car: &Actor, draw: &mut Stream) -> Option<Record> {
+    fn arriving(&self, car: &SimulatedAgent, draw: &mut Stream) -> Option<FcdTrack> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
         let line = self.towards(lane, foot);
@@ -243,7 +249,7 @@ impl<'a> Lanes<'a> {
     }
 
     /// A person across the road, away from crosswalks.
-    fn crossing(&self, draw: &mut Stream) -> Option<Record> {
+    fn crossing(&self, draw: &mut Stream) -> Option<FcdTrack> {
         if self.sidewalks.is_empty() {
             return None;
         }
@@ -284,7 +290,7 @@ impl<'a> Lanes<'a> {
     }
 }
 
-fn front_of(state: &State, car: &Actor) -> Vec2 {
+fn front_of(state: &State, car: &SimulatedAgent) -> Vec2 {
     state.position() + direction(state.heading_rad) * (0.5 * car.size.length_m)
 }
 
@@ -334,14 +340,14 @@ fn progress(path: &[Vec2], next: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 }
 
 /// A recording of somebody who comes from elsewhere: nothing is known of it before `start_s`.
-fn entering(record: &Record, start_s: f64) -> Option<Record> {
+fn entering(record: &FcdTrack, start_s: f64) -> Option<FcdTrack> {
     let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start_s)?;
     Some(cut(record, first..record.times_s.len()))
 }
 
 /// A part of a recording.
-fn cut(record: &Record, range: Range<usize>) -> Record {
-    Record {
+fn cut(record: &FcdTrack, range: Range<usize>) -> FcdTrack {
+    FcdTrack {
         vehicle_type: record.vehicle_type.clone(),
         times_s: record.times_s[range.clone()].to_vec(),
         positions: record.positions[range.clone()].to_vec(),
@@ -352,14 +358,14 @@ fn cut(record: &Record, range: Range<usize>) -> Record {
 
 /// A recording that stands at the path's start until `start_s`, follows the path, and stands at its end
 /// when it is reached at rest.
-fn record(path: &[Vec2], first_heading: f64, start_s: f64, progress: &[f64], first_speed: f64) -> Record {
+fn record(path: &[Vec2], first_heading: f64, start_s: f64, progress: &[f64], first_speed: f64) -> FcdTrack {
     let lengths = arc_lengths(path);
     let total = lengths[lengths.len() - 1];
     let steps: Vec<f64> = (0..progress.len()).map(|i| i as f64).collect();
     let begin = (start_s / DT_S).round();
     let last_speed = progress.windows(2).next_back().map_or(0.0, |w| (w[1] - w[0]) / DT_S);
     let stays = last_speed < 0.6;
-    let mut out = Record { vehicle_type: "scripted".into(), ..Record::default() };
+    let mut out = FcdTrack { vehicle_type: "scripted".into(), ..FcdTrack::default() };
     for i in 0..=(RECORDED_S / DT_S) as usize {
         let t = i as f64 - begin;
         if t > (progress.len() - 1) as f64 && !stays {

@@ -1,9 +1,9 @@
 //! U-turns in mid-block, which networks without turnarounds do not have.
 
-use super::{Lanes, Place, cubic, entering, heading_at, length, part, progress, record, sharpest};
+use super::{LanePlace, Lanes, cubic, entering, heading_at, length, part, progress, record, sharpest};
 use crate::{DT_S, RECORDED_S};
 use formats::polyline::arc_lengths;
-use formats::sumo::fcd::Record;
+use formats::sumo::fcd::FcdTrack;
 use scene::geometry::{cross, direction};
 use scene::random::Stream;
 use scene::wrap_angle;
@@ -16,7 +16,7 @@ const ACROSS_M: [f64; 2] = [8.5, 17.0];
 
 impl Lanes<'_> {
     /// Along a lane, round into an opposite one, and on.
-    pub(super) fn turning_back(&self, draw: &mut Stream) -> Option<Record> {
+    pub(super) fn turning_back(&self, draw: &mut Stream) -> Option<FcdTrack> {
         if self.places.is_empty() {
             return None;
         }
@@ -56,15 +56,15 @@ impl Lanes<'_> {
     }
 
     /// A place to the left on a lane that leads back.
-    fn opposite(&self, from: &Place, draw: &mut Stream) -> Option<&Place> {
+    fn opposite(&self, from: &LanePlace, draw: &mut Stream) -> Option<&LanePlace> {
         let ahead = direction(from.heading_rad);
-        let fits = |p: &&Place| {
+        let fits = |p: &&LanePlace| {
             let way = p.position - from.position;
             (ACROSS_M[0]..ACROSS_M[1]).contains(&cross(ahead, way))
                 && (-0.5..3.0).contains(&way.dot(&ahead))
                 && wrap_angle(p.heading_rad - from.heading_rad - PI).abs() < 0.3
         };
-        let found: Vec<&Place> = self.places.iter().filter(fits).collect();
+        let found: Vec<&LanePlace> = self.places.iter().filter(fits).collect();
         found.get(draw.below(found.len())).copied()
     }
 }

@@ -3,7 +3,7 @@
 
 use candle_core::{Device, Result, Tensor};
 use experts::features::{AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, OWN_CONDITION, OWN_GOAL_VALUES};
-use experts::net::inputs::{Inputs, NO};
+use experts::net::inputs::{InputTensors, NO};
 use experts::net::layers::{Mlp, Norm, RELU_GAIN};
 use experts::net::{Gating, NetError, Params};
 
@@ -20,7 +20,7 @@ pub(super) struct Sight {
     /// Encoded map's rows, [pieces, PIECE].
     map: Tensor,
     lines: Lines,
-    inputs: Inputs,
+    inputs: InputTensors,
     /// Of pieces and neighbours, [batch, PIECES + NEIGHBOURS].
     mask: Tensor,
     /// [batch, CONDITION]; `None` for who is not shown any.
@@ -45,12 +45,12 @@ impl Sight {
             let conditions: Vec<[f32; CONDITION]> = agents.iter().map(|agent| condition(agent)).collect();
             let mut states: Vec<AgentFeatures> = agents.iter().map(|agent| (*agent).clone()).collect();
             states.iter_mut().for_each(|agent| agent.own[OWN_GOAL_VALUES].fill(0.0));
-            let inputs = Inputs::stack(&states.iter().collect::<Vec<_>>(), device)?;
+            let inputs = InputTensors::stack(&states.iter().collect::<Vec<_>>(), device)?;
             let conditions =
                 Tensor::from_slice(conditions.as_flattened(), (conditions.len(), CONDITION), device)?;
             (inputs, Some(conditions))
         } else {
-            (Inputs::stack(agents, device)?, None)
+            (InputTensors::stack(agents, device)?, None)
         };
         let lines = Lines::stack(seen, device)?;
         let mask = Tensor::cat(&[&lines.mask, &inputs.mask.narrow(1, 0, NEIGHBOURS)?], 1)?;
@@ -66,7 +66,7 @@ fn condition(agent: &AgentFeatures) -> [f32; CONDITION] {
 }
 
 /// What a batch of road users sees.
-pub(super) struct Seen {
+pub(super) struct EncodedBatch {
     /// [batch, width]
     pub(super) vector: Tensor,
     /// [batch, 1 + PIECES + NEIGHBOURS, width]: the vector, map pieces, neighbours.
@@ -142,7 +142,7 @@ impl Encoder {
     }
 
     /// Reads a batch.
-    pub(super) fn read(&self, sight: &Sight) -> Result<Seen> {
+    pub(super) fn read(&self, sight: &Sight) -> Result<EncodedBatch> {
         let (batch, _) = sight.mask.dims2()?;
         let map = self.map.forward(&sight.map)?;
         let own = self.own.forward(&sight.inputs.own)?;
@@ -157,7 +157,7 @@ impl Encoder {
         let joined: Vec<&Tensor> = [&own, &context].into_iter().chain(&condition).collect();
         let vector = self.norm.forward(&self.mix.forward(&Tensor::cat(&joined, 1)?)?)?;
         let seen_by_all = Tensor::zeros((batch, 1), sight.mask.dtype(), sight.mask.device())?;
-        Ok(Seen {
+        Ok(EncodedBatch {
             tokens: Tensor::cat(&[&vector.unsqueeze(1)?, &tokens], 1)?,
             mask: Tensor::cat(&[&seen_by_all, &sight.mask], 1)?,
             vector,

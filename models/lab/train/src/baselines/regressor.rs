@@ -6,7 +6,7 @@ use experts::net::{Gating, Init, NetError, Params};
 use experts::planning::{INSTANT_S, INSTANTS, MODES};
 
 use super::Plan;
-use super::encoder::{Encoder, Seen, Sight};
+use super::encoder::{EncodedBatch, Encoder, Sight};
 
 /// Numbers of a future: x and y at the instants.
 pub(super) const NUMBERS: usize = 2 * INSTANTS;
@@ -51,7 +51,7 @@ impl Regressor {
 
     /// Six futures.
     pub(super) fn forward(&self, sight: &Sight) -> Result<Regressed> {
-        let Seen { vector, .. } = self.encoder.read(sight)?;
+        let EncodedBatch { vector, .. } = self.encoder.read(sight)?;
         let (batch, width) = vector.dims2()?;
         let known = self.known.forward(&vector)?.unsqueeze(1)?;
         let queries = known.broadcast_add(&self.queries)?;

@@ -4,7 +4,7 @@ use experts::features::AgentFeatures;
 use experts::features::{NEIGHBOUR_GOAL, OWN_GOAL, OWN_GOAL_POSITION};
 use experts::planning::INSTANTS;
 
-use crate::training::{Placed, Record};
+use crate::training::{DraftPoses, Record};
 
 /// Points at the instants, metres, x and y in the road user's frame at the start.
 pub(super) type Points = [[f32; 2]; INSTANTS];
@@ -36,7 +36,7 @@ impl Truth {
         };
         let mode = crate::training::least(&target.across.each_ref().map(aside));
         let coordinates = std::array::from_fn(|i| [target.along[mode][i], target.across[mode][i]]);
-        let placed = Placed::new(record, mode, &coordinates);
+        let placed = DraftPoses::new(record, mode, &coordinates);
         Self { points: placed.poses.map(|[x, y, ..]| [x, y]), valid: target.valid }
     }
 }

@@ -8,7 +8,7 @@ use experts::net::{Init, NetError, Params};
 use experts::planning::{INSTANTS, MODES};
 
 use super::Plan;
-use super::encoder::{Encoder, Seen, Sight};
+use super::encoder::{EncodedBatch, Encoder, Sight};
 use super::regressor::NUMBERS;
 
 /// Level of noise at which the initializer's futures enter.
@@ -41,14 +41,14 @@ impl Conv {
 }
 
 /// Two convolutions with the level of noise between them, added to their input.
-struct Block {
+struct ResidualBlock {
     norm: Norm,
     first: Conv,
     level: Linear,
     second: Conv,
 }
 
-impl Block {
+impl ResidualBlock {
     fn new(p: &mut Params, name: &str, channels: usize, width: usize) -> std::result::Result<Self, NetError> {
         Ok(Self {
             norm: Norm::new(p, &format!("{name}.norm"), channels)?,
@@ -84,12 +84,12 @@ pub(super) struct Unet {
     context: Linear,
     token_norm: Norm,
     enter: Conv,
-    down: [Block; 2],
+    down: [ResidualBlock; 2],
     pool: [Linear; 2],
     attention: Vec<CrossBlock>,
     spread: [Linear; 2],
     join: [Linear; 2],
-    up: [Block; 2],
+    up: [ResidualBlock; 2],
     norm: Norm,
     leave: Linear,
 }
@@ -112,12 +112,18 @@ impl Unet {
             context: Linear::new(p, "refiner.context", d, d, 1.0)?,
             token_norm: Norm::new(p, "refiner.token_norm", d)?,
             enter: Conv::new(p, "refiner.enter", 2, c0)?,
-            down: [Block::new(p, "refiner.down.0", c0, d)?, Block::new(p, "refiner.down.1", c1, d)?],
+            down: [
+                ResidualBlock::new(p, "refiner.down.0", c0, d)?,
+                ResidualBlock::new(p, "refiner.down.1", c1, d)?,
+            ],
             pool: [linear(p, "pool.0", POOLED[0] * c0, c1)?, linear(p, "pool.1", POOLED[1] * c1, c2)?],
             attention,
             spread: [linear(p, "spread.0", c1, POOLED[0] * c0)?, linear(p, "spread.1", c2, POOLED[1] * c1)?],
             join: [linear(p, "join.0", 2 * c0, c0)?, linear(p, "join.1", 2 * c1, c1)?],
-            up: [Block::new(p, "refiner.up.0", c0, d)?, Block::new(p, "refiner.up.1", c1, d)?],
+            up: [
+                ResidualBlock::new(p, "refiner.up.0", c0, d)?,
+                ResidualBlock::new(p, "refiner.up.1", c1, d)?,
+            ],
             norm: Norm::new(p, "refiner.norm", c0)?,
             leave: Linear::new(p, "refiner.leave", c0, 2, 0.1)?,
         })
@@ -125,7 +131,7 @@ impl Unet {
 
     /// Reads a batch, once for all its steps.
     pub(super) fn context(&self, sight: &Sight) -> Result<Context> {
-        let Seen { vector, tokens, mask, condition } = self.encoder.read(sight)?;
+        let EncodedBatch { vector, tokens, mask, condition } = self.encoder.read(sight)?;
         let (tokens, mask) = match condition {
             Some(condition) => {
                 let asked = self.asked.forward(&condition)?.unsqueeze(1)?;

@@ -4,7 +4,7 @@ use super::record;
 use crate::polylines::Polylines;
 use crate::provenance::Provenance;
 use crate::scenes::place_key;
-use crate::training::{Record, TrainError, Writer};
+use crate::training::{Record, RecordWriter, TrainError};
 use experts::planning::world::World;
 use scene::random::{Key, Stream};
 use scene::routes::LaneGraph;
@@ -14,9 +14,9 @@ use std::sync::Arc;
 /// First step at which an end may be drawn.
 const EARLIEST: usize = 20;
 
-/// What is asked of the road users of a record.
+/// Conditions of the road users of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum CaseCondition {
     /// Nothing.
     Nothing,
     /// Position, speed and heading of the end: in half of the records at this step, in a quarter at the last known
@@ -34,7 +34,7 @@ pub struct CaseRecords {
 
 impl CaseRecords {
     /// Of these road users, with so many drawn conditions each.
-    pub fn new(scene: &Scene, agents: &[usize], asked: Asked, draws: usize, seed: u64) -> Self {
+    pub fn new(scene: &Scene, agents: &[usize], asked: CaseCondition, draws: usize, seed: u64) -> Self {
         let mut provenance = Provenance::default();
         provenance.add(scene);
         let mut out = Self {
@@ -50,8 +50,8 @@ impl CaseRecords {
             let mut draw = Key::default().number(seed).words(&["ends", &scene.name, id]).stream();
             for _ in 0..draws {
                 let record = match asked {
-                    Asked::Nothing => record::record(&free, &out.polylines, index),
-                    Asked::End(step) => {
+                    CaseCondition::Nothing => record::record(&free, &out.polylines, index),
+                    CaseCondition::End(step) => {
                         let mut conditions = free.conditions.clone();
                         conditions[index].goal = end(&mut draw, &scene.agents[index], step);
                         if draw.chance(0.5) {
@@ -81,7 +81,7 @@ impl CaseRecords {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn write(&self, writer: &mut Writer) -> Result<(), TrainError> {
+    pub fn write(&self, writer: &mut RecordWriter) -> Result<(), TrainError> {
         if self.records.is_empty() {
             return Ok(());
         }
@@ -133,10 +133,10 @@ mod tests {
         let scene = scene(vec![log("a", 8.0, 91), shifted(log("b", 5.0, 91), 30.0, 3.5)]);
         let of = |asked, seed| CaseRecords::new(&scene, &[0, 1], asked, 2, seed);
         let own = |records: &CaseRecords| -> Vec<_> { records.records.iter().map(|r| r.agent.own).collect() };
-        assert_eq!(of(Asked::End(60), 1).count(), 4);
-        assert_eq!(own(&of(Asked::End(60), 1)), own(&of(Asked::End(60), 1)));
-        assert_ne!(own(&of(Asked::End(60), 1)), own(&of(Asked::End(60), 2)));
-        assert!(own(&of(Asked::Nothing, 1)).iter().all(|own| own[OWN_GOAL_POSITION] == 0.0));
-        assert!(own(&of(Asked::End(60), 1)).iter().all(|own| own[OWN_GOAL_POSITION] == 1.0));
+        assert_eq!(of(CaseCondition::End(60), 1).count(), 4);
+        assert_eq!(own(&of(CaseCondition::End(60), 1)), own(&of(CaseCondition::End(60), 1)));
+        assert_ne!(own(&of(CaseCondition::End(60), 1)), own(&of(CaseCondition::End(60), 2)));
+        assert!(own(&of(CaseCondition::Nothing, 1)).iter().all(|own| own[OWN_GOAL_POSITION] == 0.0));
+        assert!(own(&of(CaseCondition::End(60), 1)).iter().all(|own| own[OWN_GOAL_POSITION] == 1.0));
     }
 }

@@ -8,13 +8,13 @@ mod report;
 #[cfg(test)]
 mod tests;
 
-pub use cases::{Asked, CaseRecords};
+pub use cases::{CaseCondition, CaseRecords};
 pub use report::{Fit, LeftOut, PlaceSplit, PrepareReport};
 
 use crate::polylines::Polylines;
 use crate::provenance::Provenance;
 use crate::scenes::{Crop, Cropped, mirrored, place_key, read_scenes, scene_files};
-use crate::training::{FitError, Record, Writer};
+use crate::training::{FitError, Record, RecordWriter};
 use anyhow::Result;
 use conditions::Draws;
 use experts::features::STANDING_SHARE;
@@ -54,7 +54,7 @@ pub struct PrepareOptions {
 /// When nothing can be read or the records cannot be written.
 pub fn run(options: &PrepareOptions, mut progress: impl FnMut(&PrepareReport)) -> Result<PrepareReport> {
     let files = scene_files(&options.inputs)?;
-    let mut writer = Writer::create(&options.out, Provenance::of(options.agent_type))?;
+    let mut writer = RecordWriter::create(&options.out, Provenance::of(options.agent_type))?;
     let mut report = PrepareReport::default();
     let mut distances = Vec::new();
     for chunk in files.chunks(32) {

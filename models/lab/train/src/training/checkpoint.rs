@@ -14,10 +14,10 @@ use super::trainee::Trainee;
 
 const HEADER: &str = "dragtraffic-training";
 
-/// Where a run stands, beside its numbers.
+/// State of a run, without its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct State<A> {
+pub(super) struct CheckpointState<A> {
     pub(super) architecture: A,
     pub(super) card: Card,
     pub(super) stage: Stage,
@@ -47,7 +47,7 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
 
 pub(super) fn save<T: Trainee>(
     path: &Path,
-    state: &State<T::Architecture>,
+    state: &CheckpointState<T::Architecture>,
     trained: &T,
     adam: &AdamW,
 ) -> Result<(), TrainError> {
@@ -72,7 +72,7 @@ pub(super) fn save<T: Trainee>(
 
 /// A run that can go on.
 pub(super) struct Resumed<T: Trainee> {
-    pub(super) state: State<T::Architecture>,
+    pub(super) state: CheckpointState<T::Architecture>,
     pub(super) trained: T,
     pub(super) adam: AdamW,
 }
@@ -85,7 +85,7 @@ pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T
         safetensors::SafeTensors::read_metadata(&bytes).map_err(|e| damaged(e.to_string()))?;
     let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER));
     let text = text.ok_or_else(|| damaged("not a checkpoint of a training run".into()))?;
-    let state: State<T::Architecture> =
+    let state: CheckpointState<T::Architecture> =
         serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
     let mut tensors = candle_core::safetensors::load_buffer(&bytes, &Device::Cpu)?;
     let trained = T::random(state.architecture.clone(), state.card.clone(), 0, device)?;

@@ -7,14 +7,14 @@ use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use scene::KNOTS;
 
 use super::Record;
-use super::route::Route;
+use super::route::ResidualBasis;
 
 /// Ridge, square metres per square of a normalised knot: what noise in the recording costs.
 const RIDGE: f64 = 0.05;
 
 /// The recorded residual on each mode's anchor.
 pub(super) fn recorded(
-    route: &Route,
+    route: &ResidualBasis,
     agent: &AgentFeatures,
     target: &GroundTruth,
 ) -> [[f32; RESIDUAL]; MODES] {
@@ -41,12 +41,12 @@ pub(super) fn recorded(
 }
 
 /// How far recordings are from their best residual: what no training can mend.
-pub struct FitError(Route);
+pub struct FitError(ResidualBasis);
 
 impl FitError {
     /// Ready to measure.
     pub fn new() -> Self {
-        Self(Route::new())
+        Self(ResidualBasis::new())
     }
 
     /// Mean distance over the recorded instants, metres, of a recording from its own residual (the one that
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_recording_is_followed() {
-        let route = Route::new();
+        let route = ResidualBasis::new();
         for record in &toy::scenes(1, 20, 3)[0].2 {
             let residual = recorded(&route, &record.agent, &record.target);
             for mode in 0..MODES {
@@ -139,7 +139,7 @@ mod tests {
     fn a_fixed_goal_is_kept() {
         let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
         record.agent.tangent[0][9] = [0.0; KNOTS];
-        let residual = recorded(&Route::new(), &record.agent, &record.target);
+        let residual = recorded(&ResidualBasis::new(), &record.agent, &record.target);
         assert!(residual.iter().all(|r| r[9] == 0.0 && r[8] != 0.0));
     }
 }

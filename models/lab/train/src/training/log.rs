@@ -16,7 +16,7 @@ const EDGE: [f64; 2] = [56.0, 34.0];
 /// One line of the log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Line {
+struct LogLine {
     step: u64,
     /// Means over records held out, else over the steps since the line before.
     held_out: bool,
@@ -28,7 +28,7 @@ struct Line {
 /// The log of a run. It lies beside the weights, with `.jsonl` and `.svg` added to their name.
 pub(super) struct Log {
     out: PathBuf,
-    lines: Vec<Line>,
+    lines: Vec<LogLine>,
 }
 
 impl Log {
@@ -41,7 +41,7 @@ impl Log {
         }
         let text = std::fs::read_to_string(&path).map_err(TrainError::io(&path))?;
         for (number, line) in text.lines().enumerate() {
-            let line: Line = serde_json::from_str(line)
+            let line: LogLine = serde_json::from_str(line)
                 .map_err(|e| TrainError::damaged(&path, format!("line {}: {e}", number + 1)))?;
             log.lines.push(line);
         }
@@ -62,10 +62,10 @@ impl Log {
         let line = match progress {
             TrainProgress::Begin { .. } => return Ok(()),
             TrainProgress::Training { step, rate, metrics, .. } => {
-                Line { step: *step, held_out: false, rate: Some(*rate), means: means(metrics) }
+                LogLine { step: *step, held_out: false, rate: Some(*rate), means: means(metrics) }
             }
             TrainProgress::Validation { step, metrics } => {
-                Line { step: *step, held_out: true, rate: None, means: means(metrics) }
+                LogLine { step: *step, held_out: true, rate: None, means: means(metrics) }
             }
         };
         let held_out = line.held_out;
@@ -118,7 +118,7 @@ impl Log {
     fn panel(&self, name: &str, out: &mut String) {
         let curve = |held_out: bool| -> Vec<(f64, f64)> {
             let lines = self.lines.iter().filter(|line| line.held_out == held_out);
-            let value = |line: &Line| Some((line.step as f64, *line.means.get(name)?));
+            let value = |line: &LogLine| Some((line.step as f64, *line.means.get(name)?));
             lines.filter_map(value).filter(|(_, v)| v.is_finite()).collect()
         };
         let curves = [curve(false), curve(true)];

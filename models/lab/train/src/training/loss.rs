@@ -6,7 +6,7 @@ use experts::features::GroundTruth;
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
 
-use super::route::Route;
+use super::route::ResidualBasis;
 
 /// Added under the root of a distance, square metres.
 const ROUND: f32 = 0.01;
@@ -18,14 +18,14 @@ const FAR: f32 = 60.0;
 
 /// What the initializer gives for one road user.
 #[derive(Clone, Debug)]
-pub(super) struct InitialOutput {
+pub(super) struct AgentOutput {
     pub(super) residual: [[f32; RESIDUAL]; MODES],
     pub(super) log_scale: [[f32; RESIDUAL]; MODES],
     pub(super) score: [f32; MODES],
     pub(super) stays: f32,
 }
 
-impl InitialOutput {
+impl AgentOutput {
     pub(super) fn zero() -> Self {
         Self {
             residual: [[0.0; RESIDUAL]; MODES],
@@ -49,7 +49,7 @@ pub(super) struct InitialParts {
 
 /// Distance of a residual to the recording, mean over the valid instants, and its gradient.
 pub(super) fn distance(
-    route: &Route,
+    route: &ResidualBasis,
     target: &GroundTruth,
     mode: usize,
     residual: &[f32; RESIDUAL],
@@ -70,7 +70,7 @@ pub(super) fn distance(
 }
 
 /// A gradient [along, across] at the instants as one to the normalised knots.
-pub(super) fn to_knots(route: &Route, pull: &[[f32; 2]; INSTANTS]) -> [f32; RESIDUAL] {
+pub(super) fn to_knots(route: &ResidualBasis, pull: &[[f32; 2]; INSTANTS]) -> [f32; RESIDUAL] {
     let mut knots = [0.0; RESIDUAL];
     for half in 0..2 {
         for (row, pull) in route.rows(half).iter().zip(pull) {
@@ -97,13 +97,13 @@ pub(crate) fn least(values: &[f32]) -> usize {
 /// `recorded` are the residuals of [`super::fit::recorded`]; `bound` road users have a goal position. Gives the
 /// parts and the gradient.
 pub(super) fn initial(
-    route: &Route,
+    route: &ResidualBasis,
     target: &GroundTruth,
     recorded: &[[f32; RESIDUAL]; MODES],
     bound: bool,
-    output: &InitialOutput,
-) -> (InitialParts, InitialOutput) {
-    let mut grad = InitialOutput::zero();
+    output: &AgentOutput,
+) -> (InitialParts, AgentOutput) {
+    let mut grad = AgentOutput::zero();
     let weight = speed_weight(target);
     let distances: [(f32, [f32; RESIDUAL]); MODES] =
         std::array::from_fn(|mode| distance(route, target, mode, &output.residual[mode]));
@@ -187,7 +187,7 @@ fn scales(
 
 /// A denoised residual against the recording: metres at the instants and, a little, the knots.
 pub(super) fn denoised(
-    route: &Route,
+    route: &ResidualBasis,
     target: &GroundTruth,
     mode: usize,
     recorded: &[f32; RESIDUAL],
@@ -204,7 +204,7 @@ pub(super) fn denoised(
 
 /// Distance between a refined residual and the draft it came from, over all instants.
 pub(super) fn moved(
-    route: &Route,
+    route: &ResidualBasis,
     draft: &[f32; RESIDUAL],
     refined: &[f32; RESIDUAL],
 ) -> (f32, [f32; RESIDUAL]) {
@@ -224,13 +224,13 @@ mod tests {
     use super::*;
     use crate::training::{fit, toy};
 
-    fn output(seed: u64) -> InitialOutput {
+    fn output(seed: u64) -> AgentOutput {
         let mut value = seed as f32 * 0.37;
         let mut next = || {
             value = (value * 1.7 + 0.31) % 1.0;
             value - 0.5
         };
-        let mut output = InitialOutput::zero();
+        let mut output = AgentOutput::zero();
         output.residual.as_flattened_mut().iter_mut().for_each(|r| *r = next());
         output.log_scale.as_flattened_mut().iter_mut().for_each(|r| *r = next());
         output.score.iter_mut().for_each(|r| *r = next());
@@ -247,13 +247,13 @@ mod tests {
 
     #[test]
     fn initial_gradient_matches_differences() {
-        let route = Route::new();
+        let route = ResidualBasis::new();
         for (seed, record) in toy::scenes(1, 5, 3)[0].2.iter().enumerate() {
             let recorded = fit::recorded(&route, &record.agent, &record.target);
             let output = output(seed as u64 + 1);
             let bound = seed % 2 == 1;
             let (_, grad) = initial(&route, &record.target, &recorded, bound, &output);
-            let slope = |change: &dyn Fn(&mut InitialOutput, f32)| {
+            let slope = |change: &dyn Fn(&mut AgentOutput, f32)| {
                 let at = |delta: f32| {
                     let mut moved = output.clone();
                     change(&mut moved, delta);
@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn denoised_and_moved_gradients_match_differences() {
-        let route = Route::new();
+        let route = ResidualBasis::new();
         let record = &toy::scenes(1, 1, 3)[0].2[0];
         let recorded = fit::recorded(&route, &record.agent, &record.target);
         let (a, b) = (output(1).residual, output(2).residual);

@@ -28,7 +28,7 @@ mod tests;
 #[cfg(test)]
 pub(crate) mod toy;
 
-pub use dataset::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record, Records, Writer};
+pub use dataset::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record, RecordWriter, Records};
 pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
@@ -38,7 +38,7 @@ pub use sample::{is_for_tests, is_held_out};
 pub use stages::Stage;
 
 pub(crate) use loss::{index, least, softmax};
-pub(crate) use route::Placed;
+pub(crate) use route::DraftPoses;
 pub(crate) use run::run_of;
 pub(crate) use sample::Shard;
 pub(crate) use stages::{Tools, seeded};

@@ -10,12 +10,12 @@ pub(crate) type RouteCoordinates = [[f32; 2]; INSTANTS];
 
 /// The basis, with the scales of normalised residuals in it.
 #[derive(Clone, Debug)]
-pub(super) struct Route {
+pub(super) struct ResidualBasis {
     along: [[f32; KNOTS]; INSTANTS],
     across: [[f32; KNOTS]; INSTANTS],
 }
 
-impl Route {
+impl ResidualBasis {
     pub(super) fn new() -> Self {
         let basis = Basis::new();
         let scaled =
@@ -46,12 +46,12 @@ impl Route {
 }
 
 /// A draft as boxes, and the path's directions (cosine, sine) where they are.
-pub(crate) struct Placed {
+pub(crate) struct DraftPoses {
     pub(crate) poses: scene::geometry::overlap_energy::Poses<INSTANTS>,
     pub(super) directions: [[f32; 2]; INSTANTS],
 }
 
-impl Placed {
+impl DraftPoses {
     /// Boxes of route coordinates on a mode's path.
     pub(crate) fn new(record: &Record, mode: usize, coordinates: &RouteCoordinates) -> Self {
         let mut placed = Self { poses: [[0.0; 4]; INSTANTS], directions: [[1.0, 0.0]; INSTANTS] };

@@ -11,7 +11,7 @@ use experts::Refining;
 use experts::net::{Architecture, Card, Expert};
 use scene::licence::strictest;
 
-use super::checkpoint::{self, Resumed, State};
+use super::checkpoint::{self, CheckpointState, Resumed};
 use super::log::Log;
 use super::metrics::Metrics;
 use super::optim::{AdamW, rate};
@@ -222,13 +222,13 @@ pub(crate) fn run_of<T: Trainee>(
         threads,
     };
     let log = Log::open(&options.out, run.adam.step)?;
-    let mut told = Told { report, log };
+    let mut reporter = RunReporter { report, log };
     let mut since = Since::new();
     let mut kept = Instant::now();
     let mut validated = None;
     while run.progress() < 1.0 {
         if options.stop.load(Ordering::Relaxed) {
-            told.log.write()?;
+            reporter.log.write()?;
             run.keep()?;
             return Err(TrainError::Stopped { step: run.adam.step });
         }
@@ -241,34 +241,34 @@ pub(crate) fn run_of<T: Trainee>(
         since.add(&metrics, length);
         let step = run.adam.step;
         if step.is_multiple_of(REPORT) {
-            told.line(&since.line(step, rate))?;
+            reporter.line(&since.line(step, rate))?;
             since = Since::new();
             // At a line, so that the log of a run that goes on from here is that of a run without a stop.
             if kept.elapsed().as_secs_f64() >= options.checkpoint_every_s {
-                told.log.write()?;
+                reporter.log.write()?;
                 run.keep()?;
                 kept = Instant::now();
             }
         }
         if step.is_multiple_of(options.validate_every.max(1)) {
-            validated = Some((step, run.finish(&workers, &split, &mut told)?));
+            validated = Some((step, run.finish(&workers, &split, &mut reporter)?));
             since = Since::new();
             kept = Instant::now();
         }
     }
     match validated {
         Some((step, metrics)) if step == run.adam.step => Ok(metrics),
-        _ => run.finish(&workers, &split, &mut told),
+        _ => run.finish(&workers, &split, &mut reporter),
     }
 }
 
-/// Who hears of a run: the caller, and the log beside the weights.
-struct Told<'a> {
+/// Reports a run to the caller and to the log beside the weights.
+struct RunReporter<'a> {
     report: &'a mut dyn FnMut(&TrainProgress),
     log: Log,
 }
 
-impl Told<'_> {
+impl RunReporter<'_> {
     fn line(&mut self, line: &TrainProgress) -> Result<(), TrainError> {
         (self.report)(line);
         self.log.add(line)
@@ -377,12 +377,12 @@ impl<'a, T: Trainee> Run<'a, T> {
         &mut self,
         workers: &Workers<'_>,
         split: &Split,
-        told: &mut Told<'_>,
+        reporter: &mut RunReporter<'_>,
     ) -> Result<Metrics, TrainError> {
         self.adam.write_means(self.mean.vars())?;
         let metrics = workers.validate(&self.mean, &split.held_out)?;
-        let best = told.log.is_best(&metrics);
-        told.line(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
+        let best = reporter.log.is_best(&metrics);
+        reporter.line(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
         self.save(best)?;
         Ok(metrics)
     }
@@ -405,7 +405,7 @@ impl<'a, T: Trainee> Run<'a, T> {
     /// A checkpoint alone.
     fn keep(&self) -> Result<(), TrainError> {
         let options = self.options;
-        let state = State {
+        let state = CheckpointState {
             architecture: self.trained.architecture().clone(),
             card: self.trained.card().clone(),
             stage: options.stage,
@@ -470,7 +470,7 @@ fn same_run<A: PartialEq>(
     path: &Path,
     options: &TrainOptions<A>,
     records: &str,
-    state: &State<A>,
+    state: &CheckpointState<A>,
 ) -> Result<(), TrainError> {
     let differs = |what: &str| {
         Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")))

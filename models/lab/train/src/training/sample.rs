@@ -6,7 +6,7 @@ use experts::planning::{MODES, RESIDUAL};
 use scene::random::{Key, Stream};
 
 use super::fit;
-use super::route::Route;
+use super::route::ResidualBasis;
 use super::{Record, Records, TrainError};
 use crate::polylines::PIECE;
 
@@ -108,7 +108,11 @@ pub(crate) struct Shard {
 
 impl Shard {
     /// Decodes records.
-    pub(super) fn new(records: &Records, indices: &[usize], route: &Route) -> Result<Self, TrainError> {
+    pub(super) fn new(
+        records: &Records,
+        indices: &[usize],
+        route: &ResidualBasis,
+    ) -> Result<Self, TrainError> {
         let mut shard = Self { records: Vec::new(), pieces: Vec::new(), recorded: Vec::new() };
         let mut rows: HashMap<(usize, usize), usize> = HashMap::new();
         for &index in indices {

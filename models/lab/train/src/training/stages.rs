@@ -11,9 +11,9 @@ use scene::KNOTS;
 use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
 use scene::random::Stream;
 
-use super::loss::{self, InitialOutput, InitialParts};
+use super::loss::{self, AgentOutput, InitialParts};
 use super::metrics::Metrics;
-use super::route::{Placed, Route};
+use super::route::{DraftPoses, ResidualBasis};
 use super::sample::Shard;
 use super::{Record, TrainError};
 
@@ -41,7 +41,7 @@ pub enum Stage {
 
 /// Constants of all shards.
 pub(crate) struct Tools {
-    pub(super) route: Route,
+    pub(super) route: ResidualBasis,
     pullback: Pullback,
     /// What the refiner is given.
     refining: Refining,
@@ -49,7 +49,7 @@ pub(crate) struct Tools {
 
 impl Tools {
     pub(super) fn new(refining: Refining) -> Self {
-        Self { route: Route::new(), pullback: Pullback::default(), refining }
+        Self { route: ResidualBasis::new(), pullback: Pullback::default(), refining }
     }
 }
 
@@ -57,7 +57,7 @@ impl Tools {
 fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
     let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
     let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
-    let placed = Placed::new(record, mode, &coordinates);
+    let placed = DraftPoses::new(record, mode, &coordinates);
     let clear = |logged: &super::LoggedBox| {
         let pairs = placed.poses.iter().zip(&logged.poses).zip(&record.target.valid);
         pairs
@@ -77,7 +77,7 @@ fn energy(
     growth: Growth,
 ) -> (f32, [[f32; 2]; experts::planning::INSTANTS]) {
     let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
-    let placed = Placed::new(record, mode, &coordinates);
+    let placed = DraftPoses::new(record, mode, &coordinates);
     let boxes = record.boxes.iter().zip(counted).filter(|(_, counted)| **counted);
     let obstacles = boxes.map(|(logged, _)| MovingBox { poses: &logged.poses, half: logged.half });
     let overlap = overlap_energy(&placed.poses, record.half, obstacles, growth);
@@ -170,7 +170,7 @@ fn initializer(
         add_parts(metrics, &parts);
         grads.push(grad);
     }
-    let of = |part: &dyn Fn(&InitialOutput) -> Vec<f32>| grads.iter().flat_map(part).collect::<Vec<f32>>();
+    let of = |part: &dyn Fn(&AgentOutput) -> Vec<f32>| grads.iter().flat_map(part).collect::<Vec<f32>>();
     let loss = (seeded(&initial.residual, of(&|g| g.residual.as_flattened().to_vec()))?
         + seeded(&initial.log_scale, of(&|g| g.log_scale.as_flattened().to_vec()))?)?;
     let loss = (loss + seeded(&initial.score, of(&|g| g.score.to_vec()))?)?;
@@ -187,13 +187,13 @@ fn add_parts(metrics: &mut Metrics, parts: &InitialParts) {
     metrics.add("scale", parts.scale_nll);
 }
 
-fn outputs(initial: &Initial) -> Result<Vec<InitialOutput>> {
+fn outputs(initial: &Initial) -> Result<Vec<AgentOutput>> {
     let (residual, log_scale) = (arrays(&initial.residual)?, arrays(&initial.log_scale)?);
     let score = initial.score.flatten_all()?.to_vec1::<f32>()?;
     let stays = initial.stays.to_vec1::<f32>()?;
     let score = score.as_chunks::<MODES>().0;
     Ok((0..residual.len())
-        .map(|i| InitialOutput {
+        .map(|i| AgentOutput {
             residual: residual[i],
             log_scale: log_scale[i],
             score: score[i],
@@ -297,7 +297,7 @@ fn joint(
 
 /// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
 /// futures where two coincide, and refinement must leave them theirs.
-fn take_by_surprise(route: &Route, record: &Record, draft: &mut Modes, rng: &mut Stream) {
+fn take_by_surprise(route: &ResidualBasis, record: &Record, draft: &mut Modes, rng: &mut Stream) {
     let [takes, mode, rate, until] = std::array::from_fn(|_| rng.unit());
     if takes < 0.5 {
         return;
@@ -427,7 +427,7 @@ mod tests {
 
     #[test]
     fn a_surprise_changes_the_pace_of_one_mode_and_keeps_the_goal() {
-        let route = Route::new();
+        let route = ResidualBasis::new();
         let mut rng = Key::default().number(5).stream();
         let (mut changed, mut calls) = (0, 0);
         for (.., records) in toy::scenes(12, 5, 3) {

@@ -12,7 +12,7 @@ use scene::random::{Key, Stream};
 use super::sample::{Shard, stream};
 use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
-use super::{AnchorPath, LoggedBox, Record, Records, Writer};
+use super::{AnchorPath, LoggedBox, Record, RecordWriter, Records};
 use crate::polylines::{PIECE, PIECE_POSE, SeenPiece};
 use crate::provenance::Provenance;
 
@@ -39,7 +39,7 @@ pub(crate) fn write(path: &Path, scenes: &[ToyScene]) {
     let scenes_of =
         BTreeMap::from([("toy".to_owned(), BTreeMap::from([("cc0".to_owned(), scenes.len() as u64)]))]);
     let provenance = Provenance { expert: "vehicle".into(), scenes: scenes_of };
-    let mut writer = Writer::create(path, provenance).unwrap();
+    let mut writer = RecordWriter::create(path, provenance).unwrap();
     for (key, map, records) in scenes {
         writer.scene(*key, map, records).unwrap();
     }

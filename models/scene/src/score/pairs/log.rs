@@ -1,7 +1,7 @@
 //! Whether the log itself shows an event of a pair.
 
 use super::mover::Mover;
-use super::{Known, Pair, Touch, look_at};
+use super::{Pair, PairBounds, Touch, look_at};
 use crate::STEP_S;
 use crate::score::input::{Actor, ScoreInput};
 use std::borrow::Cow;
@@ -33,7 +33,7 @@ pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pa
         return false;
     }
     let Some((p, q)) = logged(input, a, b) else { return false };
-    let log = look_at(input, &p, &q, Known::NOTHING);
+    let log = look_at(input, &p, &q, PairBounds::NOTHING);
     if let Some(touch) = &pair.touch {
         let as_deep = |l: Touch| touch.depth_m <= l.depth_m + SAME_DEPTH_M;
         return log.collision.is_some() || log.touch.is_some_and(as_deep);

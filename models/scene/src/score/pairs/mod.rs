@@ -13,9 +13,9 @@ use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, over
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 pub use log::{SAME_GAP_M, SAME_S};
 pub(super) use mover::Rectangle;
-pub(crate) use mover::{Moment, Mover};
+pub(crate) use mover::{Mover, MoverState};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
-pub(super) use tally::Tally;
+pub(super) use tally::PairTally;
 
 /// Moments looked at between two steps, the step itself counted.
 pub const SUBSTEPS: usize = 4;
@@ -93,14 +93,14 @@ struct Contact {
     iou: f64,
 }
 
-/// What cannot change a score of a pair any more: gaps and times above both road users' least ones.
+/// Least gap and time of both road users: a larger one changes no score of the pair.
 #[derive(Clone, Copy, Debug)]
-struct Known {
+struct PairBounds {
     gap_m: f64,
     ttc_s: f64,
 }
 
-impl Known {
+impl PairBounds {
     /// Everything may change it.
     const NOTHING: Self = Self { gap_m: f64::INFINITY, ttc_s: LOOK_AHEAD_S };
 }
@@ -109,7 +109,7 @@ impl Known {
 pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
     let movers: Vec<Mover> = input.actors.iter().map(|a| Mover::new(a, input.steps.clone())).collect();
     let movers: Vec<&Mover> = movers.iter().collect();
-    Tally::of_all(input, &movers).scores(input)
+    PairTally::of_all(input, &movers).scores(input)
 }
 
 /// How two motions meet.
@@ -145,7 +145,7 @@ impl Meeting {
         (b, mover_b): (&Actor<'_>, &Mover),
     ) -> Option<Self> {
         // Nothing but collisions and near misses is asked for: no least gap or time is still to be found.
-        let known = Known { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
+        let known = PairBounds { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
         if stay_apart(mover_a, mover_b, known.gap_m) {
             return None;
         }
@@ -189,7 +189,7 @@ fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
 }
 
 /// Goes through the steps of a pair.
-fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
+fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> Pair {
     let limits = &input.thresholds;
     let mut pair = Pair::default();
     let travels = a.travel_m >= PARKED_M || b.travel_m >= PARKED_M;
@@ -248,7 +248,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
     pair
 }
 
-fn ttc(p: &Moment, q: &Moment, horizon_s: f64) -> Option<f64> {
+fn ttc(p: &MoverState, q: &MoverState, horizon_s: f64) -> Option<f64> {
     time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, horizon_s)
 }
 

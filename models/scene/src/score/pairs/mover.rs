@@ -14,7 +14,7 @@ const TURN_STEPS: usize = 2;
 #[derive(Debug)]
 pub(crate) struct Mover {
     /// Box and velocity a scored step.
-    pub moments: Vec<Option<Moment>>,
+    pub moments: Vec<Option<MoverState>>,
     /// Greatest distance from its first place, metres.
     pub travel_m: f64,
     /// Farthest any point of its box moves from one seen step to the next, metres.
@@ -35,7 +35,7 @@ pub(crate) type Rectangle = (Vec2, Vec2);
 
 /// Box and velocity (m/s) at one step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment {
+pub(crate) struct MoverState {
     pub outline: OrientedBox,
     pub velocity: Vec2,
     pub speed_mps: f64,
@@ -49,20 +49,20 @@ impl Mover {
         let moment = |step| {
             let state = actor.state(step)?;
             let outline = OrientedBox::of_state(state, &actor.size);
-            Some(Moment {
+            Some(MoverState {
                 outline,
                 velocity: state.velocity(),
                 speed_mps: state.speed_mps(),
                 displacement_m: None,
             })
         };
-        let mut moments: Vec<Option<Moment>> = steps.clone().map(moment).collect();
+        let mut moments: Vec<Option<MoverState>> = steps.clone().map(moment).collect();
         for step in 1..moments.len() {
             if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
                 from.displacement_m = Some(displacement(from, to));
             }
         }
-        let seen: Vec<&Moment> = moments.iter().flatten().collect();
+        let seen: Vec<&MoverState> = moments.iter().flatten().collect();
         let max_displacement_m = seen.windows(2).map(|w| displacement(w[0], w[1])).fold(0.0, f64::max);
         let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
         let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
@@ -101,7 +101,7 @@ impl Mover {
 }
 
 /// Bound on how far any point of the box moves from the first moment to the second, metres.
-fn displacement(from: &Moment, to: &Moment) -> f64 {
+fn displacement(from: &MoverState, to: &MoverState) -> f64 {
     let turn = wrap_angle(to.outline.heading_rad() - from.outline.heading_rad()).abs();
     (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }

@@ -1,6 +1,6 @@
 //! What makes a moment of two road users a near miss.
 
-use super::mover::{Moment, Mover};
+use super::mover::{Mover, MoverState};
 use crate::geometry::obb::{OrientedBox, circle_gap, overlaps};
 use crate::geometry::{Vec2, direction, rotate, wrap_angle};
 use crate::score::input::Thresholds;
@@ -23,7 +23,7 @@ const LEAST_COURSE: usize = 3;
 
 /// What makes a moment a near miss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum NearMissKind {
     /// The gap: one crosses close to the other.
     Gap,
     /// The course: they meet if both go on.
@@ -43,12 +43,12 @@ pub(super) struct Nearest {
 
 impl Nearest {
     /// Keeps the moment with the least time to collision, then the least gap.
-    pub(super) fn keep(near: &mut Option<Self>, step: usize, gap: Gap, kind: Kind) {
+    pub(super) fn keep(near: &mut Option<Self>, step: usize, gap: Gap, kind: NearMissKind) {
         let key = |gap: &Gap| (gap.ttc_s.unwrap_or(f64::INFINITY), gap.gap_m);
         let new = || Self { step, gap, first: step, last: step, steps: 0, crosses: false };
         let near = near.get_or_insert_with(new);
         (near.last, near.steps) = (step, near.steps + 1);
-        near.crosses |= kind == Kind::Gap;
+        near.crosses |= kind == NearMissKind::Gap;
         if key(&gap) < key(&near.gap) {
             (near.step, near.gap) = (step, gap);
         }
@@ -64,7 +64,7 @@ impl Nearest {
 #[derive(Clone, Copy)]
 pub(super) struct Side<'a> {
     pub mover: &'a Mover,
-    pub moment: &'a Moment,
+    pub moment: &'a MoverState,
     pub step: usize,
 }
 
@@ -102,11 +102,11 @@ pub(super) struct Gap {
 /// meet within the time threshold if both go on as they do, round their bends too, or one crosses close
 /// to the other; or made motion all but brushes another at speed. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
 /// passes beside another on its own line, and one that brakes normally behind another.
-pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<Kind> {
+pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<NearMissKind> {
     let made = a.mover.generated || b.mover.generated;
     let relative_mps = (a.moment.velocity - b.moment.velocity).norm();
     if made && !(a.walks() && b.walks()) && gap.gap_m < BRUSH_M && relative_mps > BRUSH_MPS {
-        return Some(Kind::Gap);
+        return Some(NearMissKind::Gap);
     }
     let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
     if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {
@@ -128,9 +128,9 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     let by_gap = gap.gap_m < limits.gap_m && moves(a) && moves(b);
     let by_time = gap.ttc_s.is_some_and(|t| t < limits.ttc_s);
     if by_gap && crosses {
-        return Some(Kind::Gap);
+        return Some(NearMissKind::Gap);
     }
-    ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(Kind::Course)
+    ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(NearMissKind::Course)
 }
 
 /// The two touch within this time if both keep their speeds and turns, looked at a step apart.

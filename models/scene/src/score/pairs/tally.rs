@@ -1,6 +1,6 @@
 //! What is found while pairs are gone through: the least of each road user, and what happens.
 
-use super::{Known, Meeting, Mover, PairScores, PairTotals, is_excluded, log, look_at, stay_apart};
+use super::{Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at, stay_apart};
 use crate::geometry::ttc::LOOK_AHEAD_S;
 use crate::score::input::{PairChoice, ScoreInput};
 use crate::score::pet::post_encroachment_s;
@@ -27,9 +27,9 @@ impl Leasts {
     }
 }
 
-/// A pair in which something happens.
+/// A pair that overlaps or meets.
 #[derive(Clone, Debug)]
-struct Event {
+struct PairEvent {
     pair: (usize, usize),
     /// The boxes overlap at a step, however little.
     overlaps: bool,
@@ -37,14 +37,14 @@ struct Event {
     in_log: bool,
 }
 
-/// What pairs come to so far. Which of them are gone through first changes nothing.
+/// Totals over pairs so far. The order of the pairs changes nothing.
 #[derive(Clone, Debug, Default)]
-pub(in crate::score) struct Tally {
+pub(in crate::score) struct PairTally {
     leasts: Vec<Leasts>,
-    events: Vec<Event>,
+    events: Vec<PairEvent>,
 }
 
-impl Tally {
+impl PairTally {
     /// Of all pairs that the input asks for.
     pub(in crate::score) fn of_all(input: &ScoreInput<'_>, movers: &[&Mover]) -> Self {
         let mut tally = Self { leasts: vec![Leasts::default(); movers.len()], events: Vec::new() };
@@ -71,8 +71,8 @@ impl Tally {
             }
         }
         let mut tally = Self { leasts: vec![Leasts::default(); movers.len()], events: Vec::new() };
-        let stays = |event: &Event| Some((now[event.pair.0]?, now[event.pair.1]?));
-        let kept = self.events.iter().filter_map(|e| Some(Event { pair: stays(e)?, ..e.clone() }));
+        let stays = |event: &PairEvent| Some((now[event.pair.0]?, now[event.pair.1]?));
+        let kept = self.events.iter().filter_map(|e| Some(PairEvent { pair: stays(e)?, ..e.clone() }));
         tally.events.extend(kept);
         // Who was nearest to one that is as it was may have changed: then all its pairs are asked again.
         let mut orphans = Vec::new();
@@ -104,12 +104,15 @@ impl Tally {
     }
 
     /// What cannot change a score of these two any more.
-    fn known(&self, (i, j): (usize, usize)) -> Known {
+    fn known(&self, (i, j): (usize, usize)) -> PairBounds {
         let larger = |of: fn(&Leasts) -> Option<Least>, most: f64| {
             let value = |k: usize| of(&self.leasts[k]).map_or(most, |l| l.value);
             value(i).max(value(j))
         };
-        Known { gap_m: larger(|l| l.distance_m, f64::INFINITY), ttc_s: larger(|l| l.ttc_s, LOOK_AHEAD_S) }
+        PairBounds {
+            gap_m: larger(|l| l.distance_m, f64::INFINITY),
+            ttc_s: larger(|l| l.ttc_s, LOOK_AHEAD_S),
+        }
     }
 
     /// Looks at one pair; what happens in it is noted only where that is not known already.
@@ -139,7 +142,7 @@ impl Tally {
         let meeting = Meeting::of(&found, input.steps.start);
         if note && (found.overlaps || meeting.is_some()) {
             let in_log = meeting.is_some() && log::is_in_log(input, a, b, &found);
-            self.events.push(Event { pair, overlaps: found.overlaps, meeting, in_log });
+            self.events.push(PairEvent { pair, overlaps: found.overlaps, meeting, in_log });
         }
     }
 
@@ -154,7 +157,7 @@ impl Tally {
         };
         let mut scores =
             PairScores { agents: self.leasts.iter().map(totals).collect(), ..PairScores::default() };
-        for Event { pair: (i, j), overlaps, meeting, in_log } in self.events {
+        for PairEvent { pair: (i, j), overlaps, meeting, in_log } in self.events {
             for k in [i, j] {
                 let totals = &mut scores.agents[k];
                 totals.overlaps |= overlaps;

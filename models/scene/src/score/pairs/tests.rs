@@ -1,6 +1,6 @@
 use super::super::tests::{input_of, straight, track_of};
 use super::super::{Actor, Drivable, Exclude, PairChoice, ScoreInput};
-use super::mover::Moment;
+use super::mover::MoverState;
 use super::near::{Side, meet_within};
 use super::*;
 use crate::AgentType::{Pedestrian, Vehicle};
@@ -429,6 +429,6 @@ fn a_course_is_looked_at_wherever_they_may_touch() {
     assert!(meet > 20 && pass > 20, "{meet} meet, {pass} pass");
 }
 
-fn mover_at(mover: &Mover, step: usize) -> &Moment {
+fn mover_at(mover: &Mover, step: usize) -> &MoverState {
     mover.moments[step].as_ref().unwrap()
 }

@@ -14,7 +14,7 @@ mod read;
 mod write;
 
 pub use read::Records;
-pub use write::Writer;
+pub use write::RecordWriter;
 
 use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};

@@ -64,7 +64,7 @@ fn decode_path(cursor: &mut Cursor<'_>) -> Result<AnchorPath, String> {
     Ok(AnchorPath { start, points })
 }
 
-struct Entry {
+struct RecordEntry {
     file: usize,
     scene: usize,
     at: std::ops::Range<usize>,
@@ -82,7 +82,7 @@ struct SceneEntry {
 pub struct Records {
     files: Vec<Vec<u8>>,
     scenes: Vec<SceneEntry>,
-    entries: Vec<Entry>,
+    entries: Vec<RecordEntry>,
     /// By file.
     provenances: Vec<Provenance>,
     hash: blake3::Hash,
@@ -153,7 +153,7 @@ impl Records {
                 b'R' => {
                     let scene = self.scenes.len().checked_sub(1).ok_or("a record before any scene")?;
                     check(&decode(payload)?, self.scenes[scene].pieces)?;
-                    self.entries.push(Entry { file, scene, at: at..at + length });
+                    self.entries.push(RecordEntry { file, scene, at: at..at + length });
                 }
                 b'P' => {
                     let found =

@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes a file of records, scene by scene.
-pub struct Writer {
+pub struct RecordWriter {
     path: PathBuf,
     file: Whole,
     provenance: Provenance,
@@ -19,8 +19,8 @@ pub struct Writer {
     records: u64,
 }
 
-impl Writer {
-    /// Begins a file; it appears under its name when [`Writer::finish`] has succeeded.
+impl RecordWriter {
+    /// Begins a file; it appears under its name when [`RecordWriter::finish`] has succeeded.
     ///
     /// # Errors
     /// When the file cannot be created.

@@ -1,33 +1,33 @@
-//! A scene's score while a few of its road users are changed: what the others come to is worked out once.
+//! A scene's score while a few of its road users change: the part of the others is computed once.
 
 use super::input::{Actor, ScoreInput, Thresholds};
-use super::pairs::{Mover, Tally};
+use super::pairs::{Mover, PairTally};
 use super::single::Single;
 use super::{Drivable, Score, put_together, score, signals};
 use crate::{Scene, Track};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What a scene comes to as it stands, over some of its steps. From it the score of the same scene with other
-/// motion of a few is had by looking at these few and at the pairs they are in.
+/// Score of an unchanged scene over some of its steps, by road user and pair. The score of the same scene with
+/// other motion of a few needs only these few and their pairs.
 #[derive(Debug)]
-pub struct Standing {
+pub struct BaselineScore {
     scene: Arc<Scene>,
     steps: Range<usize>,
     singles: Vec<Single>,
     movers: Vec<Mover>,
-    tally: Tally,
+    tally: PairTally,
 }
 
-impl Standing {
-    /// Of a scene as it is shown. Costs what scoring it costs.
+impl BaselineScore {
+    /// Of a scene as it is shown. Costs as much as its score.
     pub fn new(scene: Arc<Scene>, drivable: &Drivable, steps: Range<usize>) -> Self {
         let (singles, movers, tally) = {
             let input = Self::input(&scene, drivable, &steps);
             let lines = signals::stop_lines(&input);
             let singles = input.actors.iter().map(|actor| Single::of(&input, actor, &lines)).collect();
             let movers: Vec<Mover> = input.actors.iter().map(|a| Mover::new(a, steps.clone())).collect();
-            let tally = Tally::of_all(&input, &movers.iter().collect::<Vec<_>>());
+            let tally = PairTally::of_all(&input, &movers.iter().collect::<Vec<_>>());
             (singles, movers, tally)
         };
         Self { scene, steps, singles, movers, tally }
@@ -200,15 +200,15 @@ mod tests {
                 sample.agents.extend(motion.map(|m| (i.to_string(), futures(m))));
             }
             let input = ScoreInput::of_sample(&after, Some(&sample), &drivable);
-            let standing = Standing::new(before.clone(), &drivable, input.steps.clone());
-            prop_assert_eq!(standing.score(&input), score(&input));
+            let baseline = BaselineScore::new(before.clone(), &drivable, input.steps.clone());
+            prop_assert_eq!(baseline.score(&input), score(&input));
             // Other rules than those it was made for.
             let other = ScoreInput {
                 pairs: if drivable_first { PairChoice::Regenerated } else { PairChoice::All },
                 steps: 3..STEPS,
                 ..input
             };
-            prop_assert_eq!(standing.score(&other), score(&other));
+            prop_assert_eq!(baseline.score(&other), score(&other));
         }
     }
 
@@ -223,7 +223,7 @@ mod tests {
             ..Sample::default()
         };
         let input = ScoreInput::of_sample(&before, Some(&sample), &drivable);
-        let shown = Standing::input(&before, &drivable, &input.steps);
+        let shown = BaselineScore::input(&before, &drivable, &input.steps);
         let was = unchanged(&shown, &input).unwrap();
         assert_eq!(was, [Some(0), Some(1), None, Some(3), Some(4), Some(5)]);
     }
