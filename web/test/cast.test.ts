@@ -10,7 +10,7 @@ import { readScene } from '../src/model/document/scene-reader';
 import { newIds, sceneKey, startPose, type Agent, type Scene } from '../src/model/document/scene';
 import { writeScene } from '../src/model/document/scene-writer';
 import { patchVariant, replaceVariants, sameCast, stateOfVariant, takeVariant } from '../src/model/document/variants';
-import * as several from '../src/edit/several';
+import * as several from '../src/edit/moves/several';
 import { crossing, crossingJson } from './helpers';
 
 /** A number of runs that the environment may raise. */

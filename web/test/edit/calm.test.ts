@@ -1,7 +1,7 @@
 // What panels say while a hand drags.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { computed, effect, signal } from '@preact/signals-core';
-import { Calm } from '../../src/edit/calm';
+import { Throttle } from '../../src/edit/session/throttle';
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
@@ -9,7 +9,7 @@ afterEach(() => void vi.useRealTimers());
 function panel() {
   const dragging = signal(false);
   const shown = signal(0);
-  const calm = new Calm(dragging, () => void shown.value);
+  const calm = new Throttle(dragging, () => void shown.value);
   const said: number[] = [];
   const told = computed(() => calm.read(() => shown.value));
   effect(() => void said.push(told.value));

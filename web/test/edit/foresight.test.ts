@@ -1,7 +1,7 @@
 // What the others would do, asked while a handle is dragged and taken over by the release.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal, setOthers, type Command } from '../../src/model/document/commands';
-import { outOfReach } from '../../src/edit/goal-verdict';
+import { outOfReach } from '../../src/edit/moves/goal-verdict';
 import type { ModeJson } from '../../src/model/document/scene-json';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import { judged } from '../standin/judged.mjs';
@@ -21,7 +21,7 @@ const goalAt = (x: number): Command => {
 
 /** A frame of the drag; the drag's own question shows its first guess unless it is to wait. */
 async function frame(x: number, { shown = true } = {}): Promise<void> {
-  s.editor.previewDrag(goalAt(x));
+  s.editor.drag.preview(goalAt(x));
   s.generation.preview('1');
   if (shown) s.generator.last.on.draft(draftOf('1'), 0, 5, 8);
   await Promise.resolve();
@@ -29,14 +29,14 @@ async function frame(x: number, { shown = true } = {}): Promise<void> {
 
 function begin(): void {
   s.editor.select('1');
-  s.editor.beginDrag({ part: 'goal', handle: 'body' });
+  s.editor.drag.begin({ part: 'goal', handle: 'body' });
 }
 
 const goalOf = (q: { options: { conditions: object } }): number =>
   (q.options.conditions as Record<string, { goal: { x_m: number } }>)['1'].goal.x_m;
-const releaseAt = (x: number) => s.editor.endDrag(goalAt(x));
+const releaseAt = (x: number) => s.editor.drag.end(goalAt(x));
 const answer = (others: Parameters<typeof answered>[1], ms = 30) => s.others.last.on.final(answered('1', others), ms);
-const names = () => s.editor.foreseen.peek()?.map((c) => `${c.name} ${c.words}`);
+const names = () => s.editor.answers.previewed.peek()?.map((c) => `${c.name} ${c.words}`);
 
 describe('while a handle is dragged', () => {
   it('asks on a line of its own what a release would ask', async () => {
@@ -76,9 +76,9 @@ describe('while a handle is dragged', () => {
     answer({});
     vi.advanceTimersByTime(2000);
     expect(s.others.asked).toHaveLength(2);
-    expect(s.generation.busy.peek()).toBe(true);
+    expect(s.generation.asking.peek()).toBe(true);
     for (const q of s.generator.asked) q.on.dropped!();
-    expect(s.generation.busy.peek()).toBe(false);
+    expect(s.generation.asking.peek()).toBe(false);
   });
 
   it('asks at least five times a second while the hand moves', async () => {
@@ -108,34 +108,34 @@ describe('while a handle is dragged', () => {
   it('says who would change and why, most affected first, and leaves the picture as it is', async () => {
     begin();
     await frame(10);
-    const before = s.editor.motion.peek();
+    const before = s.editor.answers.motion.peek();
     answer({ '2': late('2', 1, '1'), '3': late('3', 3, '1'), '4': late('4', 0) });
     expect(names()).toEqual([expect.stringMatching(/^Car 3 .* Car 1$/), expect.stringMatching(/^Car 2 .* Car 1$/)]);
-    expect(s.editor.motion.peek()).toBe(before);
+    expect(s.editor.answers.motion.peek()).toBe(before);
   });
 
   it('shows where the hand rests the six that the others answer, whatever comes later of the own ones', async () => {
     begin();
     await frame(10);
     s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
-    expect(s.editor.chosen.peek()).toBe(3);
+    expect(s.editor.reading.chosen.peek()).toBe(3);
     s.generator.last.on.draft(draftOf('1'), 4, 5, 12);
     s.generator.last.on.final(finalOf('1'), 14);
-    expect(s.editor.chosen.peek()).toBe(3);
+    expect(s.editor.reading.chosen.peek()).toBe(3);
     await frame(11);
-    expect(s.editor.chosen.peek()).toBe(0);
+    expect(s.editor.reading.chosen.peek()).toBe(0);
     // An answer about a pose that the hand has left changes nothing of the six.
     vi.advanceTimersByTime(150);
     await frame(12);
     s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
-    expect(s.editor.chosen.peek()).toBe(0);
+    expect(s.editor.reading.chosen.peek()).toBe(0);
   });
 
   it('tells nobody hit who would give way', async () => {
     const hits = (id: string) => ({ kind: 'collision', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 5, with: id });
     const modes = six('1').modes.map((m) => ({ ...m, faults: [hits('2'), hits('3')] }));
     const draft = { event: 'step', window: 0, agents: { '1': { chosen: 0, modes } } } as unknown as DraftEvent;
-    const hit = () => s.editor.draft.peek()!.futures.modes[0].about!.faults.map((f) => f.with);
+    const hit = () => s.editor.answers.draft.peek()!.futures.modes[0].about!.faults.map((f) => f.with);
     begin();
     await frame(10);
     s.generator.last.on.draft(draft, 1, 5, 8);
@@ -162,12 +162,12 @@ describe('while a handle is dragged', () => {
   it('asks nothing where the others do not react', async () => {
     for (const others of ['log', 'still'] as const) {
       s = new Session();
-      s.editor.run(setOthers(others));
+      s.editor.commits.run(setOthers(others));
       begin();
       await frame(10);
       vi.advanceTimersByTime(500);
       expect(s.others.asked).toHaveLength(0);
-      expect(s.editor.foreseen.peek()).toBeNull();
+      expect(s.editor.answers.previewed.peek()).toBeNull();
     }
   });
 
@@ -177,12 +177,16 @@ describe('while a handle is dragged', () => {
     answer({ '2': late('2', 3, '1') });
     vi.advanceTimersByTime(150);
     await frame(20);
-    s.editor.cancelDrag();
+    s.editor.drag.cancel();
     s.generation.cancelPreviews();
     for (const q of s.generator.asked) q.on.dropped!();
-    expect([s.editor.foreseen.peek(), s.others.cancelled, s.generation.busy.peek()]).toEqual([null, 1, false]);
+    expect([s.editor.answers.previewed.peek(), s.others.cancelled, s.generation.asking.peek()]).toEqual([
+      null,
+      1,
+      false,
+    ]);
     answer({ '2': late('2', 3, '1') });
-    expect(s.editor.foreseen.peek()).toBeNull();
+    expect(s.editor.answers.previewed.peek()).toBeNull();
   });
 });
 
@@ -191,13 +195,13 @@ describe('a release', () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1'), '3': late('3', 1, '2') });
-    const foreseen = s.editor.foreseen.peek()!;
+    const foreseen = s.editor.answers.previewed.peek()!;
     const asked = s.generator.asked.length;
     releaseAt(10);
-    expect(s.editor.motion.peek().stale).toBe(false);
+    expect(s.editor.answers.motion.peek().stale).toBe(false);
     expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
-    expect(s.editor.foreseen.peek()).toBeNull();
-    const changes = s.editor.changes.peek();
+    expect(s.editor.answers.previewed.peek()).toBeNull();
+    const changes = s.editor.answers.changes.peek();
     expect(changes.map((c) => c.words)).toEqual(foreseen.map((c) => c.words));
     expect(changes.map((c) => c.place)).toEqual(foreseen.map((c) => c.place));
     expect(s.editor.notices.toast.peek()?.text).toMatch(/2 others changed\.$/);
@@ -210,10 +214,10 @@ describe('a release', () => {
     await frame(10);
     const asked = s.generator.asked.length;
     releaseAt(10);
-    expect([s.editor.motion.peek().stale, s.generation.busy.peek()]).toEqual([true, true]);
+    expect([s.editor.answers.motion.peek().stale, s.generation.asking.peek()]).toEqual([true, true]);
     answer({ '2': late('2', 3, '1') });
-    expect(s.editor.changes.peek().map((c) => c.id)).toEqual(['2']);
-    expect(s.editor.motion.peek().stale).toBe(false);
+    expect(s.editor.answers.changes.peek().map((c) => c.id)).toEqual(['2']);
+    expect(s.editor.answers.motion.peek().stale).toBe(false);
     expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
   });
 
@@ -226,9 +230,9 @@ describe('a release', () => {
     expect(s.generator.last).toMatchObject({ preview: false, options: { react: true } });
     expect(goalOf(s.generator.last)).toBe(12);
     // What was foreseen stays on screen until the answer is there.
-    expect(s.editor.foreseen.peek()).toHaveLength(1);
+    expect(s.editor.answers.previewed.peek()).toHaveLength(1);
     s.generator.last.on.final(finalOf('1'), 20);
-    expect([s.editor.foreseen.peek(), s.editor.changes.peek()]).toEqual([null, []]);
+    expect([s.editor.answers.previewed.peek(), s.editor.answers.changes.peek()]).toEqual([null, []]);
   });
 
   it('asks itself when what it waited for does not come', async () => {
@@ -257,14 +261,14 @@ describe('whether somebody is in the way', () => {
     begin();
     await frame(10);
     s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
-    expect(s.editor.liveReach.peek()).toBeNull();
+    expect(s.editor.answers.liveReach.peek()).toBeNull();
     s.others.last.on.final(about(answered('1', {}), BLOCKED), 30);
     expect(said()).toMatchObject({ title: 'Car 2 is in the way', words: 'Halts 3 m short.' });
     await frame(20);
     vi.advanceTimersByTime(150);
     s.others.last.on.final(about(answered('1', {}), REACHED), 30);
     s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
-    expect([said(), s.editor.liveReach.peek()?.reach.status]).toEqual([null, 'reached']);
+    expect([said(), s.editor.answers.liveReach.peek()?.reach.status]).toEqual([null, 'reached']);
   });
 
   it('is said of a goal of its own alone', async () => {
@@ -272,7 +276,7 @@ describe('whether somebody is in the way', () => {
     await frame(10);
     await frame(12);
     s.others.last.on.final(about(answered('1', {}), BLOCKED), 30);
-    expect(s.editor.liveReach.peek()).toBeNull();
+    expect(s.editor.answers.liveReach.peek()).toBeNull();
   });
 
   it('is nothing beside a collision', async () => {
@@ -284,7 +288,7 @@ describe('whether somebody is in the way', () => {
       samples: [{ agents: { '1': { chosen: 0, modes: hits } } }],
     } as unknown as FinalEvent;
     s.others.last.on.final(about(answer, { ...BLOCKED, with: null }), 30);
-    expect(s.editor.futures.peek()!.modes[0].about!.faults[0].kind).toBe('collision');
+    expect(s.editor.reading.futures.peek()!.modes[0].about!.faults[0].kind).toBe('collision');
     expect(said()).toMatchObject({ title: 'Car 2 is in the way', outranked: true });
   });
 });

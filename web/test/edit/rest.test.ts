@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { Rest } from '../../src/edit/rest';
+import { RestTimer } from '../../src/edit/asking/rest-timer';
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 it('waits as long as something happens, and then once', () => {
-  const rest = new Rest(100);
+  const rest = new RestTimer(100);
   const done: number[] = [];
   for (let i = 0; i < 30; i++) {
     rest.begin(() => done.push(i));
@@ -22,7 +22,7 @@ it('waits as long as something happens, and then once', () => {
 });
 
 it('begins again, and can be called off', () => {
-  const rest = new Rest(100);
+  const rest = new RestTimer(100);
   const done = vi.fn();
   rest.begin(done);
   vi.advanceTimersByTime(60);

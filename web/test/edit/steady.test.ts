@@ -1,16 +1,16 @@
 // What is said of the others does not flicker.
 import { beforeEach, expect, it, vi } from 'vitest';
 import type { Change } from '../../src/model/words/change-words';
-import { AGREED_MS, Steady } from '../../src/edit/steady';
+import { AGREED_MS, StableWords } from '../../src/edit/asking/stable-words';
 
 const change = (id: string, kind: 'waits' | 'slows', lost = 1): Change =>
   ({ id, lost, size: 1, reaction: { kind, cause: { id: '7', name: 'Car 7' }, ahead: false } }) as unknown as Change;
 
 let said: string[];
-let steady: Steady;
+let steady: StableWords;
 beforeEach(() => {
   vi.useFakeTimers();
-  steady = new Steady((all) => {
+  steady = new StableWords((all) => {
     said = all.map((c) => `${c.id} ${c.reaction!.kind} ${c.lost}`);
   });
 });

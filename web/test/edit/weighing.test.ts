@@ -1,18 +1,18 @@
 // What comes of the ways out of an event is known before one is taken: each is tried apart, and nothing is changed.
 import { describe, expect, it } from 'vitest';
 import type { TrafficEvent } from '../../src/model/words/event-words';
-import { eventRemedies } from '../../src/edit/event-remedies';
-import { Questions } from '../../src/edit/question';
+import { eventRemedies } from '../../src/edit/moves/event-remedies';
+import { RequestBuilder } from '../../src/edit/asking/request-builder';
 import { SceneFile } from '../../src/edit/document/scene-file';
-import { Supposing } from '../../src/edit/supposing';
-import { Weighing } from '../../src/edit/weighing';
+import { WhatIf } from '../../src/edit/asking/what-if';
+import { RemedyOutcomes } from '../../src/edit/asking/remedy-outcomes';
 import type { FinalEvent } from '../../src/net/types';
 import { finalOf, InMemoryGenerator, json, Session, six } from './session';
 
 class Weighed extends Session {
   readonly line = new InMemoryGenerator();
-  readonly supposing: Supposing;
-  readonly weighing: Weighing;
+  readonly whatIf: WhatIf;
+  readonly weighing: RemedyOutcomes;
   readonly end: () => void;
   readonly event: TrafficEvent;
 
@@ -20,8 +20,8 @@ class Weighed extends Session {
     super();
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
-    this.supposing = new Supposing(this.editor, new Questions(this.editor, file), this.line, file);
-    this.weighing = new Weighing(this.editor, this.supposing);
+    this.whatIf = new WhatIf(this.editor, new RequestBuilder(this.editor, file), this.line, file);
+    this.weighing = new RemedyOutcomes(this.editor, this.whatIf);
     this.end = this.weighing.begin();
     const [a, b] = ['1', '2'].map((id) => this.editor.scene.peek()!.agents.get(id)!);
     const words = { title: '', label: '', words: '', short: '', facts: [] };
@@ -70,7 +70,7 @@ describe('ways out of an event', () => {
     const t = new Weighed();
     const scene = t.editor.scene.peek();
     const [first, second] = t.ways;
-    expect([t.ways.length >= 2, t.supposing.asking.peek()]).toEqual([true, true]);
+    expect([t.ways.length >= 2, t.whatIf.asking.peek()]).toEqual([true, true]);
     expect(t.marks.every((m) => m === undefined)).toBe(true);
     t.answer(['1', '3']);
     expect(t.weighing.of(first)).toMatchObject({
@@ -79,9 +79,9 @@ describe('ways out of an event', () => {
     });
     t.answer(['1', '2']);
     expect(t.weighing.of(second)?.words).toMatch(/^Then still: Collision/);
-    while (t.supposing.asking.peek()) t.answer();
+    while (t.whatIf.asking.peek()) t.answer();
     expect(t.line.asked).toHaveLength(t.ways.length);
-    expect([t.editor.scene.peek(), t.editor.undoName.peek()]).toEqual([scene, null]);
+    expect([t.editor.scene.peek(), t.editor.document.undoName.peek()]).toEqual([scene, null]);
   });
 
   it('are good where nothing happens then', () => {
@@ -98,6 +98,6 @@ describe('ways out of an event', () => {
     on.final(finalOf('1'), 5);
     expect([t.marks[0], t.line.asked.length]).toEqual([undefined, 2]);
     t.end();
-    expect(t.supposing.asking.peek()).toBe(false);
+    expect(t.whatIf.asking.peek()).toBe(false);
   });
 });

@@ -91,7 +91,7 @@ export class SceneFile {
   /** The futures that belong to the committed document; null while they are not known, and where there are none. */
   answers(): GeneratedJson | null {
     const scene = this.session.document.scene.peek();
-    const set = this.session.motion.peek();
+    const set = this.session.answers.motion.peek();
     return scene && set.key === sceneKey(scene) ? answersIn(scene, set) : null;
   }
 

@@ -1,0 +1,115 @@
+// What a file cannot hold of a scene, in plain words and with the numbers of that scene.
+import { num } from '../../../model/base/units';
+import type { Scene } from '../../../model/document/scene';
+import { TEXTS } from '../../../texts/files/losses';
+import { countWords } from '../../../model/base/kinds';
+
+export interface Loss {
+  /** `Goals` */
+  readonly what: string;
+  /** `2 that you set become finished motion` */
+  readonly how: string;
+}
+
+const count = (scene: Scene, is: (a: Scene['agents'] extends ReadonlyMap<string, infer A> ? A : never) => boolean) =>
+  [...scene.agents.values()].filter(is).length;
+const FINER = ['truck', 'bus', 'motorcycle'] as const;
+
+/** Trucks, buses and motorcycles of the scene. */
+function finer(scene: Scene): string {
+  const all = FINER.flatMap((kind) => {
+    const n = count(scene, (a) => a.kind === kind);
+    return n ? countWords(kind, n) : [];
+  });
+  return all.length ? TEXTS.theyBecomePlain(all.join(', ')) : TEXTS.kindsAreVehicle;
+}
+
+function goals(scene: Scene): string {
+  const n = count(scene, (a) => a.goal.pos !== null);
+  return n ? TEXTS.thatYouSetFinished(TEXTS.flags(n)) : TEXTS.startsThatYou;
+}
+
+function notes(scene: Scene): string {
+  const n = count(scene, (a) => a.note !== '');
+  return n ? TEXTS.namesAndTags(TEXTS.notes(n)) : TEXTS.namesAndTagsStay;
+}
+
+type Words = readonly [what: string, how: string | ((scene: Scene) => string)];
+
+/** The server's codes of losses, the worst first. */
+const WORDS: Record<string, Words> = {
+  'no-road-users': [TEXTS.roadUsers, (s) => TEXTS.allTheRoadGoes(s.agents.size)],
+  'no-map': [TEXTS.road, (s) => TEXTS.kerbsCrosswalks(TEXTS.lanes(s.map.lanes.size))],
+  'no-signals': [
+    TEXTS.trafficLights,
+    (s) => (s.signals.length ? TEXTS.lightsOf(TEXTS.lanes(s.signals.length)) : TEXTS.thereAreNone),
+  ],
+  'no-conditions': [TEXTS.goals, goals],
+  'no-modes': [TEXTS.otherFutures, TEXTS.theChosenOnes],
+  'no-generated': [TEXTS.whatWasWorked, TEXTS.allMotionCounts],
+  'single-ego': [TEXTS.otherGoals, TEXTS.oneRoadUserAlone],
+  'late-road-users': [TEXTS.lateRoadUsers, TEXTS.strictReaders],
+  'no-unseen': [TEXTS.unseenRoadUsers, TEXTS.whomNobodySaw],
+  'no-subtype': [TEXTS.finerKinds, finer],
+  'no-sizes': [TEXTS.sizes, TEXTS.readersTakeUsual],
+  'no-velocity': [TEXTS.speeds, TEXTS.readersFindThem],
+  'no-timing': [TEXTS.time, TEXTS.whichMomentIs],
+  'no-validity-gaps': [TEXTS.gaps, TEXTS.momentsAtWhich],
+  'no-judgements': [TEXTS.verdicts, TEXTS.chancesFaults],
+  'no-trips': [TEXTS.someTrips, TEXTS.roadUsersOff],
+  'no-rollouts': [TEXTS.someRollouts, TEXTS.theChallenge],
+  'no-lane-graph': [TEXTS.linksOfLanes, TEXTS.whichFollowEach],
+  'no-lane-width': [TEXTS.widthsOfLanes, TEXTS.readersTakeUsual],
+  'no-lane-type': [TEXTS.someKindsOfLanes, TEXTS.theyBecomeThe],
+  'no-speed-limits': [TEXTS.speedLimits, TEXTS.theyAreNotIn],
+  'no-signal-states': [TEXTS.someStatesOf, TEXTS.allButRedYellow],
+  'no-z': [TEXTS.heights, TEXTS.everythingLies],
+  'no-drivable': [TEXTS.pavedAreas, TEXTS.lanesAndKerbs],
+  'no-lines': [TEXTS.paintedLines, TEXTS.markingsAndKerbs],
+  'no-areas': [TEXTS.someAreas, TEXTS.suchAsDriveways],
+  'no-neighbors': [TEXTS.lanesSideBySide, TEXTS.whereTheyAre],
+  'geometry-approximated': [TEXTS.exactLines, TEXTS.theyAreDrawn],
+  'no-roles': [TEXTS.roles, TEXTS.whoRecordedAnd],
+  'no-notes': [TEXTS.namesAndNotes, notes],
+  'no-licence': [TEXTS.licence, (s) => (s.licence ? TEXTS.isNotNamed(s.licence) : TEXTS.itIsNotNamed)],
+  'no-ids': [TEXTS.numbers, TEXTS.roadUsersAnd],
+  'ids-renumbered': [TEXTS.numbers, TEXTS.someRoadUsers],
+  'long-record': [TEXTS.usualLength, TEXTS.nothingIsCut],
+};
+const ORDER = Object.keys(WORDS);
+/** Codes without words stand at the end. */
+const rank = (code: string): number => (ORDER.indexOf(code) + ORDER.length + 1) % (ORDER.length + 1);
+
+/** Of codes as the server sends them, a list with commas. */
+export function lossesOf(codes: string | null, scene: Scene): readonly Loss[] {
+  return (codes ?? '')
+    .split(',')
+    .map((s) => s.trim())
+    .filter(Boolean)
+    .sort((a, b) => rank(a) - rank(b))
+    .map((code) => {
+      const words = WORDS[code];
+      if (!words) return { what: plainly(code), how: TEXTS.notInTheFile };
+      const [what, how] = words;
+      return { what, how: typeof how === 'string' ? how : how(scene) };
+    });
+}
+
+/** `no-lane-width`: `Lane width` */
+function plainly(code: string): string {
+  const words = code.replace(/^no-/, '').replaceAll('-', ' ');
+  return words[0].toUpperCase() + words.slice(1);
+}
+
+/** What is in the file all the same, in a line. */
+export function stays(losses: readonly Loss[], scene: Scene): string {
+  const lost = new Set(losses.map((l) => l.what));
+  const parts: readonly (readonly [kept: boolean, words: string])[] = [
+    [!lost.has(TEXTS.road), TEXTS.theRoad],
+    [scene.signals.length > 0 && !lost.has(TEXTS.trafficLights), TEXTS.trafficLightsWithin],
+    [scene.agents.size > 0 && !lost.has(TEXTS.roadUsers), TEXTS.roadUserCount(scene.agents.size)],
+  ];
+  const kept = parts.filter(([is]) => is).map(([, words]) => words);
+  if (!lost.has(TEXTS.roadUsers)) kept.push(TEXTS.sAt10StepsASecond(num(scene.duration, 1)));
+  return kept.join(', ');
+}
