@@ -5,7 +5,7 @@ import { deg, rad, wrapAngle, type Vec } from '../src/model/base/geometry';
 import { setGoal } from '../src/model/document/commands';
 import { startPose } from '../src/model/document/scene';
 import { handlePoints } from '../src/draw/handles';
-import { Recording, Vocabulary } from '../src/draw/recording';
+import { Recording, Vocabulary } from '../src/draw/recording/recording';
 import { View } from '../src/draw/view';
 import { agentsAt, hitTest, type HitContext } from '../src/edit/gestures/hit';
 import { lockAll } from '../src/edit/moves/several';

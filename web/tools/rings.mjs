@@ -10,7 +10,7 @@ import ts from 'typescript';
 const RINGS = {};
 /** The most files that a folder holds, and the folders that hold more. */
 const MOST_FILES = 25;
-const LARGER = { draw: 27 };
+const LARGER = {};
 
 const src = fileURLToPath(new URL('../src', import.meta.url));
 const files = readdirSync(src, { recursive: true, encoding: 'utf8' })

@@ -12,7 +12,7 @@ import { Sharing } from '../edit/document/sharing';
 import { RequestBuilder } from '../edit/asking/request-builder';
 import { Placement } from '../edit/moves/placement';
 import { makeTools } from '../edit/tools/tools';
-import { FarLine } from '../net/far-line';
+import { WorkerTransport } from '../net/worker-transport';
 import { HttpGenerator } from '../net/http-generator';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
@@ -26,7 +26,7 @@ import { coach } from './watching';
 
 function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
-  const worker = new FarLine(client);
+  const worker = new WorkerTransport(client);
   const generator = (): HttpGenerator => new HttpGenerator(client, worker.ask);
   const care = new SceneCare(editor, file, library, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);

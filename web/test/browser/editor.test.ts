@@ -138,7 +138,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
     await d.settled();
     expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+if you let go now$/);
-    const causes = await d.page.locator('.previewed .ch').allInnerTexts();
+    const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
     for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
     await d.key('h');
     await expect.poll(() => d.text('.helpbar')).toContain('show the others’ answers');
@@ -147,7 +147,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const asked = d.server.log.filter((l) => l.react).length;
     await d.release();
     expect(d.server.log.filter((l) => l.react).length).toBe(asked);
-    expect(await d.page.locator('.previewed').count()).toBe(0);
+    expect(await d.page.locator('.foreseen').count()).toBe(0);
     expect(await d.page.locator('.ch').allInnerTexts()).toEqual(causes);
   });
 

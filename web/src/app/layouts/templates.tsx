@@ -3,7 +3,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { readScene } from '../../model/document/scene-reader';
 import { TEMPLATES, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { MapPicture } from '../../draw/paint-map';
-import { paintOn } from '../../draw/replay';
+import { paintOn } from '../../draw/recording/replay';
 import { View } from '../../draw/view';
 import type { LayoutMaker } from '../../edit/tools/layouts/layout-maker';
 import type { TemplateName } from '../../net/types';

@@ -11,7 +11,7 @@ import { outFormats, type Wish } from '../../edit/tools/outward/formats';
 import { reportPage } from '../../edit/tools/outward/report-page';
 import type { WholeCard } from '../../edit/tools/variants/cards';
 import { paintLegend } from '../../draw/legend';
-import { opaquePen, paintOn } from '../../draw/replay';
+import { opaquePen, paintOn } from '../../draw/recording/replay';
 import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
 import { TEXTS } from '../../texts/files/export';

@@ -1,7 +1,7 @@
 // The open connection to the generator, behind a socket that a test holds both ends of.
 import { expect, it, vi } from 'vitest';
 import { Client } from '../src/net/client';
-import { OpenLine } from '../src/net/open-line';
+import { SocketTransport } from '../src/net/socket-transport';
 
 class FakeSocket {
   readonly OPEN = 1;
@@ -44,7 +44,7 @@ function stage() {
     sockets.push(new FakeSocket());
     return sockets.at(-1) as unknown as WebSocket;
   };
-  const line = new OpenLine(client, connect, () => now);
+  const line = new SocketTransport(client, connect, () => now);
   return { line, sockets, requests, later: (ms: number) => (now += ms) };
 }
 

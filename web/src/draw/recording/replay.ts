@@ -1,6 +1,6 @@
 // Plays recordings on a 2D canvas, in a worker or on the page.
 import { Bounds, Extent, type Part } from './extent';
-import type { Pen, Played } from './pen';
+import type { Pen, Played } from '../pen';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;

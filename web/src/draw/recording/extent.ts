@@ -1,5 +1,5 @@
 // Which part of a canvas a recording paints on: what was there before need be put back there alone.
-import type { Played } from './pen';
+import type { Played } from '../pen';
 
 /** Nothing where `right` is not above `left`. */
 export interface Part {

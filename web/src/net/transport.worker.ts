@@ -1,14 +1,14 @@
 // Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over. What came together goes
 // in one message: each costs the page a task, sixty times a second.
-import type { Head } from './line';
-import { connection, OpenLine } from './open-line';
+import type { Head } from './http-transport';
+import { connection, SocketTransport } from './socket-transport';
 import type { Together } from './stream';
 import type { GenerateEvent } from './types';
 
 /** A question by a number of its own; or the end of one. */
-export type ToLine = { readonly id: number; readonly body: string } | { readonly end: number };
+export type ToWorker = { readonly id: number; readonly body: string } | { readonly end: number };
 /** The head comes with the first events; the last says that it is, or is a failure, unless the page has ended it. */
-export type FromLine = { readonly id: number } & (
+export type FromWorker = { readonly id: number } & (
   { readonly head: Head | null; readonly events: Together; readonly last: boolean } | Failed
 );
 type Failed = { readonly failed: string };
@@ -16,11 +16,11 @@ type Failed = { readonly failed: string };
 /** Nothing follows these. */
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
-const line = new OpenLine({ send: (path, init) => fetch(path, init) }, () => connection(self.location.href));
+const line = new SocketTransport({ send: (path, init) => fetch(path, init) }, () => connection(self.location.href));
 const open = new Map<number, AbortController>();
-const tell = (said: FromLine): void => self.postMessage(said);
+const tell = (said: FromWorker): void => self.postMessage(said);
 
-self.onmessage = ({ data }: MessageEvent<ToLine>) => {
+self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if ('end' in data) open.get(data.end)?.abort();
   else void answer(data.id, data.body);
 };

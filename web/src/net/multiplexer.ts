@@ -1,5 +1,5 @@
 // Questions that are open on a line which carries several at once, told apart by numbers.
-import type { Head } from './line';
+import type { Head } from './http-transport';
 import { faultOf } from './problem';
 
 /** A question on its way: whoever waits for its head, and what has come and was not read yet. */
@@ -48,7 +48,7 @@ export interface Saying {
   end(id: number): void;
 }
 
-export class Questions<Piece> {
+export class Multiplexer<Piece> {
   #count = 0;
   readonly #open = new Map<number, Question<Piece>>();
 

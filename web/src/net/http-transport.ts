@@ -23,12 +23,12 @@ export interface Answer extends Head {
 export type Sender = Pick<Client, 'send'>;
 
 /** Puts a question, given as the body of its request. A signal that aborts fails what is on its way. */
-export type Line = (body: string, signal: AbortSignal) => Promise<Answer>;
+export type Transport = (body: string, signal: AbortSignal) => Promise<Answer>;
 
 async function* none(): AsyncGenerator<Together> {}
 
 /** The line of the thread that it is made in. */
-export function lineHere(sender: Sender): Line {
+export function httpTransport(sender: Sender): Transport {
   const ask = askHere(sender);
   return async (body, signal) => {
     const { pieces, ...head } = await ask(body, signal);

@@ -1,6 +1,6 @@
 // A picture as a list of numbers. Painters write it on the page's thread, which costs little; a canvas elsewhere plays
 // it (`replay.ts`), which costs much. Texts, shapes and sprites are sent once and known by number afterwards.
-import type { Pen, Shape, Sprite } from './pen';
+import type { Pen, Shape, Sprite } from '../pen';
 
 /** What each number of a recording that is not an argument means. */
 export const enum Op {

@@ -1,8 +1,8 @@
 // Questions over a connection that stays open: a request of its own costs the browser three times the work, sixty
 // times a second. Where there is no such connection, or none yet, questions go as requests.
-import { askHere, type Head, type Sender } from './line';
+import { askHere, type Head, type Sender } from './http-transport';
 import { problemIn } from './problem';
-import { Questions } from './questions';
+import { Multiplexer } from './multiplexer';
 import { eventsOf, type Together } from './stream';
 
 type Ask = ReturnType<typeof askHere>;
@@ -27,11 +27,11 @@ interface Told {
 /** The connection ended before anything was heard. */
 class Lost extends Error {}
 
-export class OpenLine {
+export class SocketTransport {
   #socket: WebSocket | null = null;
   /** When a connection may be tried again, and how long after the next try. */
   #next = { at: -Infinity, after: AGAIN_MS };
-  readonly #questions = new Questions<Together>();
+  readonly #questions = new Multiplexer<Together>();
   readonly #request: Ask;
 
   /** The connection is opened at once, before anybody asks. */

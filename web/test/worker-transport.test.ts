@@ -1,8 +1,8 @@
 // The line in a worker: the worker's own code behind a worker made of timers, asking the stand-in.
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { Client } from '../src/net/client';
-import { FarLine } from '../src/net/far-line';
-import type { FromLine, ToLine } from '../src/net/line.worker';
+import { WorkerTransport } from '../src/net/worker-transport';
+import type { FromWorker, ToWorker } from '../src/net/transport.worker';
 import { startStandIn, type StandIn } from './standin/server.mjs';
 
 const BODY = JSON.stringify({
@@ -15,21 +15,25 @@ const BODY = JSON.stringify({
 });
 
 /** What the worker sees as its global object. */
-const inside: { onmessage?: (e: { data: ToLine }) => void; postMessage?: (m: FromLine) => void; location?: unknown } =
-  {};
+const inside: {
+  onmessage?: (e: { data: ToWorker }) => void;
+  postMessage?: (m: FromWorker) => void;
+  location?: unknown;
+} = {};
 let made: FakeWorker[] = [];
 
 /** Messages are copied and arrive later, as between threads. */
 class FakeWorker {
   #gone = false;
-  onmessage: ((e: { data: FromLine }) => void) | null = null;
+  onmessage: ((e: { data: FromWorker }) => void) | null = null;
   onerror: ((e: { preventDefault(): void }) => void) | null = null;
   constructor() {
     made.push(this);
-    inside.postMessage = (m) => void setTimeout((data: FromLine) => this.onmessage?.({ data }), 0, structuredClone(m));
+    inside.postMessage = (m) =>
+      void setTimeout((data: FromWorker) => this.onmessage?.({ data }), 0, structuredClone(m));
   }
-  postMessage(m: ToLine): void {
-    setTimeout((data: ToLine) => !this.#gone && inside.onmessage?.({ data }), 0, structuredClone(m));
+  postMessage(m: ToWorker): void {
+    setTimeout((data: ToWorker) => !this.#gone && inside.onmessage?.({ data }), 0, structuredClone(m));
   }
   terminate(): void {
     this.#gone = true;
@@ -55,7 +59,7 @@ beforeEach(async () => {
     return real(new URL(path, server.url), init);
   });
   vi.resetModules();
-  await import('../src/net/line.worker');
+  await import('../src/net/transport.worker');
 });
 
 afterEach(async () => {
@@ -64,7 +68,7 @@ afterEach(async () => {
 });
 
 it('gives the events in the order in which they came, and starts one worker', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const answer = await line.ask(BODY, new AbortController().signal);
   expect(answer).toMatchObject({ status: 200, problem: null });
   const events = [];
@@ -75,7 +79,7 @@ it('gives the events in the order in which they came, and starts one worker', as
 });
 
 it('two questions at once do not mix', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const one = async (): Promise<number> => {
     let count = 0;
     for await (const e of (await line.ask(BODY, new AbortController().signal)).events)
@@ -88,7 +92,7 @@ it('two questions at once do not mix', async () => {
 });
 
 it('a question that is given up ends in the worker, too', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const abort = new AbortController();
   const answer = await line.ask(BODY, abort.signal);
   const reading = (async () => {
@@ -99,14 +103,14 @@ it('a question that is given up ends in the worker, too', async () => {
 });
 
 it('who stops reading ends the work, too', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const answer = await line.ask(BODY, new AbortController().signal);
   for await (const e of answer.events) if (e.event === 'initial') break;
   await vi.waitFor(() => expect(asked.mock.lastCall![0]!.aborted).toBe(true));
 });
 
 it('a refusal comes with its words, and nobody there is a failure', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const refused = await line.ask('{"scene_id":"nowhere"}', new AbortController().signal);
   expect(refused.status).toBeGreaterThanOrEqual(400);
   expect(refused.problem?.title).toBeTruthy();
@@ -116,7 +120,7 @@ it('a refusal comes with its words, and nobody there is a failure', async () => 
 });
 
 it('without its worker the page asks by itself', async () => {
-  const line = new FarLine(new Client());
+  const line = new WorkerTransport(new Client());
   const answering = line.ask(BODY, new AbortController().signal);
   made[0].onerror!({ preventDefault: () => undefined });
   const answer = await answering;
