@@ -48,7 +48,7 @@ function nearestFirst(c: Context): string[] {
 let walk: { ids: string[]; cast: string } | null = null;
 
 function walkTo(c: Context, step: 1 | -1): void {
-  const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.roster}`;
+  const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.castKey}`;
   const selected = c.editor.selection.value;
   // The order is kept while one walks, or the next key would jump back to the middle.
   if (!walk || walk.cast !== cast || !selected) walk = { ids: nearestFirst(c), cast };

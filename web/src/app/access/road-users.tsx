@@ -112,10 +112,10 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const c = useApp();
   const { editor } = c;
   // Who comes or goes makes another list; who only changes does not.
-  const roster = useComputed(() => editor.resting.value?.roster).value;
+  const castKey = useComputed(() => editor.resting.value?.castKey).value;
   const everybody = useMemo(
     () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
-    [roster, editor],
+    [castKey, editor],
   );
   const listed = useComputed(() => {
     const { kind, goal, events } = filter.value;

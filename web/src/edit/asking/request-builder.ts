@@ -120,7 +120,7 @@ export class RequestBuilder {
     if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag asks sixty times a second about the same surroundings.
     const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));
-    const rest = JSON.stringify([scene.others, does, scene.roster, [...(w.kept ?? [])], [...(w.anew ?? [])]]);
+    const rest = JSON.stringify([scene.others, does, scene.castKey, [...(w.kept ?? [])], [...(w.anew ?? [])]]);
     const last = this.#last.get(w.step !== null);
     if (last && last.set === set && last.rest === rest) return { scene: last.scene };
     const written = this.#written(scene, set, w, map);

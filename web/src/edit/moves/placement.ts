@@ -27,7 +27,7 @@ export class Placement implements Part {
   }
 
   followed({ before, after }: Commit): void {
-    if (before.roster !== after.roster && [...after.agents.keys()].some((id) => !before.agents.has(id)))
+    if (before.castKey !== after.castKey && [...after.agents.keys()].some((id) => !before.agents.has(id)))
       this.show(null);
   }
 

@@ -143,7 +143,7 @@ export class Editor {
     this.#selectedEvent.value = null;
     // A scene may have become shorter.
     this.playhead.moveTo(this.playhead.time.peek());
-    if (before.roster === after.roster) return;
+    if (before.castKey === after.castKey) return;
     const came = [...after.agents.keys()].filter((id) => !before.agents.has(id));
     const stay = this.#selected.peek().filter((id) => after.agents.has(id));
     if (came.length) this.#selected.value = came;

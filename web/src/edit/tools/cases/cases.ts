@@ -348,7 +348,7 @@ export class Cases {
     const now = editor.scene.peek();
     const sought = this.#sought.peek();
     if (!now || !sought || now.id !== c.take.scene.id) return;
-    if (now.roster !== c.take.scene.roster) {
+    if (now.castKey !== c.take.scene.castKey) {
       editor.notices.show({ text: TEXTS.otherRoadUsers });
       return;
     }

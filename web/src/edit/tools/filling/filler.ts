@@ -36,7 +36,7 @@ export class Filler {
       }
       // Whoever is pinned stands where the answer had it already: nothing changes until something else does.
       const { pinned, ...rest } = wish;
-      const now = JSON.stringify([rest, scene.id, scene.roster]);
+      const now = JSON.stringify([rest, scene.id, scene.castKey]);
       if (now === asked) return;
       asked = now;
       filling.ask();

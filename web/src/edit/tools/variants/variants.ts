@@ -163,9 +163,9 @@ export class Variants {
   ) {
     const list = computed(() => editor.resting.value?.variants);
     const states = computed(() => editor.resting.value?.variantStates);
-    const roster = computed(() => `${editor.resting.value?.id} ${editor.resting.value?.roster}`);
+    const cast = computed(() => `${editor.resting.value?.id} ${editor.resting.value?.castKey}`);
     this.cards = computed(() => {
-      void roster.value;
+      void cast.value;
       const scene = editor.scene.peek();
       const [all, of] = [list.value, states.value];
       return scene && all?.length && of
@@ -352,7 +352,7 @@ export class Variants {
     // stand beside the one that the document has.
     const isWork = !ranged && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
     const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
-    if (takes.length && takes[0].scene.roster === now.roster) {
+    if (takes.length && takes[0].scene.castKey === now.castKey) {
       this.#keepSets(takes);
       const states = takes.map((t) => stateOfVariant(t.scene, subject));
       const put = replaceVariants(now, states);
@@ -536,7 +536,7 @@ export class Variants {
   ): void {
     const { editor } = this;
     const now = editor.scene.peek();
-    if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
+    if (!takes.length || now?.id !== takes[0].scene.id || now.castKey !== takes[0].scene.castKey) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
     const command = keepStates(now, states, KEPT[what](n), starred);
