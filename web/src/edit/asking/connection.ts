@@ -12,7 +12,7 @@ export class Connection {
 
   /** `came` is called when it answers again, with the number of changes that waited. */
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'answers' | 'notices'>,
     private readonly answers: () => Promise<boolean>,
     private readonly came: (waiting: number) => void,
   ) {}

@@ -57,7 +57,7 @@ export class RequestBuilder {
   readonly #last = new Map<boolean, { set: MotionSet; rest: string; scene: SceneJson }>();
 
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selection'>,
     private readonly file: SceneFile,
   ) {}
 
@@ -153,7 +153,7 @@ const someStill = (s: Scene): boolean =>
 /** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
 type Shown = Pick<GenerateOptions, 'shown'>;
 
-function shownOf(editor: Editor, w: Wanted): Shown {
+function shownOf(editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selection'>, w: Wanted): Shown {
   const drags =
     editor.drag.active.peek() || (w.step !== null && editor.answers.draft.peek()?.id === editor.selection.peek());
   const shown = drags && !w.pinned ? shownFuture(editor, w.agents) : undefined;

@@ -12,7 +12,7 @@ import type { Wanted } from './request-builder';
 export type Asked = Wanted | 'nothing' | 'known';
 
 export function requestForChange(
-  editor: Editor,
+  editor: Pick<Editor, 'answers'>,
   scene: Scene,
   step: Step,
   set: MotionSet = editor.answers.motion.peek(),

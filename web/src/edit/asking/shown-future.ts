@@ -8,7 +8,10 @@ const EVERY = 5;
 const MOST = 18;
 
 /** What is on screen of the selected road user; nothing where none of it came from the generator. */
-export function shownFuture(e: Editor, asked: readonly string[] | 'all'): Record<string, ShownJson> | undefined {
+export function shownFuture(
+  e: Pick<Editor, 'reading' | 'selection'>,
+  asked: readonly string[] | 'all',
+): Record<string, ShownJson> | undefined {
   const id = e.selection.peek();
   const f = e.reading.futures.peek();
   const m = f?.modes[e.reading.chosen.peek()];

@@ -34,7 +34,7 @@ export class WhatIf {
   readonly asking: ReadonlySignal<boolean> = this.#asking;
 
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'answers'>,
     private readonly questions: RequestBuilder,
     private readonly generator: Generator,
     private readonly file: SceneFile,

@@ -18,7 +18,7 @@ export interface OutOfReach {
 }
 
 /** What the generator said of the goal as it is now; during a drag, of the goal as it is dragged. */
-export function knownReach(e: Editor, a: Agent): Reach | null {
+export function knownReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): Reach | null {
   const live = e.answers.liveReach.value;
   if (live?.id === a.id && !live.moved) return live.reach;
   const m = e.answers.motion.value;
@@ -26,24 +26,24 @@ export function knownReach(e: Editor, a: Agent): Reach | null {
 }
 
 /** Are the futures on screen an answer to the document as it is? In a drag those from before it are none. */
-export const verdictsHold = (e: Editor): boolean =>
+export const verdictsHold = (e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): boolean =>
   !e.reading.outdated.value &&
   !e.reading.futures.value?.sketch &&
   !e.reading.futures.value?.unjudged &&
   (!e.drag.active.value || e.answers.draft.value !== null);
 
 /** Does the shown future run into somebody? That says more than that somebody is in the way. */
-function collides(e: Editor): boolean {
+function collides(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): boolean {
   const about = verdictsHold(e) ? e.reading.futures.value?.modes[e.reading.chosen.value]?.about : null;
   return !!about && markOf(about) === 'collision';
 }
 
 /** Whom the shown future stands to first: who is in the way, where the verdict on the goal does not say. */
-const waitsFor = (e: Editor): string | null =>
+const waitsFor = (e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): string | null =>
   verdictsHold(e) ? (e.reading.futures.value?.modes[e.reading.chosen.value]?.about?.relations[0]?.with ?? null) : null;
 
 /** Null when the goal can be reached, as far as anybody knows. */
-export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
+export function outOfReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): OutOfReach | null {
   const known = knownReach(e, a);
   if (known) {
     if (known.status !== 'unreachable') return null;
@@ -63,7 +63,7 @@ export interface RoadGoal extends Point {
 /** Less than this beside the goal is no other goal, metres. */
 const LEAST_M = 1;
 
-export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
+export function roadGoal(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): RoadGoal | null {
   // The road stays where it is: what was said a moment ago holds until the next answer.
   const live = e.answers.liveReach.value;
   const to = (live?.id === a.id ? live.reach : knownReach(e, a))?.byRoad;

@@ -16,7 +16,7 @@ export interface ShownPin {
 }
 
 /** Those that are none of the futures that are shown: these carry the mark themselves. */
-export function pinsApart(editor: Editor): readonly ShownPin[] {
+export function pinsApart(editor: Pick<Editor, 'agent' | 'reading' | 'view'>): readonly ShownPin[] {
   const a = editor.agent.value;
   if (!a?.pins.length || editor.reading.cards.ofAgent(a.id)) return [];
   const f = editor.reading.futures.value;
@@ -25,7 +25,7 @@ export function pinsApart(editor: Editor): readonly ShownPin[] {
 }
 
 /** The pinned one that a future is. */
-export function pinnedAt(editor: Editor, index: number): Pin | null {
+export function pinnedAt(editor: Pick<Editor, 'agent' | 'reading' | 'view'>, index: number): Pin | null {
   const a = editor.agent.value;
   return a?.pins.length && !editor.reading.cards.ofAgent(a.id)
     ? pinOf(a, editor.reading.futures.value?.modes[index])
@@ -33,7 +33,11 @@ export function pinnedAt(editor: Editor, index: number): Pin | null {
 }
 
 /** Pins a future, or lets it go; words say why that cannot be. */
-export function togglePin(editor: Editor, a: Agent, index: number): Command | string {
+export function togglePin(
+  editor: Pick<Editor, 'agent' | 'reading' | 'view'>,
+  a: Agent,
+  index: number,
+): Command | string {
   const f = editor.reading.futures.peek();
   const m = f?.modes[index];
   if (!m || f.sketch || editor.reading.cards.ofAgent(a.id)) return TEXTS.selectFirst;

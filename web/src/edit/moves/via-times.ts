@@ -7,7 +7,7 @@ import { changeVia } from './vias';
 import { TEXTS } from '../../texts/editing/via';
 
 /** When the future in force passes it, seconds; null where nothing is known. */
-export function viaTime(e: Editor, a: Agent, i: number): number | null {
+export function viaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i: number): number | null {
   const f = e.reading.futures.value;
   const m = f?.modes[e.reading.chosen.value]?.motion;
   const at = m && passed(a.goal.via, m)[i];
@@ -22,7 +22,7 @@ export function heldTime(a: Agent, i: number, time: number, latest: number): num
 }
 
 /** Fixes the time at what is shown, or frees it. */
-export function toggleViaTime(e: Editor, a: Agent, i: number): Command | null {
+export function toggleViaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i: number): Command | null {
   const v = a.goal.via[i];
   if (!v) return null;
   if (v.time !== null) return changeVia(a, i, { time: null });
@@ -32,7 +32,7 @@ export function toggleViaTime(e: Editor, a: Agent, i: number): Command | null {
 }
 
 /** Two neighbours that the future in force would pass the other way round: the first of them. */
-export function outOfOrder(e: Editor, a: Agent): number | null {
+export function outOfOrder(e: Pick<Editor, 'reading' | 'scene'>, a: Agent): number | null {
   const m = e.reading.futures.value?.modes[e.reading.chosen.value]?.motion;
   const all = a.goal.via;
   if (!m || all.length < 2) return null;

@@ -21,7 +21,7 @@ import { TEXTS } from '../../texts/editing/via';
 const HALF_WAY = 0.5;
 
 /** The motion in force of the selected road user, or one of its futures. */
-const motionOf = (e: Editor, index = e.reading.chosen.peek()): Motion | null =>
+const motionOf = (e: Pick<Editor, 'reading'>, index = e.reading.chosen.peek()): Motion | null =>
   e.reading.futures.peek()?.modes[index]?.motion ?? null;
 
 /** Via points are counted from 1; one alone has no number. */
@@ -37,7 +37,7 @@ export interface Added {
 }
 
 /** A via point at the place of a future that is nearest to `near`; without one, half way along the one in force. */
-export function addVia(e: Editor, a: Agent, near: Vec | null, future?: number): Added | null {
+export function addVia(e: Pick<Editor, 'reading'>, a: Agent, near: Vec | null, future?: number): Added | null {
   const m = motionOf(e, future);
   if (!m || roomForVia(a) !== true) return null;
   const end = a.goal.pos ? a.goal.time : Infinity;
@@ -46,7 +46,7 @@ export function addVia(e: Editor, a: Agent, near: Vec | null, future?: number): 
 }
 
 /** The same where a future is at a time. */
-export function addViaAt(e: Editor, a: Agent, time: number, future?: number): Added | null {
+export function addViaAt(e: Pick<Editor, 'reading'>, a: Agent, time: number, future?: number): Added | null {
   const m = motionOf(e, future);
   const at = m && poseAt(m, Math.max(0.5, time));
   if (!m || !at || roomForVia(a) !== true) return null;

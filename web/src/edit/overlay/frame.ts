@@ -8,7 +8,7 @@ import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 
 /** Where somebody is at the playhead. */
-export function poseShown(e: Editor, a: Agent): Pose | null {
+export function poseShown(e: Pick<Editor, 'chosenOnes' | 'playhead' | 'reading' | 'selected'>, a: Agent): Pose | null {
   const t = e.playhead.time.value;
   return (t < 0.05 ? startPose(a) : null) ?? poseAt(e.reading.motionFor(a), t);
 }
@@ -24,7 +24,10 @@ export interface Frame {
 const MARGIN_PX = 10;
 const STALK_PX = 26;
 /** Null where fewer than two are selected and to be seen. */
-export function frameAround(e: Editor, v: View): Frame | null {
+export function frameAround(
+  e: Pick<Editor, 'chosenOnes' | 'playhead' | 'reading' | 'selected'>,
+  v: View,
+): Frame | null {
   if (e.selected.value.length < 2) return null;
   let x0 = Infinity,
     y0 = Infinity,

@@ -23,7 +23,7 @@ export class HoveredOverlay {
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   private of: { readonly motion: Motion; readonly since: number } | null = null;
 
-  constructor(private readonly editor: Editor) {}
+  constructor(private readonly editor: Pick<Editor, 'drag' | 'hoverFuture' | 'playhead' | 'reading'>) {}
 
   /** Does a box run? It is to be painted again then. */
   get running(): boolean {

@@ -28,7 +28,7 @@ const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind),
 
 export class FillOverlay {
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'scene'>,
     private readonly filling: Filling,
     private readonly labels: Labels,
   ) {}

@@ -13,7 +13,7 @@ export class LateFillOverlay implements ToolOverlay {
   coming = false;
 
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'notices' | 'scene'>,
     private readonly filling: Filling,
   ) {}
 

@@ -18,7 +18,7 @@ const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind),
 
 export class NewcomersOverlay implements ToolOverlay {
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'scene' | 'sweep' | 'view'>,
     private readonly placement: Placement,
   ) {}
 

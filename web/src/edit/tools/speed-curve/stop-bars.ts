@@ -37,7 +37,7 @@ export class StopBars implements ToolOverlay {
   #bars: readonly StopBar[] = [];
 
   constructor(
-    private readonly editor: Editor,
+    private readonly editor: Pick<Editor, 'reading'>,
     private readonly curve: SpeedCurve,
   ) {}
 
@@ -75,7 +75,14 @@ export class StopBars implements ToolOverlay {
   }
 }
 
-function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, curve: SpeedCurve, a: Agent): StopBar[] {
+function paintStops(
+  g: Pen,
+  labels: Labels,
+  v: View,
+  editor: Pick<Editor, 'reading'>,
+  curve: SpeedCurve,
+  a: Agent,
+): StopBar[] {
   const profile = curve.profile.value;
   const f = profile && editor.reading.futures.value;
   const motion = f?.modes[editor.reading.chosen.value]?.motion;
