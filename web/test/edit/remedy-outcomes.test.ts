@@ -12,7 +12,7 @@ import { finalOf, InMemoryGenerator, json, Session, six } from './session';
 class Weighed extends Session {
   readonly line = new InMemoryGenerator();
   readonly whatIf: WhatIf;
-  readonly weighing: RemedyOutcomes;
+  readonly outcomes: RemedyOutcomes;
   readonly end: () => void;
   readonly event: TrafficEvent;
 
@@ -21,8 +21,8 @@ class Weighed extends Session {
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
     this.whatIf = new WhatIf(this.editor, new RequestBuilder(this.editor, file), this.line, file);
-    this.weighing = new RemedyOutcomes(this.editor, this.whatIf);
-    this.end = this.weighing.begin();
+    this.outcomes = new RemedyOutcomes(this.editor, this.whatIf);
+    this.end = this.outcomes.begin();
     const [a, b] = ['1', '2'].map((id) => this.editor.scene.peek()!.agents.get(id)!);
     const words = { title: '', label: '', words: '', short: '', facts: [] };
     this.event = {
@@ -48,7 +48,7 @@ class Weighed extends Session {
   }
 
   get marks() {
-    return this.ways.map((w) => this.weighing.of(w)?.mark);
+    return this.ways.map((w) => this.outcomes.of(w)?.mark);
   }
 
   answer(...hit: [string, string][]): void {
@@ -73,12 +73,12 @@ describe('ways out of an event', () => {
     expect([t.ways.length >= 2, t.whatIf.asking.peek()]).toEqual([true, true]);
     expect(t.marks.every((m) => m === undefined)).toBe(true);
     t.answer(['1', '3']);
-    expect(t.weighing.of(first)).toMatchObject({
+    expect(t.outcomes.of(first)).toMatchObject({
       mark: 'collision',
       words: expect.stringMatching(/^Then Car/) as unknown,
     });
     t.answer(['1', '2']);
-    expect(t.weighing.of(second)?.words).toMatch(/^Then still: Collision/);
+    expect(t.outcomes.of(second)?.words).toMatch(/^Then still: Collision/);
     while (t.whatIf.asking.peek()) t.answer();
     expect(t.line.asked).toHaveLength(t.ways.length);
     expect([t.editor.scene.peek(), t.editor.document.undoName.peek()]).toEqual([scene, null]);
@@ -87,7 +87,7 @@ describe('ways out of an event', () => {
   it('are good where nothing happens then', () => {
     const t = new Weighed();
     t.answer();
-    expect(t.weighing.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Then it does not happen' });
+    expect(t.outcomes.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Then it does not happen' });
   });
 
   it('are weighed anew for another event; a late answer says nothing of it', () => {

@@ -1,5 +1,5 @@
 // What is asked of the generator, and when: six futures of whom one selects, live ones during a drag, everybody's
-// answer after a change. What becomes of the answers is in `reception.ts`.
+// answer after a change. What becomes of the answers is in `answer-handler.ts`.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../../model/base/domain';
 import { goesOneWay, thoseWhoAnswer } from '../../model/document/reaction-records';
@@ -95,13 +95,12 @@ export class Generation implements Part {
       this.#look(id);
       return;
     }
-    const { answers } = this.editor,
-      { motion, status } = this.editor.answers;
+    const { answers } = this.editor;
     // A running answer to a change must still arrive; only a look at futures is dropped.
-    if (motion.peek().stale) return;
+    if (answers.motion.peek().stale) return;
     this.generator.cancel();
     // What was said about its futures goes with it.
-    if (['refining', 'slow', 'settled'].includes(status.peek().kind)) answers.report({ kind: 'ready' });
+    if (['refining', 'slow', 'settled'].includes(answers.status.peek().kind)) answers.report({ kind: 'ready' });
   }
 
   /** The six futures of one; nobody follows them yet, and nobody else moves. */
@@ -322,7 +321,7 @@ export class Generation implements Part {
     return { ...followed(scene, set), futures: withCurves(scene, set.futures), fresh: null };
   }
 
-  // -------------------------------------------------------------- absence
+  // -------------------------------------------------------------- connection
 
   #away(w: Wanted): void {
     this.#connection.begin(w.step !== null);

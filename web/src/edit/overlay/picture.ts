@@ -112,8 +112,8 @@ export class Picture {
   }
 
   private paintMap(g: Pen, v: View): void {
-    const { layers, speedUnit } = this.editor.view,
-      { scene } = this.editor;
+    const { scene, view } = this.editor;
+    const { layers, speedUnit } = view;
     if (this.map) this.map.paint(g, v, layers.value.lanes);
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     if (this.map && layers.value.limits) paintLimits(g, v, scene.value!.map, speedUnit.value);
@@ -179,10 +179,9 @@ export class Picture {
 
   /** Worked out anew when somebody does something else; while a hand moves they stay as they were. */
   private conflicts(scene: Scene): readonly Zone[] {
-    const { motion } = this.editor.answers,
-      { active: dragging } = this.editor.drag;
-    const set = motion.peek();
-    if (this.zones?.map === scene.map && (dragging.peek() || (this.zones.set === set && this.zones.scene === scene)))
+    const { answers, drag } = this.editor;
+    const set = answers.motion.peek();
+    if (this.zones?.map === scene.map && (drag.active.peek() || (this.zones.set === set && this.zones.scene === scene)))
       return this.zones.all;
     this.zones = { map: scene.map, scene, set, all: conflictZones(scene, set) };
     return this.zones.all;

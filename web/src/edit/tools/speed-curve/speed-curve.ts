@@ -290,8 +290,7 @@ export class SpeedCurve {
   }
 
   #draw(a: Agent, f: Futures, profile: Profile): void {
-    const { answers, scene } = this.editor,
-      { chosen } = this.editor.reading;
-    answers.showDraft(a.id, withCurve(f, chosen.peek(), profile, a, scene.peek()!.duration));
+    const { answers, reading, scene } = this.editor;
+    answers.showDraft(a.id, withCurve(f, reading.chosen.peek(), profile, a, scene.peek()!.duration));
   }
 }
