@@ -8,7 +8,7 @@ import { newcomer, settle } from '../src/model/document/newcomer';
 import { PRESETS } from '../src/model/base/kinds';
 import { motionFrom, type Motion } from '../src/model/base/motion';
 import type { Agent } from '../src/model/document/scene';
-import { ghostAt, firstChoice } from '../src/edit/placing';
+import { ghostAt, firstChoice } from '../src/edit/moves/placing';
 import { crossing } from './helpers';
 
 const box = (x: number, y: number, heading = 0, length = 4, width = 2): Footprint => ({

@@ -6,10 +6,10 @@ import { alike, KINDS, momentOf, type Moment, type Sought } from '../src/model/p
 import { emptyMotion, type MotionSet } from '../src/model/document/futures';
 import { motionFrom, type Motion } from '../src/model/base/motion';
 import { sceneKey, startPose, withAgents, type Scene } from '../src/model/document/scene';
-import { Cases } from '../src/edit/cases/cases';
-import { Questions } from '../src/edit/question';
+import { Cases } from '../src/edit/tools/cases/cases';
+import { RequestBuilder } from '../src/edit/asking/request-builder';
 import { SceneFile } from '../src/edit/document/scene-file';
-import { Maker } from '../src/edit/variants/making';
+import { Maker } from '../src/edit/asking/take-maker';
 import { car, crossing } from './helpers';
 import { finalOf, InMemoryGenerator, json, Session } from './edit/session';
 
@@ -224,7 +224,7 @@ describe('a search', () => {
     const file = new SceneFile(s.editor);
     file.adopt(json, {} as never, true);
     const line = new Prompt();
-    const maker = new Maker(s.editor, new Questions(s.editor, file), line, file);
+    const maker = new Maker(s.editor, new RequestBuilder(s.editor, file), line, file);
     const cases = new Cases(s.editor, maker, () => line.cancel());
     cases.open('near', [ME, OTHER]);
     return { editor: s.editor, cases, line };
@@ -239,7 +239,7 @@ describe('a search', () => {
     expect(cases.progress.peek().tried).toBe(cases.progress.peek().of);
     expect(line.asked.length).toBeGreaterThan(40);
     expect(editor.scene.peek()).toBe(before);
-    expect(editor.undoName.peek()).toBeNull();
+    expect(editor.document.undoName.peek()).toBeNull();
     expect(cases.found.peek().length + (cases.closest.peek() ? 1 : 0)).toBeGreaterThan(0);
   });
 
@@ -250,25 +250,25 @@ describe('a search', () => {
     await cases.run();
     const [first] = cases.found.peek();
     cases.show(first.id);
-    expect(editor.beside.peek()?.meeting?.who).toEqual([ME, OTHER]);
-    expect(editor.time.peek()).toBeCloseTo(first.moment.time);
+    expect(editor.view.beside.peek()?.meeting?.who).toEqual([ME, OTHER]);
+    expect(editor.playhead.time.peek()).toBeCloseTo(first.moment.time);
     expect(editor.scene.peek()).toBe(before);
     cases.take(first);
     expect(sceneKey(editor.scene.peek()!)).toBe(sceneKey(first.take.scene));
-    expect(editor.beside.peek()).toBeNull();
-    editor.undo();
+    expect(editor.view.beside.peek()).toBeNull();
+    editor.commits.undo();
     expect(sceneKey(editor.scene.peek()!)).toBe(sceneKey(before));
-    expect(editor.undoName.peek()).toBeNull();
+    expect(editor.document.undoName.peek()).toBeNull();
   });
 
   it('asks nothing while a hand drags', async () => {
     const { editor, cases, line } = begin();
     editor.select(ME);
-    editor.beginDrag({ part: 'start', handle: 'body' });
+    editor.drag.begin({ part: 'start', handle: 'body' });
     const going = cases.run();
     await new Promise((done) => setTimeout(done, 120));
     expect(line.asked).toHaveLength(0);
-    editor.cancelDrag();
+    editor.drag.cancel();
     await going;
     expect(cases.state.peek()).toBe('done');
   });

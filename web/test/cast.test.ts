@@ -10,7 +10,7 @@ import { readScene } from '../src/model/document/scene-reader';
 import { newIds, sceneKey, startPose, type Agent, type Scene } from '../src/model/document/scene';
 import { writeScene } from '../src/model/document/scene-writer';
 import { patchVariant, replaceVariants, sameCast, stateOfVariant, takeVariant } from '../src/model/document/variants';
-import * as several from '../src/edit/several';
+import * as several from '../src/edit/moves/several';
 import { crossing, crossingJson } from './helpers';
 
 /** A number of runs that the environment may raise. */
@@ -194,11 +194,11 @@ describe('commands about who is there', () => {
     const c = several.removeThem(asked, [asked.agents.get('2')!]);
     const gone = c.apply(asked);
     expect(gone.agents.has('2')).toBe(false);
-    expect(gone.roster).not.toBe(asked.roster);
+    expect(gone.castKey).not.toBe(asked.castKey);
     const back = c.invert(asked).apply(gone);
     expect(back.agents.get('2')).toBe(asked.agents.get('2'));
     expect([...back.agents.keys()]).toEqual([...asked.agents.keys()]);
-    expect(back.roster).toBe(asked.roster);
+    expect(back.castKey).toBe(asked.castKey);
   });
 
   it('leave locked ones and those that are only shown alone where the whole is reset', () => {
@@ -224,7 +224,7 @@ describe('a scene as a file', () => {
         const read = readScene(JSON.parse(text));
         // Written again it is the same: what is read is what was meant.
         expect(JSON.parse(JSON.stringify(writeScene(json, read, null)))).toEqual(JSON.parse(text));
-        expect(read.roster).toBe(scene.roster);
+        expect(read.castKey).toBe(scene.castKey);
         for (const a of scene.agents.values()) {
           const b = read.agents.get(a.id)!;
           expect([b.type, b.kind, b.name, b.note, b.locked, b.does, b.placed]).toEqual([

@@ -25,7 +25,7 @@ function going(x: number, y: number, heading: number, since = 0): Motion {
 function two(a: Motion, b: Motion): { scene: Scene; set: MotionSet } {
   const scene = crossing();
   const like: Agent = { ...car(scene), length: 4, placed: false, parked: false };
-  const bare = { ...scene, agents: new Map(), roster: '' };
+  const bare = { ...scene, agents: new Map(), castKey: '' };
   const both = withAgents(bare, [
     { ...like, id: 'a', log: a },
     { ...like, id: 'b', log: b },

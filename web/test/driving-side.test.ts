@@ -4,9 +4,9 @@ import type { MapJson, Point, SceneJson } from '../src/model/document/scene-json
 import { drivingSide } from '../src/model/physics/driving-side';
 import { readScene } from '../src/model/document/scene-reader';
 import { View } from '../src/draw/view';
-import { overArea } from '../src/edit/placing';
+import { overArea } from '../src/edit/moves/placing';
 import { PRESETS } from '../src/model/base/kinds';
-import { Layouts } from '../src/edit/layouts';
+import { Layouts } from '../src/edit/tools/layouts/layouts';
 import { crossing, crossingJson } from './helpers';
 
 /** All lanes of a scene on the other side of the x axis: who drove on the right drives on the left. */

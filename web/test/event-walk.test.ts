@@ -15,19 +15,21 @@ function page(events: TrafficEvent[]) {
   const now = { time: 0, picked: null as TrafficEvent | null };
   const c = {
     editor: {
-      time: {
-        get value() {
-          return now.time;
-        },
-      },
-      events: { value: events },
+      reading: { events: { value: events } },
       selectedEvent: {
         get value() {
           return now.picked;
         },
       },
-      playhead: { pause: vi.fn() },
-      setTime: (t: number) => (now.time = t),
+      playhead: {
+        pause: vi.fn(),
+        moveTo: (t: number) => (now.time = t),
+        time: {
+          get value() {
+            return now.time;
+          },
+        },
+      },
       pickEvent: (e: TrafficEvent) => (now.picked = e),
     },
     stage: { view, glide: { by: (move: (v: View) => void) => move(view) } },

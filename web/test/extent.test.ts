@@ -1,7 +1,7 @@
 // Where a recording paints is never outside of what is said of it, and what is said is not much more.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { Extent } from '../src/draw/extent';
+import { Extent } from '../src/draw/recording/extent';
 
 const SIZE = { w: 400, h: 300 };
 const coordinate = fc.double({ min: -50, max: 350, noNaN: true });

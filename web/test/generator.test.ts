@@ -4,7 +4,7 @@ import type { SceneJson } from '../src/model/document/scene-json';
 import { Client } from '../src/net/client';
 import type { Handlers, Question } from '../src/net/generator';
 import { HttpGenerator, type Patience } from '../src/net/http-generator';
-import { lineHere, type Line } from '../src/net/line';
+import { httpTransport, type Transport } from '../src/net/http-transport';
 import type { GenerateEvent } from '../src/net/types';
 import { crossingJson } from './helpers';
 import { readEvents } from '../src/net/stream';
@@ -17,7 +17,7 @@ afterEach(async () => {
 });
 
 const generator = (url: string, patience?: Partial<Patience>) =>
-  new HttpGenerator(new Client(url), lineHere(new Client(url)), patience);
+  new HttpGenerator(new Client(url), httpTransport(new Client(url)), patience);
 
 interface Seen {
   drafts: number[];
@@ -284,7 +284,7 @@ describe('a drag that is answered in time, and heard of late', () => {
   function scripted() {
     let now = 0;
     const asked: { body: { revision: number }; signal: AbortSignal; tell: (e: GenerateEvent) => void }[] = [];
-    const line: Line = (body, signal) => {
+    const line: Transport = (body, signal) => {
       const come: GenerateEvent[] = [];
       let wake: (() => void) | null = null;
       signal.addEventListener('abort', () => wake?.());

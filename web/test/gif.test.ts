@@ -1,6 +1,6 @@
 // GIF: what is written is read back by a reader of our own, picture for picture, and every code is where it belongs.
 import { describe, expect, it } from 'vitest';
-import { GifWriter, lzw, paletteOf } from '../src/edit/outward/gif';
+import { GifWriter, lzw, paletteOf } from '../src/edit/tools/outward/gif';
 
 /** Unpacks codes as the specification says: an entry for each code, made of the one before and what comes next. */
 function unpacked(packed: Uint8Array): number[] {

@@ -1,6 +1,6 @@
 // The box that runs along the future under the pointer.
 import { expect, it } from 'vitest';
-import { replayed } from '../src/edit/overlay-hovered';
+import { replayed } from '../src/edit/overlay/hovered';
 
 it('runs four times as fast as it would, rests at the end, and starts again', () => {
   expect(replayed(0, 9)).toBe(0);

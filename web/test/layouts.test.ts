@@ -1,6 +1,6 @@
 // Single connections of a map that is being made: what they become when arms change, and steps back.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { Layouts } from '../src/edit/layouts';
+import { Layouts } from '../src/edit/tools/layouts/layouts';
 import { connectionOf, fitting, laneOf } from '../src/model/document/layouts';
 import type { Arm, MapReply } from '../src/net/types';
 import { crossingJson } from './helpers';

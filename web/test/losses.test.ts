@@ -2,9 +2,9 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../src/model/document/commands';
-import { found, meant } from '../src/edit/outward/finding';
-import { inKinds, outFormats } from '../src/edit/outward/formats';
-import { lossesOf, stays } from '../src/edit/outward/losses';
+import { found, meant } from '../src/edit/tools/outward/finding';
+import { inKinds, outFormats } from '../src/edit/tools/outward/formats';
+import { lossesOf, stays } from '../src/edit/tools/outward/losses';
 import type { FormatInfo } from '../src/net/types';
 import { crossing } from './helpers';
 

@@ -1,6 +1,6 @@
 // What is said beside the picture: a refusal is seen and heard, and takes nobody's way out away.
 import { describe, expect, it } from 'vitest';
-import { Notices } from '../src/edit/notices';
+import { Notices } from '../src/edit/session/notices';
 
 describe('a refusal', () => {
   it('is heard and seen', () => {

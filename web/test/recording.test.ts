@@ -1,10 +1,10 @@
 // What is recorded on the page is what is played elsewhere.
 import fc from 'fast-check';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Easel, type Canvases, type Picture } from '../src/draw/easel';
+import { Easel, type Canvases, type Picture } from '../src/draw/recording/easel';
 import { Shape, type Pen, type Sprite } from '../src/draw/pen';
-import { Recording, Vocabulary } from '../src/draw/recording';
-import { Player, type Canvas2D } from '../src/draw/replay';
+import { Recording, Vocabulary } from '../src/draw/recording/recording';
+import { Player, type Canvas2D } from '../src/draw/recording/replay';
 
 type Call = [name: string, ...args: unknown[]];
 

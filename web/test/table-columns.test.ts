@@ -1,6 +1,6 @@
 // What the columns of others' tables are taken for, and how that is told to the server.
 import { expect, it } from 'vitest';
-import { complete, guessed, toldColumns } from '../src/edit/table-columns';
+import { complete, guessed, toldColumns } from '../src/edit/tools/outward/table-columns';
 
 const named = (columns: string[]) =>
   Object.fromEntries(

@@ -15,7 +15,7 @@ import {
   withNew,
   withVia,
 } from '../src/model/document/vias';
-import { mirrorAll, moveAll } from '../src/edit/several';
+import { mirrorAll, moveAll } from '../src/edit/moves/several';
 import { crossing } from './helpers';
 
 /** East from the origin, a metre a step. */

@@ -5,10 +5,10 @@ import { deg, rad, wrapAngle, type Vec } from '../src/model/base/geometry';
 import { setGoal } from '../src/model/document/commands';
 import { startPose } from '../src/model/document/scene';
 import { handlePoints } from '../src/draw/handles';
-import { Recording, Vocabulary } from '../src/draw/recording';
+import { Recording, Vocabulary } from '../src/draw/recording/recording';
 import { View } from '../src/draw/view';
-import { agentsAt, hitTest, type HitContext } from '../src/edit/hit';
-import { lockAll } from '../src/edit/several';
+import { agentsAt, hitTest, type HitContext } from '../src/edit/gestures/hit';
+import { lockAll } from '../src/edit/moves/several';
 import { readLink, writeLink } from '../src/edit/document/share-link';
 import { Pointer } from './edit/pointer';
 
@@ -175,7 +175,7 @@ describe('a turned picture under the pointer', () => {
     chips: [],
     timeTag: null,
     roadSign: null,
-    stops: [],
+    toolHandleAt: () => null,
     pennants: [],
     touch,
   });
@@ -219,12 +219,12 @@ describe('a turned picture under the pointer', () => {
     const here = () => p.editor.scene.peek()!.agents.get('1')!;
     const { x, y, heading } = startPose(here())!;
     const pos: Vec = [x + 30 * Math.cos(heading), y + 30 * Math.sin(heading)];
-    p.editor.run(setGoal(here(), { ...here().goal, pos }));
+    p.editor.commits.run(setGoal(here(), { ...here().goal, pos }));
     p.editor.select('1');
     const flag = () => hitTest(context(false), ...p.view.to(...pos));
     const free = flag();
     expect(free).toMatchObject({ kind: 'grip', grip: { part: 'goal', handle: 'body' } });
-    p.editor.run(lockAll([here()], true)!);
+    p.editor.commits.run(lockAll([here()], true)!);
     expect(flag()).toEqual(free);
     const { knob, tip } = handlePoints(p.view, here(), startPose(here())!);
     for (const at of [knob, tip]) expect(hitTest(context(false), ...at).kind).not.toBe('grip');

@@ -7,10 +7,10 @@ import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 
 /** Files in rings, by room; `across` for a ring through several rooms. Rooms without a number hold none. */
-const RINGS = { edit: 38 };
+const RINGS = {};
 /** The most files that a folder holds, and the folders that hold more. */
 const MOST_FILES = 25;
-const LARGER = { draw: 27, edit: 71, 'edit/gestures': 26 };
+const LARGER = {};
 
 const src = fileURLToPath(new URL('../src', import.meta.url));
 const files = readdirSync(src, { recursive: true, encoding: 'utf8' })

@@ -14,7 +14,7 @@ const UNSEEN =
 /** Calls whose arguments are for the program. */
 /** Files in which nothing is said to a person. */
 const SILENT =
-  /^(texts|draw|net)\/|^app\/(parts\/icons|focus)|^actions\/keys|^edit\/outward\/gif|^edit\/share-mark|^model\/base\/api/;
+  /^(texts|draw|net)\/|^app\/(parts\/icons|focus)|^actions\/keys|^edit\/tools\/outward\/gif|^model\/base\/api/;
 
 const UNSEEN_CALLS =
   /(^|\.)(querySelector|querySelectorAll|closest|matches|addEventListener|removeEventListener|getAttribute|setAttribute|removeAttribute|toggleAttribute|createElement|createElementNS|getContext|matchMedia|setProperty|getPropertyValue|includes|startsWith|endsWith|indexOf|split|replace|has|get|set|delete|keep|recall|forget|test|match|join|toggle|contains|add|remove|dispatchEvent|Error|TypeError|URL|fetch|request|RegExp|css|Path2D|Worker|FontFace|Event|CustomEvent|append)$/;

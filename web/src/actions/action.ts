@@ -1,9 +1,9 @@
 // An action: one thing a user can do, with everything that buttons, menus, palette and shortcut sheet say of it.
 import type { Agent } from '../model/document/scene';
 import { canChange, canMove } from '../model/document/scene';
-import { freeOnes } from '../edit/copying';
+import { freeOnes } from '../edit/moves/copying';
 import type { Command } from '../model/document/commands';
-import type { Part } from '../edit/editor';
+import type { HandlePart } from '../edit/session/drag';
 import type { Help } from '../texts/desk/helps';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -82,13 +82,13 @@ export function onSome(make: (c: Context, all: readonly Agent[]) => Command | nu
     run(c) {
       const all = freeOnes(c.editor);
       const command = all.length ? make(c, all) : null;
-      if (command) c.editor.run(command);
+      if (command) c.editor.commits.run(command);
     },
   };
 }
 
 /** The part that keys move. */
-export const activePart = (c: Context): Part => c.editor.focusPart.value;
+export const activePart = (c: Context): HandlePart => c.editor.focusPart.value;
 
 /** Does a command on the selected road user, when there is one and the command makes sense. */
 export function onAgent(make: (c: Context, a: Agent) => Command | null): Pick<Action, 'when' | 'run'> {
@@ -97,7 +97,7 @@ export function onAgent(make: (c: Context, a: Agent) => Command | null): Pick<Ac
     run(c) {
       const a = c.editor.agent.value;
       const command = a && canMove(a) ? make(c, a) : null;
-      if (command) c.editor.run(command);
+      if (command) c.editor.commits.run(command);
     },
   };
 }

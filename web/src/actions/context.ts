@@ -1,25 +1,18 @@
 // What an action may touch, and what a panel shows.
-import type { Searching } from '../edit/cases/searching';
-import type { Copying } from '../edit/copying';
-import type { Editor } from '../edit/editor';
-import type { Filler } from '../edit/filler';
-import type { LayoutMaker } from '../edit/layout-maker';
+import type { Editor } from '../edit/session/editor';
 import type { Library } from '../edit/document/library';
-import type { Importing } from '../edit/importing';
+import type { Importing } from '../edit/tools/importing/importing';
 import type { Saving } from '../edit/document/saving';
 import type { SceneCare } from '../edit/document/scene-care';
 import type { Journal } from '../edit/document/journal';
 import type { SceneFile } from '../edit/document/scene-file';
 import type { SceneList } from '../edit/document/scene-list';
-import type { Generation } from '../edit/generation';
+import type { Generation } from '../edit/asking/generation';
 import type { Gestures } from '../edit/gestures/pointer';
-import type { Picture } from '../edit/picture';
-import type { Rounds } from '../edit/rounds/rounds';
-import type { Playback } from '../edit/playback';
+import type { Picture } from '../edit/overlay/picture';
+import type { Playback } from '../edit/session/playback';
+import type { Tools } from '../edit/tools/tools';
 import type { Sharing } from '../edit/document/sharing';
-import type { Trial } from '../edit/trial';
-import type { Supposing } from '../edit/supposing';
-import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
 import type { Form } from './form';
@@ -42,22 +35,13 @@ export interface Opening {
   readonly bar: HTMLElement;
 }
 
-export interface Context extends Opening {
+export interface Context extends Opening, Tools {
   readonly generation: Generation;
   readonly care: SceneCare;
   readonly sharing: Sharing;
   readonly importing: Importing;
   readonly playback: Playback;
   readonly gestures: Gestures;
-  readonly copying: Copying;
-  readonly filler: Filler;
-  readonly maker: LayoutMaker;
-  readonly variants: Variants;
-  readonly searching: Searching;
-  readonly rounds: Rounds;
-  readonly trial: Trial;
-  /** Asks what comes of ways out that nobody points at. */
-  readonly supposing: Supposing;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;

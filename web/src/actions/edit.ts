@@ -3,8 +3,8 @@ import type { Help } from '../texts/desk/helps';
 import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/base/kinds';
 import type { Others } from '../model/document/scene';
 import { doing } from '../model/document/scene';
-import { lockedWords, removeSelected } from '../edit/copying';
-import * as several from '../edit/several';
+import { lockedWords, removeSelected } from '../edit/moves/copying';
+import * as several from '../edit/moves/several';
 import { hasAgent, hasScene, hasSome, inGroup, onSome, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -36,7 +36,7 @@ const does = (id: Others, key: string, label: string, help: Help): Plain => ({
   },
   run(c) {
     const command = several.setDoes(c.editor.scene.peek()!, c.editor.chosenOnes, id);
-    if (command) c.editor.run(command);
+    if (command) c.editor.commits.run(command);
   },
 });
 
@@ -49,7 +49,7 @@ function lock({ editor }: Context): void {
   const on = !all.every((a) => a.locked);
   const command = several.lockAll(all, on);
   if (!command) return;
-  editor.run(command);
+  editor.commits.run(command);
   editor.notices.show({ text: `${command.name}.`, undo: true });
   editor.notices.say(`${command.name}.`);
 }

@@ -1,19 +1,19 @@
 // Everything: undo, the palette, help, and the page itself.
 import { inGroup } from './action';
 import { nextSpeedUnit } from '../model/base/units';
-import type { Cases } from '../edit/cases/cases';
+import type { Cases } from '../edit/tools/cases/cases';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 import { LANGUAGES, nextLanguage, speak } from '../texts/language';
 
 /** Steps of a map that is being made are its own. */
-const canUndo = ({ editor: { layouts, undoName } }: Context): boolean =>
-  layouts.isOpen.value ? layouts.canUndo.value : undoName.value !== null;
-const canRedo = ({ editor: { layouts, redoName } }: Context): boolean =>
-  layouts.isOpen.value ? layouts.canRedo.value : redoName.value !== null;
+const canUndo = ({ editor, layouts }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canUndo.value : editor.document.undoName.value !== null;
+const canRedo = ({ editor, layouts }: Context): boolean =>
+  layouts.isOpen.value ? layouts.canRedo.value : editor.document.redoName.value !== null;
 
 /** Esc: what is nearest goes first, one thing a press. */
-function letGo({ editor, gestures, importing, maker, rounds, searching, ui, variants }: Context): void {
+function letGo({ editor, gestures, importing, maker, rounds, searching, ui, variants, layouts }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
     ui.closeContextMenu();
@@ -24,8 +24,8 @@ function letGo({ editor, gestures, importing, maker, rounds, searching, ui, vari
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);
     editor.pickEvent(null);
-  } else if (editor.layouts.way.value) editor.layouts.pickWay(null);
-  else if (editor.layouts.isOpen.value) maker.leave();
+  } else if (layouts.way.value) layouts.pickWay(null);
+  else if (layouts.isOpen.value) maker.leave();
   else if (rounds.isOpen.value) rounds.close();
   else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
@@ -65,7 +65,7 @@ export const everything = inGroup('everything', [
     icon: 'undo',
     help: 'undoesTheLastStep',
     when: (c) => (canUndo(c) ? true : TEXTS.nothingToUndo),
-    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.undo() : editor.undo()),
+    run: ({ editor, layouts }) => (layouts.isOpen.peek() ? layouts.undo() : editor.commits.undo()),
   },
   {
     id: 'redo',
@@ -74,7 +74,7 @@ export const everything = inGroup('everything', [
     icon: 'redo',
     help: 'redoesTheLastStep',
     when: (c) => (canRedo(c) ? true : TEXTS.nothingToRedo),
-    run: ({ editor }) => (editor.layouts.isOpen.peek() ? editor.layouts.redo() : editor.redo()),
+    run: ({ editor, layouts }) => (layouts.isOpen.peek() ? layouts.redo() : editor.commits.redo()),
   },
   {
     id: 'shortcuts',
@@ -121,7 +121,7 @@ export const everything = inGroup('everything', [
     keys: ['U'],
     icon: 'ruler',
     help: 'unitsOfSpeed',
-    run: (c) => c.editor.setUnit(nextSpeedUnit(c.editor.speedUnit.value)),
+    run: (c) => c.editor.view.setUnit(nextSpeedUnit(c.editor.view.speedUnit.value)),
   },
   {
     id: 'language',

@@ -2,12 +2,12 @@
 import { canChange, changedByHand, hasGoal, type Agent } from '../model/document/scene';
 import { clearGoal, resetAgent, setSeed, type Command } from '../model/document/commands';
 import { LETTERS } from '../model/document/futures';
-import type { Editor } from '../edit/editor';
-import * as moves from '../edit/moves';
-import { pinnedAt, togglePin } from '../edit/pins';
-import { leaveToCross, roadWay } from '../edit/ways-out';
-import { clearGoals } from '../edit/several';
-import { addVia, removeVia, roomForVia } from '../edit/vias';
+import type { Editor } from '../edit/session/editor';
+import * as moves from '../edit/moves/moves';
+import { pinnedAt, togglePin } from '../edit/moves/pins';
+import { leaveToCross, roadWay } from '../edit/moves/ways-out';
+import { clearGoals } from '../edit/moves/several';
+import { addVia, removeVia, roomForVia } from '../edit/moves/vias';
 import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -34,8 +34,8 @@ const wayOut = (find: (e: Editor, a: Agent) => { command: Command } | null, none
     when: (c: Context) => (found(c) ? true : none),
     run(c: Context) {
       const way = found(c);
-      if (c.editor.dragging.peek()) c.gestures.cancel();
-      if (way) c.editor.run(way.command);
+      if (c.editor.drag.active.peek()) c.gestures.cancel();
+      if (way) c.editor.commits.run(way.command);
     },
   };
 };
@@ -80,7 +80,7 @@ function putVia(c: Context): void {
   const near = future !== null && at ? stage.view.from(at.x, at.y) : null;
   const added = addVia(editor, a, near, future ?? undefined);
   if (!added) return;
-  editor.run(added.command);
+  editor.commits.run(added.command);
   editor.takeVia(added.index);
 }
 
@@ -109,19 +109,19 @@ const resetting: Pick<Action, 'when' | 'run'> = {
 };
 
 /** The future that is pointed at, else the one in force. */
-const toPin = (c: Context): number => pointed(c) ?? c.editor.chosen.value;
+const toPin = (c: Context): number => pointed(c) ?? c.editor.reading.chosen.value;
 
 const pinning: Pick<Action, 'when' | 'checked' | 'run'> = {
   when: (c) => {
     const free = hasFree(c);
-    return free !== true || c.editor.futures.value ? free : TEXTS.itHasNoFutures;
+    return free !== true || c.editor.reading.futures.value ? free : TEXTS.itHasNoFutures;
   },
   checked: (c) => pinnedAt(c.editor, toPin(c)) !== null,
   run(c) {
     const a = c.editor.agent.peek();
     const done = a && togglePin(c.editor, a, toPin(c));
     if (typeof done === 'string') c.editor.notices.show({ text: done });
-    else if (done) c.editor.run(done);
+    else if (done) c.editor.commits.run(done);
   },
 };
 
@@ -163,7 +163,7 @@ export const goal = inGroup('goal', [
       const a = c.editor.agent.value;
       const free = hasFree(c);
       if (free !== true || !a) return free;
-      return c.editor.futures.value ? roomForVia(a) : TEXTS.itHasNoFutures;
+      return c.editor.reading.futures.value ? roomForVia(a) : TEXTS.itHasNoFutures;
     },
     run: (c) => putVia(c),
   },
@@ -178,7 +178,7 @@ export const goal = inGroup('goal', [
     run(c) {
       const found = viaInHand(c);
       const command = found && removeVia(found.a, found.i);
-      if (command) c.editor.run(command);
+      if (command) c.editor.commits.run(command);
     },
   },
   {
@@ -229,7 +229,7 @@ export const goal = inGroup('goal', [
     help: 'playsFromTheStart',
     ...onPointed((c, a, i) => {
       moves.takeFuture(c.editor, a, i);
-      c.editor.setTime(0);
+      c.editor.playhead.moveTo(0);
       c.editor.playhead.play();
     }),
   },
@@ -294,7 +294,7 @@ export const goal = inGroup('goal', [
     icon: 'dice',
     help: 'otherFutures',
     when: hasScene,
-    run: (c) => c.editor.run(setSeed(1 + Math.floor(Math.random() * LARGEST_NEW_SEED))),
+    run: (c) => c.editor.commits.run(setSeed(1 + Math.floor(Math.random() * LARGEST_NEW_SEED))),
   },
   {
     id: 'reset-agent',

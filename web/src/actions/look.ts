@@ -3,9 +3,9 @@ import type { Help } from '../texts/desk/helps';
 import { nearestLanes } from '../model/document/lanemap';
 import { canChange, startPose, type Agent } from '../model/document/scene';
 import { knowsLimits } from '../draw/ground';
-import { TOOLS } from '../edit/gestures/tools';
-import type { LayerName } from '../edit/layers';
-import { lanesFor } from '../edit/snap';
+import { RAIL } from '../edit/tools/tools';
+import type { LayerName } from '../edit/session/view-settings';
+import { lanesFor } from '../edit/moves/snap';
 import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
 import type { Context } from './context';
@@ -17,7 +17,7 @@ const CLOSEST = 22;
 /** So far from the middle of a lane one still stands on it. */
 const ON_LANE_M = 2.2;
 
-const tools = TOOLS.filter((t) => !('places' in t)).map(({ name, label, key, icon, help }) => ({
+const tools = RAIL.filter((t) => !t.places).map(({ name, label, key, icon, help }) => ({
   id: `tool-${name}`,
   label,
   keys: [key],
@@ -29,7 +29,7 @@ const tools = TOOLS.filter((t) => !('places' in t)).map(({ name, label, key, ico
     if (name !== 'fill') return;
     // Whoever comes starts at 0 s; the panel stands where the lists do.
     c.editor.playhead.pause();
-    c.editor.setTime(0);
+    c.editor.playhead.moveTo(0);
     c.ui.showDrawer(null);
   },
 }));
@@ -48,7 +48,7 @@ function nearestFirst(c: Context): string[] {
 let walk: { ids: string[]; cast: string } | null = null;
 
 function walkTo(c: Context, step: 1 | -1): void {
-  const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.roster}`;
+  const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.castKey}`;
   const selected = c.editor.selection.value;
   // The order is kept while one walks, or the next key would jump back to the middle.
   if (!walk || walk.cast !== cast || !selected) walk = { ids: nearestFirst(c), cast };
@@ -104,7 +104,7 @@ function selectLane(c: Context): void {
 function selectConflicts(c: Context): void {
   const mine = new Set(c.editor.selected.value);
   const met = new Set<string>();
-  for (const e of c.editor.events.value) {
+  for (const e of c.editor.reading.events.value) {
     if (!e.b) continue;
     if (mine.has(e.a.id)) met.add(e.b.id);
     if (mine.has(e.b.id)) met.add(e.a.id);
@@ -133,8 +133,8 @@ const layer = (
   keys: [key],
   help,
   when,
-  checked: (c) => c.editor.layers.value[name],
-  run: (c) => c.editor.toggleLayer(name),
+  checked: (c) => c.editor.view.layers.value[name],
+  run: (c) => c.editor.view.toggleLayer(name),
 });
 
 export const look = inGroup('look', [
@@ -265,8 +265,8 @@ export const look = inGroup('look', [
     keys: ['H'],
     help: 'whereOthersWouldWait',
     whileDragging: true,
-    checked: (c) => c.editor.showForeseen.value,
-    run: (c) => c.editor.toggleForeseen(),
+    checked: (c) => c.editor.view.showPreviewed.value,
+    run: (c) => c.editor.view.togglePreviewed(),
   },
   layer('futures', TEXTS.futures, 'Shift+O', 'thePossiblePaths'),
   layer('log', TEXTS.log, 'O', 'theRecordedTracks'),

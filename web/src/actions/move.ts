@@ -3,20 +3,22 @@ import type { Help } from '../texts/desk/helps';
 import type { Agent } from '../model/document/scene';
 import type { Command } from '../model/document/commands';
 import type { View } from '../draw/view';
-import type { Editor, Part } from '../edit/editor';
-import { freeOnes } from '../edit/copying';
-import * as moves from '../edit/moves';
-import * as several from '../edit/several';
+import type { Context } from './context';
+import type { Editor } from '../edit/session/editor';
+import type { HandlePart } from '../edit/session/drag';
+import { freeOnes } from '../edit/moves/copying';
+import * as moves from '../edit/moves/moves';
+import * as several from '../edit/moves/several';
 import { rad } from '../model/base/geometry';
 import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
 import { TEXTS } from '../texts/desk/actions';
 
-type Move = (e: Editor, a: Agent, part: Part, v: View) => Command | null;
+type Move = (e: Editor, a: Agent, part: HandlePart, v: View) => Command | null;
 /** The same for several; a way of moving that has none is for one alone. */
 type MoveAll = (all: readonly Agent[], v: View) => Command | null;
 /** The same for who is about to be placed; false where nobody is. */
-type MoveGhost = (e: Editor, v: View) => boolean;
+type MoveGhost = (c: Context) => boolean;
 
 interface Also {
   readonly icon?: string;
@@ -45,21 +47,21 @@ const move = (
     const { editor } = c;
     const v = c.stage.view;
     if (ghost && placedBy(c)) {
-      ghost(editor, v);
+      ghost(c);
       return;
     }
     const many = all && editor.selected.peek().length > 1;
     const free = many ? freeOnes(editor) : [];
     const a = editor.agent.peek();
     const command = many ? free.length && all(free, v) : a && make(editor, a, activePart(c), v);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   },
 });
 
 const ghostBy =
   (right: number, up: number): MoveGhost =>
-  (e, v) =>
-    e.placement.again(e.scene.peek()!, ...v.along(right, up));
+  ({ editor, placement, stage }) =>
+    placement.again(editor.scene.peek()!, ...stage.view.along(right, up));
 
 const DIRECTIONS = [
   ['Left', TEXTS.at01MLeft, TEXTS.at1MLeft, -1, 0],
@@ -98,7 +100,7 @@ const nextLane = (id: string, label: string, key: string, side: 1 | -1) =>
 const turn = (id: string, label: string, key: string, degrees: number) =>
   move(id, label, key, 'turnsTheActivePart', (e, a, p) => moves.turn(e, a, p, degrees), {
     all: (all) => several.turnAll(all, rad(degrees), several.middleOf(all), false, 'turn'),
-    ghost: (e) => e.placement.turnBy(e.scene.peek()!, rad(degrees)),
+    ghost: ({ editor, placement }) => placement.turnBy(editor.scene.peek()!, rad(degrees)),
   });
 const faster = (id: string, label: string, key: string, steps: number) =>
   move(

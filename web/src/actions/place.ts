@@ -1,12 +1,12 @@
 // Place: tools that put road users into the scene, and filling it.
 import type { PlacedKind } from '../model/base/kinds';
-import { TOOLS } from '../edit/gestures/tools';
+import { RAIL } from '../edit/tools/tools';
 import { placeGhost } from '../edit/gestures/placing';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 
-const tools = TOOLS.flatMap((t) => ('places' in t ? [t] : [])).map(({ name, label, key, icon, help }) => ({
+const tools = RAIL.filter((t) => t.places).map(({ name, label, key, icon, help }) => ({
   id: `tool-${name}`,
   label,
   keys: [key],
@@ -18,30 +18,28 @@ const tools = TOOLS.flatMap((t) => ('places' in t ? [t] : [])).map(({ name, labe
 }));
 
 /** The ghost appears at once: under the pointer, else in the middle of the picture. */
-function startPlacing(c: Context, name: (typeof TOOLS)[number]['name']): void {
-  const { editor, gestures, stage, ui } = c;
+function startPlacing(c: Context, name: string): void {
+  const { editor, gestures, stage, ui, placement } = c;
   editor.playhead.pause();
-  editor.setTime(0);
+  editor.playhead.moveTo(0);
   editor.chooseTool(name);
   ui.showDrawer(null);
-  const kind = TOOLS.find((t) => t.name === name);
+  const kind = RAIL.find((t) => t.name === name);
   const { view } = stage;
   const { left, right, top, bottom } = view.inset;
   const at = gestures.pointer ?? { x: (left + view.w - right) / 2, y: (top + view.h - bottom) / 2 };
-  if (kind && 'places' in kind)
-    editor.placement.pointAt(editor.scene.peek()!, kind.places, view.from(at.x, at.y), view.z, false);
+  if (kind?.places) placement.pointAt(editor.scene.peek()!, kind.places, view.from(at.x, at.y), view.z, false);
 }
 
 /** The kind that the tool in hand places; null for other tools. */
 export function placedBy({ editor }: Context): PlacedKind | null {
-  const tool = TOOLS.find((t) => t.name === editor.tool.value);
-  return tool && 'places' in tool ? tool.places : null;
+  const tool = RAIL.find((t) => t.name === editor.tool.value);
+  return tool?.places ?? null;
 }
 
-const isFilling = (c: Context): boolean => c.editor.filling.wish.value !== null;
+const isFilling = (c: Context): boolean => c.filling.wish.value !== null;
 
-function addOrClose({ editor, filler }: Context): void {
-  const { filling, notices } = editor;
+function addOrClose({ editor: { notices }, filler, filling }: Context): void {
   if (!filling.drawn.peek()) filler.add();
   else if (!filling.closeOutline()) notices.show({ text: TEXTS.anAreaNeedsThree });
 }
@@ -56,9 +54,9 @@ export const place = inGroup('place', [
     keys: ['Enter'],
     icon: 'check',
     help: 'placesAtTheGhost',
-    onOffer: (c) => placedBy(c) !== null && c.editor.placement.ghosts.value !== null,
-    when: (c) => (c.editor.placement.ghosts.value ? true : TEXTS.chooseWhatTo),
-    run: (c) => placeGhost(c.editor),
+    onOffer: (c) => placedBy(c) !== null && c.placement.ghosts.value !== null,
+    when: (c) => (c.placement.ghosts.value ? true : TEXTS.chooseWhatTo),
+    run: (c) => placeGhost(c.editor, c.placement),
   },
   {
     id: 'place-first',
@@ -80,7 +78,7 @@ export const place = inGroup('place', [
     when: (c) =>
       !isFilling(c)
         ? TEXTS.fillAnAreaFirst
-        : c.editor.filling.drawn.value || c.editor.filling.all.value.length
+        : c.filling.drawn.value || c.filling.all.value.length
           ? true
           : TEXTS.previewIsEmpty,
     run: (c) => addOrClose(c),
@@ -93,6 +91,6 @@ export const place = inGroup('place', [
     help: 'anotherSeed',
     onOffer: isFilling,
     when: (c) => (isFilling(c) ? true : TEXTS.fillAnAreaFirst),
-    run: (c) => c.editor.filling.shuffle(),
+    run: (c) => c.filling.shuffle(),
   },
 ]);

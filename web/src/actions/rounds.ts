@@ -8,7 +8,7 @@ import { TEXTS } from '../texts/desk/actions';
 
 const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
 const hasCards = (c: Context): true | string =>
-  !isOpen(c) ? TEXTS.openRoundsFirst : c.editor.deck.hand.value ? true : TEXTS.noCardsYet;
+  !isOpen(c) ? TEXTS.openRoundsFirst : c.deck.hand.value ? true : TEXTS.noCardsYet;
 
 /** At least two can do something: else the scene is that one road user. */
 const hasSeveral = (c: Context): true | string => {
@@ -32,7 +32,7 @@ function open(c: Context, one: boolean): void {
 const onCard = (run: (c: Context, index: number) => void): Pick<Action, 'onOffer' | 'when' | 'run'> => ({
   onOffer: isOpen,
   when: hasCards,
-  run: (c) => run(c, c.editor.deck.current.value),
+  run: (c) => run(c, c.deck.current.value),
 });
 
 const cards = [...LETTERS].map((letter, i) => ({
@@ -40,7 +40,7 @@ const cards = [...LETTERS].map((letter, i) => ({
   label: TEXTS.card(letter),
   keys: [`${i + 1}`],
   help: 'keysActOnThisCard' as const,
-  ...onCard((c) => c.editor.deck.point(i)),
+  ...onCard((c) => c.deck.point(i)),
 }));
 
 export const rounds = inGroup('rounds', [
@@ -62,7 +62,7 @@ export const rounds = inGroup('rounds', [
     label: TEXTS.roundsOfThis,
     help: 'withoutReactions',
     when: hasFree,
-    checked: (c) => typeof c.editor.deck.of.value?.id === 'string',
+    checked: (c) => typeof c.deck.of.value?.id === 'string',
     run: (c) => open(c, true),
   },
   {
@@ -72,7 +72,7 @@ export const rounds = inGroup('rounds', [
     icon: 'layers',
     help: 'eachCardIs',
     when: hasSeveral,
-    checked: (c) => c.editor.deck.of.value?.id === null,
+    checked: (c) => c.deck.of.value?.id === null,
     run: (c) => open(c, false),
   },
   {
@@ -97,14 +97,14 @@ export const rounds = inGroup('rounds', [
     label: TEXTS.previousCard,
     keys: ['Left'],
     help: 'keysActOnThisCard',
-    ...onCard((c, i) => c.editor.deck.point(i - 1)),
+    ...onCard((c, i) => c.deck.point(i - 1)),
   },
   {
     id: 'round-on',
     label: TEXTS.nextCard,
     keys: ['Right'],
     help: 'keysActOnThisCard',
-    ...onCard((c, i) => c.editor.deck.point(i + 1)),
+    ...onCard((c, i) => c.deck.point(i + 1)),
   },
   {
     id: 'round-next',
@@ -125,7 +125,7 @@ export const rounds = inGroup('rounds', [
     icon: 'flag',
     help: 'usesItInTheScene',
     when: hasCards,
-    run: (c) => c.rounds.take(c.editor.deck.current.value),
+    run: (c) => c.rounds.take(c.deck.current.value),
   },
   {
     id: 'round-stop',
@@ -160,8 +160,8 @@ export const rounds = inGroup('rounds', [
       return of?.feedback?.answers.length ? true : TEXTS.nothingWasKept;
     },
     run: (c) =>
-      void import('../edit/rounds/save').then(
-        (m) => m.saveFeedback(c.editor),
+      void import('../edit/tools/rounds/save').then(
+        (m) => m.saveFeedback(c.editor, c.deck),
         () => c.editor.notices.show({ text: PAGE.thisPartOfThe }),
       ),
   },

@@ -12,7 +12,7 @@ const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> 
   help,
   when: hasScene,
   checked: (c) => c.editor.resting.value?.others === mode,
-  run: (c) => c.editor.run(setOthers(mode)),
+  run: (c) => c.editor.commits.run(setOthers(mode)),
 });
 
 /** The scene that is spoken of: one in the list that is pointed at, else the open one. */
@@ -24,7 +24,7 @@ const own = (c: Context): true | string => {
   return !id ? TEXTS.noSceneIsOpen : c.scenes.isOwn(id) ? true : TEXTS.examplesAreReadOnly;
 };
 
-const making = (c: Context): boolean => c.editor.layouts.isOpen.value;
+const making = (c: Context): boolean => c.layouts.isOpen.value;
 
 const isMaking = (c: Context): true | string => (making(c) ? true : TEXTS.noMapIsBeing);
 
@@ -92,7 +92,7 @@ export const scene = inGroup('scene', [
     help: 'selectsThePreviousArm',
     onOffer: making,
     when: isMaking,
-    run: (c) => c.editor.layouts.step(-1),
+    run: (c) => c.layouts.step(-1),
   },
   {
     id: 'arm-next',
@@ -102,25 +102,25 @@ export const scene = inGroup('scene', [
     help: 'selectsTheNextArm',
     onOffer: making,
     when: isMaking,
-    run: (c) => c.editor.layouts.step(1),
+    run: (c) => c.layouts.step(1),
   },
   {
     id: 'arm-remove',
     label: TEXTS.removeTheArm,
     keys: ['Del'],
     help: 'keepsThreeArms',
-    onOffer: (c) => making(c) && !c.editor.layouts.way.value,
+    onOffer: (c) => making(c) && !c.layouts.way.value,
     when: isMaking,
-    run: (c) => c.editor.layouts.removeArm(c.editor.layouts.arm.peek()),
+    run: (c) => c.layouts.removeArm(c.layouts.arm.peek()),
   },
   {
     id: 'way-remove',
     label: TEXTS.removeTheConnection,
     keys: ['Del'],
     help: 'removesTheConnection',
-    onOffer: (c) => c.editor.layouts.way.value !== null,
-    when: (c) => (c.editor.layouts.way.value ? true : TEXTS.noConnectionIs),
-    run: (c) => c.editor.layouts.removeWay(c.editor.layouts.way.peek()!),
+    onOffer: (c) => c.layouts.way.value !== null,
+    when: (c) => (c.layouts.way.value ? true : TEXTS.noConnectionIs),
+    run: (c) => c.layouts.removeWay(c.layouts.way.peek()!),
   },
   {
     id: 'new-scene',
@@ -235,6 +235,6 @@ export const scene = inGroup('scene', [
     icon: 'undo',
     help: 'dropsEvery',
     when: hasScene,
-    run: (c) => c.editor.run(resetAll(c.editor.scene.value!)),
+    run: (c) => c.editor.commits.run(resetAll(c.editor.scene.value!)),
   },
 ]);

@@ -11,12 +11,12 @@ import { TEXTS as COUNTS } from '../texts/panels/thresholds';
 
 function stepBy(c: Context, frames: number): void {
   c.editor.playhead.pause();
-  c.editor.setTime((Math.round(c.editor.time.value / STEP_S) + frames) * STEP_S);
+  c.editor.playhead.moveTo((Math.round(c.editor.playhead.time.value / STEP_S) + frames) * STEP_S);
 }
 
 function goTo(c: Context, seconds: number): void {
   c.editor.playhead.pause();
-  c.editor.setTime(seconds);
+  c.editor.playhead.moveTo(seconds);
 }
 
 /** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
@@ -34,10 +34,10 @@ export function goToEvent(c: Context, e: TrafficEvent): void {
 
 function nextEvent(c: Context): void {
   const { editor } = c;
-  const now = editor.time.value;
+  const now = editor.playhead.time.value;
   // What is in the log is no news; it is walked only where there is nothing else.
-  const own = counted(editor.events.value);
-  const events = own.length ? own : editor.events.value;
+  const own = counted(editor.reading.events.value);
+  const events = own.length ? own : editor.reading.events.value;
   const later = events.find((e) => e.time > now + 0.05 || (e.time >= now && e !== editor.selectedEvent.value));
   const next = later ?? events[0];
   if (next) goToEvent(c, next);
@@ -51,7 +51,7 @@ const lengths = LENGTHS.map((s) => ({
   checked: (c: Context) => c.editor.resting.value?.length === s,
   run(c: Context) {
     const scene = c.editor.scene.peek()!;
-    if (scene.length !== s) c.editor.run(setLength(scene, s));
+    if (scene.length !== s) c.editor.commits.run(setLength(scene, s));
   },
 }));
 
@@ -62,7 +62,7 @@ const replans = REPLANS.map((s) => ({
   when: hasScene,
   checked: (c: Context) => c.editor.resting.value?.replan === s,
   run(c: Context) {
-    if (c.editor.scene.peek()!.replan !== s) c.editor.run(setReplan(s));
+    if (c.editor.scene.peek()!.replan !== s) c.editor.commits.run(setReplan(s));
   },
 }));
 
@@ -82,7 +82,7 @@ export const time = inGroup('time', [
     icon: 'play',
     help: 'playsFromThePlayhead',
     when: hasScene,
-    checked: (c) => c.editor.playing.value,
+    checked: (c) => c.editor.playhead.playing.value,
     run: (c) => c.playback.toggle(),
   },
   {
@@ -157,7 +157,7 @@ export const time = inGroup('time', [
     keys: ['E'],
     icon: 'warn',
     help: 'collisionNear',
-    when: (c) => (c.editor.events.value.length ? true : TEXTS.noEvents),
+    when: (c) => (c.editor.reading.events.value.length ? true : TEXTS.noEvents),
     run: nextEvent,
   },
   ...lengths,

@@ -2,9 +2,9 @@
 import { nearestLanes } from '../model/document/lanemap';
 import { rad, type OnLine, type Vec } from '../model/base/geometry';
 import { startPose } from '../model/document/scene';
-import type { Editor } from '../edit/editor';
-import { poseShown } from '../edit/frame';
-import { lanesFor } from '../edit/snap';
+import type { Editor } from '../edit/session/editor';
+import { poseShown } from '../edit/overlay/frame';
+import { lanesFor } from '../edit/moves/snap';
 import { hasScene, type Action } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -28,7 +28,7 @@ function stepBy(c: Context, angle: number): void {
 export function placesOfSelected(e: Editor): Vec[] {
   return e.chosenOnes.flatMap((a): Vec[] => {
     const p = startPose(a);
-    const goal = p && (e.goalPose(a) ?? p);
+    const goal = p && (e.reading.goalPose(a) ?? p);
     return goal
       ? [
           [p.x, p.y],
@@ -49,8 +49,8 @@ function wayOfSelected({ editor }: Context): OnLine | null {
 }
 
 /** The road under the pointer, else the one nearest to the middle of the picture. */
-function roadInView({ editor, gestures, stage: { view: v } }: Context): OnLine | null {
-  const map = (editor.layouts.made.peek()?.scene ?? editor.scene.peek())?.map;
+function roadInView({ editor, gestures, stage: { view: v }, layouts }: Context): OnLine | null {
+  const map = (layouts.made.peek()?.scene ?? editor.scene.peek())?.map;
   const { left, right, top, bottom } = v.inset;
   const at = gestures.pointer ?? { x: (v.w + left - right) / 2, y: (v.h + top - bottom) / 2 };
   return map ? (nearestLanes(map, ...v.from(at.x, at.y), null, NEAR_M, (l) => l.kind !== 'walk').at(0) ?? null) : null;
@@ -61,9 +61,9 @@ function roadInView({ editor, gestures, stage: { view: v } }: Context): OnLine |
  * whichever is the smaller turn.
  */
 function alignWithRoad(c: Context): void {
-  const { editor, stage } = c;
+  const { editor, stage, layouts } = c;
   // While a map is made nobody is on it.
-  const mine = editor.layouts.isOpen.peek() ? null : wayOfSelected(c);
+  const mine = layouts.isOpen.peek() ? null : wayOfSelected(c);
   const way = mine ?? roadInView(c);
   if (!way) {
     editor.notices.show({ text: TEXTS.noRoadIsNear });

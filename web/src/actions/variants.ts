@@ -16,7 +16,7 @@ const EDGE_PX = 60;
 /** To one of the moments at which the two that are compared part. */
 export function goToMoment({ editor, stage }: Context, m: Moment): void {
   editor.playhead.pause();
-  editor.setTime(m.time);
+  editor.playhead.moveTo(m.time);
   const v = stage.view;
   const [x, y] = v.to(...m.at);
   if (x > EDGE_PX + v.inset.left && x < v.w - EDGE_PX && y > EDGE_PX && y < v.h - EDGE_PX) return;
@@ -27,7 +27,7 @@ export function goToMoment({ editor, stage }: Context, m: Moment): void {
 /** The next one after the playhead, and after the last the first again. */
 function nextMoment(c: Context): void {
   const all = c.variants.compared.value?.parting.moments ?? [];
-  const next = all.find((m) => m.time > c.editor.time.value + 0.05) ?? all[0];
+  const next = all.find((m) => m.time > c.editor.playhead.time.value + 0.05) ?? all[0];
   if (next) goToMoment(c, next);
 }
 

@@ -2,24 +2,17 @@
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { perform } from '../actions/registry';
-import { Searching } from '../edit/cases/searching';
-import { Copying } from '../edit/copying';
-import { Filler } from '../edit/filler';
-import { LayoutMaker } from '../edit/layout-maker';
-import { Generation } from '../edit/generation';
+import { Generation } from '../edit/asking/generation';
 import { Gestures } from '../edit/gestures/pointer';
-import { Importing } from '../edit/importing';
-import { Overlay } from '../edit/overlay';
-import { Playback } from '../edit/playback';
+import { Importing } from '../edit/tools/importing/importing';
+import { Overlay } from '../edit/overlay/overlay';
+import { Playback } from '../edit/session/playback';
 import { SceneCare } from '../edit/document/scene-care';
 import { Sharing } from '../edit/document/sharing';
-import { Questions } from '../edit/question';
-import { Rounds } from '../edit/rounds/rounds';
-import { Supposing } from '../edit/supposing';
-import { Trial } from '../edit/trial';
-import { Maker } from '../edit/variants/making';
-import { Variants } from '../edit/variants/variants';
-import { FarLine } from '../net/far-line';
+import { RequestBuilder } from '../edit/asking/request-builder';
+import { Placement } from '../edit/moves/placement';
+import { makeTools } from '../edit/tools/tools';
+import { WorkerTransport } from '../net/worker-transport';
 import { HttpGenerator } from '../net/http-generator';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
@@ -33,13 +26,19 @@ import { coach } from './watching';
 
 function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
-  const line = new FarLine(client);
-  const generator = (): HttpGenerator => new HttpGenerator(client, line.ask);
+  const worker = new WorkerTransport(client);
+  const generator = (): HttpGenerator => new HttpGenerator(client, worker.ask);
   const care = new SceneCare(editor, file, library, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);
-  const generation = new Generation(editor, file, saving, generator(), generator());
+  const questions = (): RequestBuilder => new RequestBuilder(editor, file);
+  const placement = new Placement();
+  const { made, named } = makeTools({ editor, file, care, client, placement, generator, questions });
+  const takeUp = named.curve.takeUp.bind(named.curve);
+  const generation = new Generation(editor, file, saving, generator(), generator(), takeUp);
+  const overlays = made.flatMap(({ overlay }) => overlay ?? []);
   const overlay = new Overlay(
     editor,
+    overlays,
     (a) => picture.poseNow(a),
     () => picture.taken,
   );
@@ -47,29 +46,19 @@ function makeParts(o: Opening): Context {
     overlay.paint(g, v);
     if (overlay.moving) stage.invalidate('overlay');
   });
-  const varied = generator();
-  const maker = new Maker(editor, new Questions(editor, file), varied, file);
-  const variants = new Variants(editor, maker, () => varied.cancel());
-  file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
-  const searched = generator();
-  const searcher = new Maker(editor, new Questions(editor, file), searched, file);
-  const tried = new Supposing(editor, new Questions(editor, file), generator(), file);
+  effect(() => {
+    for (const each of overlays) each.watch();
+    stage.invalidate('overlay');
+  });
   const c: Context = {
     ...o,
+    ...named,
     care,
     importing,
     generation,
-    variants,
-    searching: new Searching(editor, searcher, () => searched.cancel()),
     sharing: new Sharing(editor, file, library, care, client),
-    gestures: new Gestures(stage, editor, picture, overlay, generation),
+    gestures: new Gestures(stage, editor, placement, picture, overlay, generation, made),
     playback: new Playback(editor, stage),
-    maker: new LayoutMaker(editor, file, care, client),
-    rounds: new Rounds(editor, new Questions(editor, file), generator()),
-    trial: new Trial(editor, tried),
-    supposing: new Supposing(editor, new Questions(editor, file), generator(), file),
-    copying: new Copying(editor),
-    filler: new Filler(editor, file, client),
     clipboard: clipboardOf(() => c),
     reveal: (ids) => reveal(c, ids),
     focusText,
@@ -87,7 +76,7 @@ function makeParts(o: Opening): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, supposing, trial, ui, variants } = c;
+  const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
   followView(stage);
   lookAtMade(c);
   keepInView(c);
@@ -99,15 +88,8 @@ function connect(c: Context): void {
   };
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const asked =
-      generation.busy.value ||
-      editor.filling.asking.value ||
-      editor.layouts.asking.value ||
-      variants.busy.value ||
-      editor.deck.asking.value ||
-      trial.asking.value ||
-      supposing.asking.value;
-    const busy = asked || editor.status.value.kind === 'loading' || gliding.value || editor.calm.waiting.value;
+    const loading = editor.answers.status.value.kind === 'loading';
+    const busy = editor.asking() || loading || gliding.value || editor.reading.throttle.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
@@ -116,13 +98,13 @@ function connect(c: Context): void {
     if (!at) return;
     stage.view.look(at.camera);
     stage.viewChanged();
-    editor.setTime(at.time);
+    editor.playhead.moveTo(at.time);
   };
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
   library.askBy((missing) => {
     // Events of the log; with changes from last time the answer to them brings its own.
-    if (!editor.motion.peek().stale) void generation.score();
-    if (missing !== 'none') generation.opened(missing === 'everybody');
+    if (!editor.answers.motion.peek().stale) void generation.score();
+    if (missing !== 'none') generation.begin(missing === 'everybody');
   });
   stage.viewChanged();
 }

@@ -4,8 +4,9 @@ import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/physics/scene-centre';
 import { wrapAngle, type Vec } from '../model/base/geometry';
+import type { Way } from '../model/document/scene-diff';
 import type { Camera, HistoryStep } from '../model/document/history';
-import { poseShown } from '../edit/frame';
+import { poseShown } from '../edit/overlay/frame';
 import { endPose, poseAt } from '../model/base/motion';
 import { canChange, startPose, type Agent } from '../model/document/scene';
 
@@ -17,8 +18,8 @@ const EMPTY_ZOOM = 1.6;
 /** A picture that shows the same place within so many pixels looks where it did. */
 const SAME_PX = 4;
 
-export function fitScene({ editor, stage }: Opening): void {
-  const scene = editor.layouts.made.peek()?.scene ?? editor.scene.peek();
+export function fitScene({ editor, stage, layouts }: Context): void {
+  const scene = layouts.made.peek()?.scene ?? editor.scene.peek();
   if (!scene) return;
   stage.resize();
   stage.invalidate('map');
@@ -26,11 +27,11 @@ export function fitScene({ editor, stage }: Opening): void {
 }
 
 /** A map that is made is looked at anew with each template; while its parameters change the picture stays. */
-export function lookAtMade({ editor, stage }: Opening): void {
+export function lookAtMade({ stage, layouts }: Context): void {
   let looked: string | null = null;
   effect(() => {
-    const made = editor.layouts.made.value;
-    if (!editor.layouts.isOpen.value) looked = null;
+    const made = layouts.made.value;
+    if (!layouts.isOpen.value) looked = null;
     if (!made || made.layout.template === looked) return;
     looked = made.layout.template;
     const { x0, y0, x1, y1 } = made.scene.map.box;
@@ -64,9 +65,9 @@ export function lookAtOpened({ editor, stage }: Opening): void {
 
 /** Keeps the selected road user in the middle while playback runs. */
 export function followSelected({ editor, stage }: Opening): void {
-  if (!editor.playhead.follow.peek() || !editor.playing.peek()) return;
+  if (!editor.playhead.follow.peek() || !editor.playhead.playing.peek()) return;
   const a = editor.agent.peek();
-  const p = a && poseAt(editor.motionFor(a), editor.time.peek());
+  const p = a && poseAt(editor.reading.motionFor(a), editor.playhead.time.peek());
   if (!p) return;
   stage.view.centre(p.x, p.y);
   stage.viewChanged();
@@ -84,17 +85,18 @@ const moved = (a: Camera, b: Camera): boolean =>
 export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
   editor.document.camera = () => stage.view.camera;
-  editor.onTravel = (step: HistoryStep, way) => {
+  const travelled = (step: HistoryStep, way: Way): void => {
     const there = way === 'back' ? step.from : step.to;
     if (!there || !step.from || !step.to || !moved(there, stage.view.camera)) return;
     const a = step.agent === null ? undefined : editor.scene.peek()?.agents.get(step.agent);
     if (moved(step.from, step.to) || (a && !inView(c, a))) stage.glide.to(there);
   };
+  editor.join({ travelled });
 }
 
 /** Are the start and the goal of a road user in the picture? */
 function inView({ editor, stage }: Opening, a: Agent): boolean {
-  const places = [startPose(a), editor.goalPose(a)].filter((p) => p !== null);
+  const places = [startPose(a), editor.reading.goalPose(a)].filter((p) => p !== null);
   return places.every((p) => stage.view.shows(p.x, p.y, -20));
 }
 
@@ -108,9 +110,9 @@ const FURTHER = 0.6;
 
 /** Where somebody will be at its goal time, before anything was worked out as recorded; null away from the start. */
 export function endShown(editor: Opening['editor'], a: Agent): Vec | null {
-  if (editor.time.peek() > 0.05 || !canChange(a)) return null;
+  if (editor.playhead.time.peek() > 0.05 || !canChange(a)) return null;
   if (a.goal.pos) return a.goal.pos;
-  const m = editor.motionFor(a);
+  const m = editor.reading.motionFor(a);
   const end = poseAt(m, a.goal.time) ?? endPose(m);
   return end && [end.x, end.y];
 }
@@ -124,15 +126,15 @@ export function reveal(c: Opening, ids: readonly string[]): void {
 /** Where one ends is known when its futures are; done then, if nobody has moved the picture meanwhile. */
 export function whenItsEndIsKnown({ editor, stage }: Opening, ids: readonly string[], does: () => void): void {
   const [id] = ids;
-  if (ids.length !== 1 || editor.motion.peek().futures.has(id)) return;
+  if (ids.length !== 1 || editor.answers.motion.peek().futures.has(id)) return;
   const { cx, cy, z } = stage.glide.end;
   const end = effect(() => {
-    const there = editor.motion.value.futures.has(id);
+    const there = editor.answers.motion.value.futures.has(id);
     const left = editor.selection.value !== id;
     if (!there && !left) return;
     queueMicrotask(() => end());
     const v = stage.glide.end;
-    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.dragging.peek()) does();
+    if (!left && v.cx === cx && v.cy === cy && v.z === z && !editor.drag.active.peek()) does();
   });
 }
 
@@ -162,7 +164,7 @@ export function keepInView(c: Opening): void {
   stage.onSmaller = (before) => {
     const all = editor.chosenOnes.flatMap((a) => poseShown(editor, a) ?? []);
     const wasSeen = all.every((p) => before.isClear(p.x, p.y, EDGE_PX));
-    if (wasSeen && !editor.dragging.peek()) bringIn(c, editor.selected.peek());
+    if (wasSeen && !editor.drag.active.peek()) bringIn(c, editor.selected.peek());
   };
 }
 

@@ -8,10 +8,10 @@ import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { Form } from '../actions/form';
 import { Ui } from '../actions/ui';
-import { Editor } from '../edit/editor';
+import { Editor } from '../edit/session/editor';
 import { Journal } from '../edit/document/journal';
 import { Library } from '../edit/document/library';
-import { Picture } from '../edit/picture';
+import { Picture } from '../edit/overlay/picture';
 import { Saving } from '../edit/document/saving';
 import { SceneFile } from '../edit/document/scene-file';
 import { SceneList } from '../edit/document/scene-list';
@@ -65,14 +65,14 @@ function connect(o: Opening): void {
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   lookWhereItWas(o);
   effect(() => {
-    stage.element.classList.toggle('bare', editor.resting.value === null && !editor.layouts.isOpen.value);
+    stage.element.classList.toggle('bare', editor.resting.value === null && !editor.view.mapDraft.isOpen.value);
   });
   effect(() => {
     document.documentElement.dataset.theme = ui.theme.value;
     stage.themeChanged();
   });
   effect(() => {
-    const drawer = editor.layouts.isOpen.value ? 'map' : ui.drawer.value;
+    const drawer = editor.view.mapDraft.isOpen.value ? 'map' : ui.drawer.value;
     const left = INSET_LEFT[drawer ?? 'rail'];
     const before = stage.view.copy();
     stage.view.inset = form.sheet.value ? insetBesideSheet(o, INSET, INSET_LEFT.rail) : { ...INSET, left };

@@ -1,6 +1,6 @@
 // The menus behind buttons: lists of actions.
 import { useComputed } from '@preact/signals';
-import { LAYER_NAMES } from '../edit/layers';
+import { LAYER_NAMES } from '../edit/session/view-settings';
 import { useApp } from './parts/app-context';
 import { ActionButton } from './parts/buttons';
 import { Icon } from './parts/icons';

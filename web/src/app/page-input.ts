@@ -9,7 +9,7 @@ import { TEXTS } from '../texts/desk/page';
 export function listenToPage(c: Context): void {
   let space: { panned: number } | null = null;
   addEventListener('keydown', (e) => {
-    const now = { dragging: c.editor.dragging.peek(), offers: (a: Action) => a.onOffer!(c) };
+    const now = { dragging: c.editor.drag.active.peek(), offers: (a: Action) => a.onOffer!(c) };
     const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), now);
     if (!a || a.native || belongsToPage(c, e, a)) return;
     e.preventDefault();
@@ -40,7 +40,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
     if (!inList || ui.drawer.peek() === 'users' || walkEnds(c, e.shiftKey ? -1 : 1)) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
-  return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging && !a.onOffer;
+  return editor.drag.active.peek() && a.id !== 'deselect' && !a.whileDragging && !a.onOffer;
 }
 
 /** A number field keeps undo and Space only while it holds typed text that is not yet applied. */

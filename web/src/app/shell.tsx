@@ -29,12 +29,10 @@ export function drawPage(c: Context): void {
 }
 
 function OverPicture() {
-  const { editor, scenes, ui } = useApp();
-  const making = editor.layouts.isOpen.value;
+  const { editor, scenes, ui, layouts } = useApp();
+  const making = layouts.isOpen.value;
   const nothing = useComputed(() => editor.resting.value === null && scenes.listed.value).value;
-  const drawer = useComputed(() =>
-    editor.resting.value && !editor.layouts.isOpen.value ? ui.drawer.value : null,
-  ).value;
+  const drawer = useComputed(() => (editor.resting.value && !layouts.isOpen.value ? ui.drawer.value : null)).value;
   return (
     <>
       {nothing && !making ? <Later part="empty" /> : null}

@@ -93,22 +93,22 @@ function Logo() {
 }
 
 function Title() {
-  const { editor, saving } = useApp();
+  const { editor, saving, layouts } = useApp();
   const id = useComputed(() => editor.resting.value?.id).value;
   const name = useComputed(() => (editor.resting.value ? TEXTS.dragtraffic(editor.resting.value.name) : 'DragTraffic'));
   const state = useComputed(() => {
     const scene = editor.resting.value;
-    if (editor.layouts.isNew.value) return TEXTS.notSaved;
-    if (editor.dragging.value) return TEXTS.dragging;
+    if (layouts.isNew.value) return TEXTS.notSaved;
+    if (editor.drag.active.value) return TEXTS.dragging;
     if (!scene) return '';
-    if (editor.lock.value) return TEXTS.readOnly;
+    if (editor.document.lock.value) return TEXTS.readOnly;
     const saved = saving.state.value;
     return saved === 'example' && isRecorded(scene.source) ? TEXTS.recordedScene : SAVED[saved];
   });
   return (
     <div class="title">
       <h1 class="sr">{name}</h1>
-      {editor.layouts.isNew.value ? (
+      {layouts.isNew.value ? (
         <b>{TEXTS.newMap}</b>
       ) : id === undefined ? (
         <span>DragTraffic</span>
@@ -139,7 +139,7 @@ function NameField() {
       size={size}
       onChange={() => {
         const typed = input.current!.value.trim();
-        if (typed && typed !== name.peek()) editor.run(rename(typed));
+        if (typed && typed !== name.peek()) editor.commits.run(rename(typed));
       }}
       onKeyDown={(e) => {
         if (e.key === 'Enter') input.current!.blur();

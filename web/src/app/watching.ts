@@ -9,7 +9,7 @@ export function coach({ editor, ui }: Opening): void {
   let opened = ui.drawer.peek() === 'scenes';
   effect(() => {
     const a = editor.agent.value;
-    const dragging = editor.dragging.value;
+    const dragging = editor.drag.active.value;
     if (a && opened) {
       opened = false;
       if (ui.drawer.peek() === 'scenes') ui.showDrawer(null);

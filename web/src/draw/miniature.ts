@@ -2,8 +2,8 @@
 // wanted. They are painted on the page itself: some forty stamps each are less than it takes to send them.
 import type { Pen } from './pen';
 import { MapPicture } from './paint-map';
-import { Recording, Vocabulary } from './recording';
-import { paintOn, Player, surface, pen2d, type Canvas2D } from './replay';
+import { Recording, Vocabulary } from './recording/recording';
+import { paintOn, Player, surface, pen2d, type Canvas2D } from './recording/replay';
 import { paletteStamp } from './theme';
 import type { View } from './view';
 

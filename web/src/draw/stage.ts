@@ -1,11 +1,11 @@
 // When what is painted: each of map, road users and overlay anew only when what it shows has changed, all inside one
 // animation frame. While the view moves, the finished map picture is shifted, scaled and turned; it is painted afresh
 // when the movement rests or when its margin is used up.
-import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './easel';
+import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './recording/easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
-import { opaquePen, paintOn } from './replay';
-import { Screen } from './screen';
+import { opaquePen, paintOn } from './recording/replay';
+import { Screen } from './recording/screen';
 import type { Point, Vec } from '../model/base/geometry';
 import { View } from './view';
 import { readPalette } from './theme';

@@ -2,7 +2,7 @@
 import type { SceneJson } from '../model/document/scene-json';
 import type { Client } from './client';
 import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
-import type { Answer, Line } from './line';
+import type { Answer, Transport } from './http-transport';
 import type { ScoreReply } from './types';
 
 interface Running {
@@ -59,7 +59,7 @@ export class HttpGenerator implements Generator {
 
   constructor(
     private readonly client: Client,
-    private readonly line: Line,
+    private readonly line: Transport,
     patience: Partial<Patience> = {},
     private readonly now = () => performance.now(),
   ) {

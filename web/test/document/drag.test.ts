@@ -1,6 +1,6 @@
 // A drag in the session, and what happens to it when something else changes the document.
 import { beforeEach, describe, expect, it } from 'vitest';
-import { Editor } from '../../src/edit/editor';
+import { Editor } from '../../src/edit/session/editor';
 import { rename, setGoal, setSeed } from '../../src/model/document/commands';
 import { car, crossing } from '../helpers';
 import { Pointer } from '../edit/pointer';
@@ -12,8 +12,8 @@ const goal = (x: number) => {
   return setGoal(a, { ...a.goal, pos: [x, 3] });
 };
 const drag = (x: number) => {
-  editor.beginDrag({ part: 'goal', handle: 'body' });
-  editor.previewDrag(goal(x));
+  editor.drag.begin({ part: 'goal', handle: 'body' });
+  editor.drag.preview(goal(x));
 };
 const goalX = () => car(editor.scene.peek()!).goal.pos?.[0];
 const steps = () => editor.document.history!.line().map((s) => s.name);
@@ -27,27 +27,27 @@ beforeEach(() => {
 describe('during a drag', () => {
   it('a command releases it first, so that neither is lost', () => {
     drag(5);
-    editor.run(rename('X'));
-    expect([goalX(), editor.scene.peek()!.name, editor.dragging.peek()]).toEqual([5, 'X', false]);
+    editor.commits.run(rename('X'));
+    expect([goalX(), editor.scene.peek()!.name, editor.drag.active.peek()]).toEqual([5, 'X', false]);
     expect(steps()).toHaveLength(2);
-    editor.previewDrag(goal(9));
-    editor.endDrag(goal(9));
+    editor.drag.preview(goal(9));
+    editor.drag.end(goal(9));
     expect([goalX(), steps().length]).toEqual([5, 2]);
   });
 
   it('undo takes it back, and redo brings it again', () => {
-    editor.run(setSeed(3));
+    editor.commits.run(setSeed(3));
     drag(5);
-    editor.undo();
+    editor.commits.undo();
     expect([goalX(), editor.scene.peek()!.seed]).toEqual([undefined, 3]);
-    editor.redo();
+    editor.commits.redo();
     expect(goalX()).toBe(5);
   });
 
   it('a step of the history is shown, and the drag is a branch of it', () => {
-    editor.run(setSeed(3));
+    editor.commits.run(setSeed(3));
     drag(5);
-    editor.goTo(null);
+    editor.commits.goTo(null);
     expect([goalX(), editor.scene.peek()!.seed]).toEqual([undefined, crossing().seed]);
     expect(editor.document.history!.kept().steps).toHaveLength(2);
   });
@@ -55,10 +55,10 @@ describe('during a drag', () => {
   it('a lock puts it back, and the release changes nothing', () => {
     drag(5);
     editor.lockWith({ words: 'Open elsewhere.', label: 'Edit here', run: () => undefined });
-    expect([goalX(), editor.dragging.peek()]).toEqual([undefined, false]);
+    expect([goalX(), editor.drag.active.peek()]).toEqual([undefined, false]);
     editor.lockWith(null);
-    editor.previewDrag(goal(6));
-    editor.endDrag(goal(6));
+    editor.drag.preview(goal(6));
+    editor.drag.end(goal(6));
     expect([goalX(), steps()]).toEqual([undefined, []]);
   });
 
@@ -69,7 +69,7 @@ describe('during a drag', () => {
     p.hit = { kind: 'grip', grip: { part: 'goal', handle: 'body' } };
     p.down(p.at(0, 0));
     p.move(p.at(9, 0));
-    expect(editor.dragging.peek()).toBe(true);
+    expect(editor.drag.active.peek()).toBe(true);
     editor.open(crossing());
     p.move(p.at(12, 0));
     p.up(p.at(12, 0));

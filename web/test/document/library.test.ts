@@ -49,21 +49,21 @@ describe('of two scenes that are on their way', () => {
     server.fate = () => ({});
     const second = await newTab();
     await open(second, 'other');
-    expect(second.editor.lock.peek()).not.toBeNull();
+    expect(second.editor.document.lock.peek()).not.toBeNull();
   });
 
   it('one that is gone leaves the scene before on screen, in hand and with its changes', async () => {
     const tab = await newTab();
     await open(tab, 'mine');
-    tab.editor.run(rename('Mine'));
+    tab.editor.commits.run(rename('Mine'));
     await open(tab, 'gone');
     expect(tab.library.openError.peek()).not.toBeNull();
-    tab.editor.run(setSeed(4));
+    tab.editor.commits.run(setSeed(4));
     await pass(1000);
     expect([shown(tab).name, nameOf('mine')]).toEqual(['Mine', 'Mine']);
     const second = await newTab();
     await open(second, 'mine');
-    expect([second.editor.lock.peek() !== null, shown(second).seed]).toEqual([true, 4]);
+    expect([second.editor.document.lock.peek() !== null, shown(second).seed]).toEqual([true, 4]);
   });
 });
 
@@ -74,11 +74,15 @@ describe('a change while a scene is opened', () => {
     server.fate = (method, id) => (method === 'GET' && id === 'other' ? { back: 500 } : {});
     const opened = tab.library.open('other');
     await pass(200);
-    tab.editor.run(setSeed(4));
+    tab.editor.commits.run(setSeed(4));
     await pass(5000);
     await opened;
     await open(tab, 'mine');
-    expect([shown(tab).seed, tab.editor.undoName.peek(), tab.saving.state.peek()]).toEqual([4, 'Seed 4', 'saved']);
+    expect([shown(tab).seed, tab.editor.document.undoName.peek(), tab.saving.state.peek()]).toEqual([
+      4,
+      'Seed 4',
+      'saved',
+    ]);
   });
 
   it('is kept where the same scene comes anew', async () => {
@@ -87,10 +91,14 @@ describe('a change while a scene is opened', () => {
     server.fate = (method, id) => (method === 'GET' && id === 'mine' ? { back: 500 } : {});
     const opened = tab.library.open('mine');
     await pass(200);
-    tab.editor.run(setSeed(4));
+    tab.editor.commits.run(setSeed(4));
     await pass(5000);
     await opened;
-    expect([shown(tab).seed, tab.editor.undoName.peek(), tab.saving.state.peek()]).toEqual([4, 'Seed 4', 'saved']);
+    expect([shown(tab).seed, tab.editor.document.undoName.peek(), tab.saving.state.peek()]).toEqual([
+      4,
+      'Seed 4',
+      'saved',
+    ]);
   });
 });
 
@@ -100,22 +108,22 @@ describe('two tabs at one scene', () => {
     const second = await newTab();
     await open(first, 'mine');
     await open(second, 'mine');
-    expect(second.editor.lock.peek()).not.toBeNull();
-    first.editor.run(setSeed(4));
+    expect(second.editor.document.lock.peek()).not.toBeNull();
+    first.editor.commits.run(setSeed(4));
     await pass(1000);
     expect(shown(second).seed).toBe(4);
     second.library.editHere();
     await pass(6000);
-    expect([first.editor.lock.peek() !== null, second.editor.lock.peek()]).toEqual([true, null]);
-    second.editor.run(rename('Second'));
+    expect([first.editor.document.lock.peek() !== null, second.editor.document.lock.peek()]).toEqual([true, null]);
+    second.editor.commits.run(rename('Second'));
     await pass(1000);
-    expect([nameOf('mine'), second.editor.undoName.peek(), shown(first).name]).toEqual([
+    expect([nameOf('mine'), second.editor.document.undoName.peek(), shown(first).name]).toEqual([
       'Second',
       'Renamed to Second',
       'Second',
     ]);
-    second.editor.undo();
-    second.editor.undo();
+    second.editor.commits.undo();
+    second.editor.commits.undo();
     expect(shown(second).seed).toBe(crossingJson().x_editor?.seed ?? 0);
   });
 
@@ -125,7 +133,7 @@ describe('two tabs at one scene', () => {
     await open(first, 'mine');
     await open(second, 'mine');
     server.fate = () => ({ fails: 'request' });
-    first.editor.run(setSeed(4));
+    first.editor.commits.run(setSeed(4));
     await pass(500);
     second.library.editHere();
     await pass(6000);

@@ -41,12 +41,12 @@ beforeEach(async () => {
 
 describe('what is saved', () => {
   it('is what was committed, also while a hand tries something else', async () => {
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     tab.editor.select('1');
-    tab.editor.beginDrag({ part: 'goal', handle: 'body' });
-    tab.editor.previewDrag(goalFor('1', 77, 7));
+    tab.editor.drag.begin({ part: 'goal', handle: 'body' });
+    tab.editor.drag.preview(goalFor('1', 77, 7));
     await pass(1000);
-    tab.editor.cancelDrag();
+    tab.editor.drag.cancel();
     await pass(1000);
     expect(tab.saving.state.peek()).toBe('saved');
     expect(seedOf('mine')).toBe(7);
@@ -56,19 +56,19 @@ describe('what is saved', () => {
 
   it('includes the change that waits when another scene is opened', async () => {
     server.fate = (method) => (method === 'PUT' ? { there: 500 } : {});
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     await pass(400);
-    tab.editor.run(setSeed(8));
+    tab.editor.commits.run(setSeed(8));
     await open('other');
     await pass(3000);
     expect(seedOf('mine')).toBe(8);
   });
 
   it('includes the change that waits when the server is slower than the opening of another scene', async () => {
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     server.fate = (method) => (method === 'PUT' ? { back: 5000 } : {});
     await pass(400);
-    tab.editor.run(setSeed(8));
+    tab.editor.commits.run(setSeed(8));
     await pass(400);
     await open('demo-crossing');
     await pass(10_000);
@@ -87,7 +87,7 @@ describe('what is saved', () => {
     await tab.list.refresh();
     await open('mine');
     server.fate = (method) => (method === 'PUT' ? { fails: 'busy' } : {});
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     await pass(400);
     await open('other');
     await open('mine');
@@ -107,11 +107,11 @@ describe('a step that grew after it was saved', () => {
     tab = new Tab(server, { store });
     await tab.list.refresh();
     await open('mine');
-    tab.editor.run(folding(7));
+    tab.editor.commits.run(folding(7));
     await pass(400);
     expect(seedOf('mine')).toBe(7);
     server.fate = (method) => (method === 'PUT' ? { fails: 'request' } : {});
-    tab.editor.run(more(8));
+    tab.editor.commits.run(more(8));
     await pass(100);
     const again = new Tab(server, { store });
     await again.list.refresh();
@@ -127,14 +127,14 @@ describe('a step that grew after it was saved', () => {
 describe('a scene that was deleted elsewhere', () => {
   it('is a conflict that ends when this version is kept: the scene is made again', async () => {
     server.scenes.delete('mine');
-    tab.editor.run(rename('Kept'));
+    tab.editor.commits.run(rename('Kept'));
     await pass(400);
     expect(tab.saving.state.peek()).toBe('conflict');
     const kept = tab.saving.keepMine();
     await pass(1000);
     await kept;
     expect([tab.saving.state.peek(), tab.saving.conflict.peek(), nameOf('mine')]).toEqual(['saved', null, 'Kept']);
-    tab.editor.run(rename('Further'));
+    tab.editor.commits.run(rename('Further'));
     await pass(400);
     expect([tab.saving.state.peek(), nameOf('mine')]).toEqual(['saved', 'Further']);
   });
@@ -143,14 +143,14 @@ describe('a scene that was deleted elsewhere', () => {
 describe('a conflict', () => {
   const conflict = async () => {
     server.put('mine', { ...crossingJson(), name: 'Theirs' });
-    tab.editor.run(rename('Mine'));
+    tab.editor.commits.run(rename('Mine'));
     await pass(400);
     expect(tab.saving.state.peek()).toBe('conflict');
   };
 
   it('overwrites nothing until this version is kept', async () => {
     await conflict();
-    tab.editor.run(setSeed(9));
+    tab.editor.commits.run(setSeed(9));
     await pass(1000);
     expect(nameOf('mine')).toBe('Theirs');
     void tab.saving.keepMine();
@@ -163,7 +163,7 @@ describe('a conflict', () => {
     server.fate = (method) => (method === 'PUT' ? { there: 200, back: 200 } : {});
     void tab.saving.keepMine();
     await pass(100);
-    tab.editor.run(setSeed(9));
+    tab.editor.commits.run(setSeed(9));
     await pass(2000);
     expect(tab.saving.conflict.peek()).toBeNull();
     expect([nameOf('mine'), seedOf('mine'), tab.saving.state.peek()]).toEqual(['Mine', 9, 'saved']);
@@ -171,11 +171,11 @@ describe('a conflict', () => {
 
   it('is none where only the reply to our own save was lost', async () => {
     server.fate = (method) => (method === 'PUT' ? { fails: 'reply' } : {});
-    tab.editor.run(rename('Mine'));
+    tab.editor.commits.run(rename('Mine'));
     await pass(400);
     expect(tab.saving.state.peek()).toBe('local');
     server.fate = () => ({});
-    tab.editor.run(setSeed(9));
+    tab.editor.commits.run(setSeed(9));
     await pass(1000);
     expect([nameOf('mine'), seedOf('mine'), tab.saving.state.peek()]).toEqual(['Mine', 9, 'saved']);
   });
@@ -186,7 +186,7 @@ describe('a conflict', () => {
     await pass(1000);
     await taken;
     expect([tab.editor.scene.peek()!.name, tab.saving.state.peek()]).toEqual(['Theirs', 'saved']);
-    tab.editor.undo();
+    tab.editor.commits.undo();
     await pass(1000);
     expect(nameOf('mine')).toBe('Mine');
   });
@@ -195,7 +195,7 @@ describe('a conflict', () => {
 describe('a server that does not answer', () => {
   it('is asked again by and by, and the title says that the change is only here', async () => {
     server.fate = (method) => (method === 'PUT' ? { fails: 'busy' } : {});
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     await pass(400);
     expect(tab.saving.state.peek()).toBe('local');
     server.fate = () => ({});
@@ -210,21 +210,21 @@ describe('a scene that is newer on the server', () => {
     tab = new Tab(server, { store });
     await tab.list.refresh();
     await open('mine');
-    tab.editor.run(rename('Before'));
+    tab.editor.commits.run(rename('Before'));
     await pass(1000);
     server.put('mine', { ...server.scenes.get('mine')!.json, name: 'Newer' });
     const again = new Tab(server, { store });
     await again.list.refresh();
     await open('mine', again);
     expect(again.editor.scene.peek()!.name).toBe('Newer');
-    again.editor.undo();
+    again.editor.commits.undo();
     expect(again.editor.scene.peek()!.name).toBe('Before');
   });
 });
 
 describe('a document that was saved', () => {
   it('is read back as it was', async () => {
-    tab.editor.run(goalFor('1', 12, 3));
+    tab.editor.commits.run(goalFor('1', 12, 3));
     await pass(1000);
     const there = readScene(server.scenes.get('mine')!.json);
     expect(there.agents.get('1')!.goal.pos).toEqual([12, 3]);
@@ -237,13 +237,13 @@ describe('a scene that is opened again while a change waits', () => {
     tab = new Tab(server, { store });
     await tab.list.refresh();
     await open('mine');
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     await pass(1000);
     server.put('mine', { ...server.scenes.get('mine')!.json, name: 'Theirs' });
     server.fate = (method) => (method === 'GET' ? { there: 50 } : {});
     const opened = tab.library.again();
-    tab.editor.run(setSeed(8));
-    tab.editor.undo();
+    tab.editor.commits.run(setSeed(8));
+    tab.editor.commits.undo();
     await pass(3000);
     await opened;
     expect([nameOf('mine'), tab.editor.scene.peek()!.name, tab.saving.state.peek()]).toEqual([

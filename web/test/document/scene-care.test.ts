@@ -28,10 +28,10 @@ beforeEach(async () => {
 
 describe('a copy', () => {
   it('of the open scene has what was committed, not what a drag tries', async () => {
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     const a = shown().agents.get('1')!;
-    tab.editor.beginDrag({ part: 'goal', handle: 'body' });
-    tab.editor.previewDrag(setGoal(a, { ...a.goal, pos: [77, 7] }));
+    tab.editor.drag.begin({ part: 'goal', handle: 'body' });
+    tab.editor.drag.preview(setGoal(a, { ...a.goal, pos: [77, 7] }));
     await whole(tab.care.saveCopy());
     const copy = [...server.scenes.values()].at(-1)!.json;
     expect([copy.name, copy.x_editor?.seed, copy.meta?.parent_id]).toEqual(['mine, copy', 7, 'mine']);
@@ -41,9 +41,9 @@ describe('a copy', () => {
 
   it('of an example saves itself from then on', async () => {
     await whole(tab.library.open('demo-crossing'));
-    tab.editor.run(setSeed(7));
+    tab.editor.commits.run(setSeed(7));
     await whole(tab.care.saveCopy());
-    tab.editor.run(setSeed(8));
+    tab.editor.commits.run(setSeed(8));
     await pass(1000);
     expect([tab.saving.state.peek(), [...server.scenes.values()].at(-1)!.json.x_editor?.seed]).toEqual(['saved', 8]);
   });
@@ -62,7 +62,7 @@ describe('a name', () => {
   it('of the open scene is a step; of another it is changed on the server', async () => {
     await whole(tab.care.rename('mine', 'Mine'));
     await whole(tab.care.rename('other', 'Other'));
-    expect(tab.editor.undoName.peek()).toBe('Renamed to Mine');
+    expect(tab.editor.document.undoName.peek()).toBe('Renamed to Mine');
     expect(names()).toEqual(['Mine', 'Other', 'demo-crossing']);
   });
 
@@ -76,13 +76,13 @@ describe('a name', () => {
 
 describe('a scene that is removed', () => {
   it('comes back as it was, with its steps', async () => {
-    tab.editor.run(rename('Mine'));
+    tab.editor.commits.run(rename('Mine'));
     await whole(tab.care.remove('mine'));
     expect([names(), shown().id]).toEqual([['other', 'demo-crossing'], 'other']);
     tab.editor.notices.toast.peek()!.action!.run();
     await pass(5000);
     expect([names().at(-1), shown().id, tab.saving.state.peek()]).toEqual(['Mine', 'mine', 'saved']);
-    tab.editor.undo();
+    tab.editor.commits.undo();
     await pass(1000);
     expect(server.scenes.get('mine')!.json.name).toBe('mine');
   });

@@ -1,6 +1,7 @@
 // A tab of the page without a page: session, document, saving and library, with a server and a storage of the test.
-import { Editor } from '../../src/edit/editor';
-import { Generation } from '../../src/edit/generation';
+import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
+import { Editor } from '../../src/edit/session/editor';
+import { Generation } from '../../src/edit/asking/generation';
 import { Journal } from '../../src/edit/document/journal';
 import { Library } from '../../src/edit/document/library';
 import { Saving } from '../../src/edit/document/saving';
@@ -24,6 +25,7 @@ export interface Surroundings {
 
 export class Tab {
   readonly editor = new Editor();
+  readonly curve = new SpeedCurve(this.editor);
   readonly generator = new InMemoryGenerator();
   readonly client: Client;
   readonly list: SceneList;
@@ -50,6 +52,8 @@ export class Tab {
       browser ? new SceneTurns(on, browser.locks, browser.channel) : new SceneTurns(on, null, null),
     );
     this.care = new SceneCare(editor, file, this.library, this.list, this.client, this.journal);
-    this.generation = new Generation(editor, file, this.saving, this.generator, this.others);
+    this.generation = new Generation(editor, file, this.saving, this.generator, this.others, (id, joins) =>
+      this.curve.takeUp(id, joins),
+    );
   }
 }

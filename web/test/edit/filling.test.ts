@@ -1,12 +1,13 @@
 // Filling an area: outlines drawn by hand, kinds shared out, pins that stay.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { FILL_KINDS, EVEN_MIX, shareOf, typesOf } from '../../src/edit/fill-mix';
-import { recast, thinned } from '../../src/edit/fill-recast';
-import { armHandleAt, armHandles, armName, rateAfter } from '../../src/edit/arm-handles';
-import { ANY_SPEED, Filling, NO_ANSWER, type Arm } from '../../src/edit/filling';
-import { simplified } from '../../src/edit/gestures/filling';
-import { inTheWay } from '../../src/edit/room';
+import { FILL_KINDS, EVEN_MIX, shareOf, typesOf } from '../../src/edit/tools/filling/fill-mix';
+import { recast, thinned } from '../../src/edit/tools/filling/fill-recast';
+import { armHandleAt, armHandles, armName, rateAfter } from '../../src/edit/tools/filling/arm-handles';
+import { ANY_SPEED, Filling, NO_ANSWER, type Arm } from '../../src/edit/tools/filling/filling';
+import { Editor } from '../../src/edit/session/editor';
+import { simplified } from '../../src/edit/tools/filling/fill-gesture';
+import { inTheWay } from '../../src/edit/moves/room';
 import type { Vec } from '../../src/model/base/geometry';
 import { PRESETS } from '../../src/model/base/kinds';
 import { View } from '../../src/draw/view';
@@ -72,7 +73,7 @@ describe('an outline drawn by hand', () => {
   });
 
   it('is an area only with an inside', () => {
-    const f = new Filling();
+    const f = new Filling(new Editor());
     f.open(3);
     f.addCorner([0, 0]);
     f.addCorner([20, 0]);
@@ -92,7 +93,7 @@ describe('an outline drawn by hand', () => {
 
 describe('a preview', () => {
   it('keeps whoever is pinned, first in the list, and forgets all when it is closed', () => {
-    const f = new Filling();
+    const f = new Filling(new Editor());
     f.open(1);
     const all = [carAt(0), carAt(20), carAt(40)];
     f.settle({ ...NO_ANSWER, all });
@@ -151,7 +152,7 @@ describe('those who are parked or come in later', () => {
     const heavy = { ...EVEN_MIX, car: 0, heavy: 50, motorcycle: 0, cyclist: 0, pedestrian: 0 };
     const all = [carAt(-40), still(5), still(-90, 30)];
     expect(recast(all, heavy, []).map((n) => n.kind)).toEqual(['truck', 'car', 'car']);
-    const f = new Filling();
+    const f = new Filling(new Editor());
     f.open(1);
     f.settle({ ...NO_ANSWER, all });
     expect(f.at([5, 0])).toBe(all[1]);
@@ -191,7 +192,7 @@ describe('arms', () => {
   });
 
   it('are remembered by their names, and speeds keep their order', () => {
-    const f = new Filling();
+    const f = new Filling(new Editor());
     f.open(1);
     f.setRate('west', 600);
     f.setSpeeds([20, 5]);

@@ -9,10 +9,11 @@ import {
   setSeed,
   setSize,
 } from '../../src/model/document/commands';
-import type { Editor } from '../../src/edit/editor';
-import { askedAfter } from '../../src/edit/after-change';
-import { pickFuture } from '../../src/edit/moves';
-import type { Generation } from '../../src/edit/generation';
+import type { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
+import type { Editor } from '../../src/edit/session/editor';
+import { requestForChange } from '../../src/edit/asking/request-for-change';
+import { pickFuture } from '../../src/edit/moves/moves';
+import type { Generation } from '../../src/edit/asking/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/document/scene-json';
 import { asIfNotAsked, thoseWhoAnswer } from '../../src/model/document/reaction-records';
@@ -25,6 +26,7 @@ import { nameIn, profileOf, withAgents } from '../../src/model/document/scene';
 import { judged } from '../standin/judged.mjs';
 import { answered, draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
+let curve: SpeedCurve;
 let editor: Editor;
 let generator: InMemoryGenerator;
 let others: InMemoryGenerator;
@@ -32,7 +34,7 @@ let generation: Generation;
 
 beforeEach(() => {
   vi.useFakeTimers();
-  ({ editor, generator, others, generation } = new Session());
+  ({ curve, editor, generator, others, generation } = new Session());
 });
 
 const rest = () => vi.advanceTimersByTime(100);
@@ -40,12 +42,12 @@ const goalOf = (id: string) => {
   const a = editor.scene.peek()!.agents.get(id)!;
   return setGoal(a, { ...a.goal, pos: [10, 10] });
 };
-const goalFor = (id: string) => editor.run(goalOf(id));
+const goalFor = (id: string) => editor.commits.run(goalOf(id));
 /** The same by hand. */
 const dragGoal = (id: string) => {
-  editor.beginDrag({ part: 'goal', handle: 'body' });
-  editor.previewDrag(goalOf(id));
-  editor.endDrag(goalOf(id));
+  editor.drag.begin({ part: 'goal', handle: 'body' });
+  editor.drag.preview(goalOf(id));
+  editor.drag.end(goalOf(id));
 };
 
 describe('a look', () => {
@@ -53,12 +55,12 @@ describe('a look', () => {
     editor.select('1');
     expect(generator.last).toMatchObject({ preview: true, options: { agents: ['1'], react: true, score: false } });
     expect(generator.last.scene()).toEqual({ id: json.id });
-    expect(generation.busy.peek()).toBe(true);
+    expect(generation.asking.peek()).toBe(true);
     generator.last.on.draft(draftOf('1'), 2, 5, 10);
-    expect(editor.draft.peek()).toMatchObject({ id: '1', futures: { step: 2 } });
+    expect(editor.answers.draft.peek()).toMatchObject({ id: '1', futures: { step: 2 } });
     generator.last.on.final(finalOf('1'), 20);
-    expect(editor.futures.peek()?.modes).toHaveLength(6);
-    expect([generation.busy.peek(), editor.motion.peek().driving.size]).toEqual([false, 0]);
+    expect(editor.reading.futures.peek()?.modes).toHaveLength(6);
+    expect([generation.asking.peek(), editor.answers.motion.peek().driving.size]).toEqual([false, 0]);
     editor.select(null);
     editor.select('1');
     expect(generator.asked).toHaveLength(1);
@@ -71,14 +73,14 @@ describe('a change', () => {
     goalFor('1');
     goalFor('1');
     const before = generator.asked.length;
-    expect(editor.motion.peek().stale).toBe(true);
+    expect(editor.answers.motion.peek().stale).toBe(true);
     rest();
     expect(generator.asked.length).toBe(before + 1);
     expect(generator.last).toMatchObject({ preview: false, options: { agents: ['1'], react: true, score: true } });
     expect(generator.last.options.conditions['1']).toMatchObject({ goal: { x_m: 10, y_m: 10 } });
     generator.last.on.final(finalOf('1', '2'), 30);
-    expect(editor.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
-    expect(editor.changes.peek().map((c) => c.id)).toEqual(['2']);
+    expect(editor.answers.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
+    expect(editor.answers.changes.peek().map((c) => c.id)).toEqual(['2']);
     expect(editor.notices.toast.peek()?.text).toMatch(/^Goal of Car 1.* 1 other changed\.$/);
   });
 
@@ -86,16 +88,16 @@ describe('a change', () => {
     goalFor('1');
     rest();
     generator.last.on.final(finalOf('1', '2'), 30);
-    const changed = editor.changes.peek();
+    const changed = editor.answers.changes.peek();
     expect(changed.map((c) => c.id)).toEqual(['2']);
-    editor.undo();
-    expect(editor.changes.peek()).toEqual([]);
-    editor.redo();
-    expect(editor.changes.peek()).toEqual(changed);
+    editor.commits.undo();
+    expect(editor.answers.changes.peek()).toEqual([]);
+    editor.commits.redo();
+    expect(editor.answers.changes.peek()).toEqual(changed);
   });
 
   it('asks nobody else when the others keep to the log', () => {
-    editor.run(setOthers('log'));
+    editor.commits.run(setOthers('log'));
     goalFor('1');
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1'], react: false });
@@ -106,10 +108,10 @@ describe('a change', () => {
     rest();
     generator.last.on.final(finalOf('1'), 5);
     const asked = generator.asked.length;
-    editor.run(clearGoal(editor.scene.peek()!.agents.get('1')!));
+    editor.commits.run(clearGoal(editor.scene.peek()!.agents.get('1')!));
     rest();
     expect(generator.asked.length).toBe(asked);
-    expect(editor.motion.peek()).toMatchObject({ stale: false, futures: new Map() });
+    expect(editor.answers.motion.peek()).toMatchObject({ stale: false, futures: new Map() });
   });
 
   it('shows an answer that is known at once, without asking', () => {
@@ -117,10 +119,10 @@ describe('a change', () => {
     rest();
     generator.last.on.final(finalOf('1'), 5);
     const asked = generator.asked.length;
-    editor.undo();
-    editor.redo();
+    editor.commits.undo();
+    editor.commits.redo();
     rest();
-    expect(editor.motion.peek().futures.has('1')).toBe(true);
+    expect(editor.answers.motion.peek().futures.has('1')).toBe(true);
     expect(generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
   });
 });
@@ -135,21 +137,24 @@ describe('a speed curve', () => {
   beforeEach(() => {
     editor.select('1');
     generator.last.on.final(finalOf('1'), 5);
-    editor.curve.add(4, 0, 2);
+    curve.add(4, 0, 2);
     answered();
     expect(speeds()).toHaveLength(3);
   });
 
   it('is drawn on the new way when a change asks nothing else of the speed, within the same step', () => {
     const { depth } = editor.document.history!;
-    editor.run(setSize(editor.agent.peek()!, 5, 2));
+    editor.commits.run(setSize(editor.agent.peek()!, 5, 2));
     expect(speeds()).toBeUndefined();
     answered();
     expect(speeds()).toHaveLength(3);
-    expect([editor.document.history!.depth, editor.undoName.peek()]).toEqual([depth + 1, 'Size of Car 1 changed']);
-    editor.undo();
+    expect([editor.document.history!.depth, editor.document.undoName.peek()]).toEqual([
+      depth + 1,
+      'Size of Car 1 changed',
+    ]);
+    editor.commits.undo();
     expect([speeds()?.length, editor.agent.peek()!.length]).not.toEqual([3, 5]);
-    editor.redo();
+    editor.commits.redo();
     expect([speeds()?.length, editor.agent.peek()!.length]).toEqual([3, 5]);
   });
 
@@ -173,34 +178,34 @@ describe('a speed curve whose change is answered while a hand drags', () => {
   beforeEach(() => {
     editor.select('1');
     generator.last.on.final(finalOf('1'), 5);
-    editor.curve.add(4, 0, 2);
+    curve.add(4, 0, 2);
     rest();
     generator.last.on.final(finalOf('1'), 5);
-    editor.run(setSize(editor.agent.peek()!, 5, 2));
+    editor.commits.run(setSize(editor.agent.peek()!, 5, 2));
     rest();
-    editor.beginDrag({ part: 'goal', handle: 'body' });
+    editor.drag.begin({ part: 'goal', handle: 'body' });
     generator.last.on.final(finalOf('1'), 5);
   });
 
   it('is drawn once the drag is put back, within the step of the change', () => {
     expect(curved()).toBe(false);
-    editor.cancelDrag();
+    editor.drag.cancel();
     expect(curved()).toBe(true);
-    expect(editor.undoName.peek()).toBe('Size of Car 1 changed');
+    expect(editor.document.undoName.peek()).toBe('Size of Car 1 changed');
   });
 
   it('is off where the drag changes the goal, and no step names a document that never was', () => {
-    editor.endDrag(goalOf('1'));
+    editor.drag.end(goalOf('1'));
     expect([editor.scene.peek()!.agents.get('1')!.goal.pos, curved()]).toEqual([[10, 10], false]);
-    editor.undo();
-    editor.undo();
+    editor.commits.undo();
+    editor.commits.undo();
     expect(curved()).toBe(true);
-    editor.redo();
+    editor.commits.redo();
     expect([editor.scene.peek()!.agents.get('1')!.length, curved()]).toEqual([5, false]);
   });
 
   it('is offered once more when the drag is answered', () => {
-    editor.endDrag(goalOf('1'));
+    editor.drag.end(goalOf('1'));
     rest();
     generator.last.on.final(finalOf('1'), 5);
     expect(curved()).toBe(false);
@@ -212,7 +217,7 @@ describe('a speed curve whose change is answered while a hand drags', () => {
 
 describe('a pick among futures', () => {
   const pick = (index: number) => {
-    editor.run(pickFuture(editor, editor.agent.peek()!, index)!);
+    editor.commits.run(pickFuture(editor, editor.agent.peek()!, index)!);
     rest();
   };
   const asked = () => (generator.last.scene() as { scene: SceneJson }).scene.generated!.samples[0].agents;
@@ -232,18 +237,18 @@ describe('a pick among futures', () => {
   });
 
   it('asks how it goes on past its 9 s, also where nobody else is asked', () => {
-    editor.run(setOthers('log'));
+    editor.commits.run(setOthers('log'));
     const asked9 = generator.asked.length;
     pick(2);
     expect(generator.asked.length).toBe(asked9);
-    editor.run(setLength(editor.scene.peek()!, 15));
+    editor.commits.run(setLength(editor.scene.peek()!, 15));
     pick(1);
     expect(generator.last.options).toMatchObject({ agents: ['1'], pinned: ['1'], react: false, horizon_s: 15 });
     expect(Object.keys(asked())).toEqual(['1']);
   });
 
   it('is scored where nobody answers: others are said to hit it only where they do', async () => {
-    editor.run(setOthers('log'));
+    editor.commits.run(setOthers('log'));
     const hits = six('2');
     const hit = { kind: 'collision', with: '1', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 9 };
     for (const m of hits.modes) Object.assign(m, { faults: [hit], relations: [] });
@@ -257,26 +262,26 @@ describe('a pick among futures', () => {
     // Who has none picked is drawn with it.
     expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
     generator.last.on.final(finalWith({ 2: hits }), 5);
-    expect(editor.events.peek().map((x) => x.kind)).toContain('collision');
+    expect(editor.reading.events.peek().map((x) => x.kind)).toContain('collision');
     editor.select('2');
     const asked = generator.asked.length;
     pick(1);
     await vi.runAllTimersAsync();
     expect(generator.asked.length).toBe(asked);
-    expect(editor.events.peek().filter((x) => x.kind === 'collision')).toEqual([]);
-    expect(editor.motion.peek().futures.get('2')!.modes[1].about?.faults).toEqual([]);
+    expect(editor.reading.events.peek().filter((x) => x.kind === 'collision')).toEqual([]);
+    expect(editor.answers.motion.peek().futures.get('2')!.modes[1].about?.faults).toEqual([]);
   });
 
   it('changes only those that say whom they answer', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
-    expect(editor.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
-    expect(editor.changes.peek().map((c) => [c.id, c.reaction?.cause.id])).toEqual([['2', '1']]);
-    expect([editor.futures.peek()!.modes.length, editor.chosen.peek()]).toEqual([6, 2]);
+    expect(editor.answers.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
+    expect(editor.answers.changes.peek().map((c) => [c.id, c.reaction?.cause.id])).toEqual([['2', '1']]);
+    expect([editor.reading.futures.peek()!.modes.length, editor.reading.chosen.peek()]).toEqual([6, 2]);
   });
 
   it('is answered from the log on, whatever was picked before', () => {
-    const told = () => editor.changes.peek().map((c) => [c.id, c.words]);
+    const told = () => editor.answers.changes.peek().map((c) => [c.id, c.words]);
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     const [[, first]] = told();
@@ -287,7 +292,7 @@ describe('a pick among futures', () => {
     expect(told()).toEqual([['2', first]]);
     pick(4);
     generator.last.on.final(finalWith({}), 5);
-    expect(editor.motion.peek().driving).toEqual(new Set(['1']));
+    expect(editor.answers.motion.peek().driving).toEqual(new Set(['1']));
     expect(told()).toEqual([['2', 'no longer reacts to Car 1']]);
     // A third one's change leaves those alone that answer another.
     pick(3);
@@ -297,9 +302,9 @@ describe('a pick among futures', () => {
     pick(1);
     expect(Object.keys(asked()).sort()).toEqual(['1', '2', '3']);
     generator.last.on.final(finalWith({}), 5);
-    expect([...editor.motion.peek().driving].sort()).toEqual(['1', '2', '3']);
+    expect([...editor.answers.motion.peek().driving].sort()).toEqual(['1', '2', '3']);
     // Nothing is asked of the first one any more: it follows its log, and nobody answers it.
-    editor.run(resetAgent(editor.scene.peek()!.agents.get('1')!));
+    editor.commits.run(resetAgent(editor.scene.peek()!.agents.get('1')!));
     rest();
     expect(Object.keys(asked())).toEqual(['3']);
   });
@@ -308,7 +313,7 @@ describe('a pick among futures', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     const scene = editor.scene.peek()!;
-    const { futures, answering } = editor.motion.peek();
+    const { futures, answering } = editor.answers.motion.peek();
     const written = writeScene(json, scene, generatedJson(scene, futures, undefined, answering));
     const read = readGenerated(written, readScene(written))!;
     expect(read.answering.get('2')).toMatchObject({ said: { cause: '1', kind: 'waits' }, gaveUp: null });
@@ -322,9 +327,9 @@ describe('a pick among futures', () => {
     const there = withAgents(scene, [placed]);
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
-    const { futures } = editor.motion.peek();
+    const { futures } = editor.answers.motion.peek();
     const own = { futures: futures.get('1')! };
-    const { said } = editor.motion.peek().answering.get('2')!;
+    const { said } = editor.answers.motion.peek().answering.get('2')!;
     const answering = new Map([['2', { said, gaveUp: own }]]);
     const set = { ...emptyMotion(''), futures, driving: new Set(['2']), answering };
     const again = asIfNotAsked(set, thoseWhoAnswer(there, set, ['1']));
@@ -337,13 +342,13 @@ describe('a pick among futures', () => {
   it('taken back and made again says again who changed', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
-    const changed = editor.changes.peek();
+    const changed = editor.answers.changes.peek();
     expect(changed).toHaveLength(1);
-    editor.undo();
-    expect(editor.changes.peek()).toEqual([]);
+    editor.commits.undo();
+    expect(editor.answers.changes.peek()).toEqual([]);
     const asked = generator.asked.filter((q) => !q.preview).length;
     pick(2);
-    expect(editor.changes.peek()).toEqual(changed);
+    expect(editor.answers.changes.peek()).toEqual(changed);
     expect(generator.asked.filter((q) => !q.preview)).toHaveLength(asked);
   });
 
@@ -364,8 +369,10 @@ describe('a pick among futures', () => {
     const comesAt = (step: number) =>
       withAgents(scene, [{ ...third, logStart: null, log: { ...third.log, valid: [[step, step + 30]] } }]);
     const step = { name: '', agent: '2', undo: false };
-    expect(askedAfter(editor, comesAt(20), step)).toMatchObject({ react: expect.arrayContaining(['3']) as unknown });
-    expect(askedAfter(editor, comesAt(120), step)).not.toMatchObject({
+    expect(requestForChange(editor, comesAt(20), step)).toMatchObject({
+      react: expect.arrayContaining(['3']) as unknown,
+    });
+    expect(requestForChange(editor, comesAt(120), step)).not.toMatchObject({
       react: expect.arrayContaining(['3']) as unknown,
     });
   });
@@ -373,18 +380,18 @@ describe('a pick among futures', () => {
 
 describe('a scene that gets longer', () => {
   it('goes on: nobody is drawn anew, neither untouched nor asked something', () => {
-    editor.run(setLength(editor.scene.peek()!, 15));
+    editor.commits.run(setLength(editor.scene.peek()!, 15));
     rest();
     expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 15 });
     goalFor('1');
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1'], react: true });
     generator.last.on.final(finalOf('1'), 5);
-    editor.run(setLength(editor.scene.peek()!, 20));
+    editor.commits.run(setLength(editor.scene.peek()!, 20));
     rest();
     expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 20 });
     // Another seed draws anew.
-    editor.run(setSeed(7));
+    editor.commits.run(setSeed(7));
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1'], react: true, seed: 7 });
   });
@@ -397,15 +404,15 @@ describe('another seed', () => {
       rest();
       generator.last.on.final(finalOf(id), 5);
     }
-    editor.run(setSeed(7));
+    editor.commits.run(setSeed(7));
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1', '2'], seed: 7 });
     generator.last.on.final(finalOf('1', '2'), 5);
     editor.select('1');
-    editor.run(pickFuture(editor, editor.agent.peek()!, 2)!);
+    editor.commits.run(pickFuture(editor, editor.agent.peek()!, 2)!);
     rest();
     generator.last.on.final(finalOf('1'), 5);
-    editor.run(setSeed(8));
+    editor.commits.run(setSeed(8));
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['2'], seed: 8 });
   });
@@ -416,11 +423,11 @@ describe('who goes one way alone', () => {
     goalFor('1');
     rest();
     generator.last.on.final(answered('1', { '2': late('2', 3, '1') }), 5);
-    const way = editor.motion.peek().futures.get('2')!.modes[0].motion;
+    const way = editor.answers.motion.peek().futures.get('2')!.modes[0].motion;
     editor.select('2');
     expect(generator.last.options).toMatchObject({ agents: ['2'], react: true });
     generator.last.on.final(finalOf('2'), 5);
-    const { modes, chosen } = editor.futures.peek()!;
+    const { modes, chosen } = editor.reading.futures.peek()!;
     expect([modes.length, chosen, modes[0].motion === way]).toEqual([6, 0, true]);
     expect(new Set(modes.map((m) => m.name)).size).toBe(6);
     const asked = generator.asked.length;
@@ -437,16 +444,16 @@ describe('a generator that goes away', () => {
     rest();
     generator.there = false;
     generator.last.on.away();
-    expect(editor.away.peek()).toEqual({ retryIn: 1, waiting: 1 });
-    expect(editor.futures.peek()?.sketch).toBe(true);
+    expect(editor.answers.away.peek()).toEqual({ retryIn: 1, waiting: 1 });
+    expect(editor.reading.futures.peek()?.sketch).toBe(true);
     const asked = generator.asked.length;
     goalFor('2');
-    expect(editor.away.peek()?.waiting).toBe(2);
+    expect(editor.answers.away.peek()?.waiting).toBe(2);
     await vi.advanceTimersByTimeAsync(1000);
-    expect([editor.away.peek()?.retryIn, generator.asked.length]).toEqual([2, asked]);
+    expect([editor.answers.away.peek()?.retryIn, generator.asked.length]).toEqual([2, asked]);
     generator.there = true;
     await generation.tryNow();
-    expect(editor.away.peek()).toBeNull();
+    expect(editor.answers.away.peek()).toBeNull();
     expect(generator.asked.length).toBe(asked + 1);
     expect(editor.notices.toast.peek()?.text).toBe('The generator is back. 2 changes computed.');
   });
@@ -478,23 +485,23 @@ describe('what is shown of a drag', () => {
   });
   const draft = (a: AgentFuturesJson) => ({ event: 'step', window: 0, agents: { '1': a } }) as unknown as DraftEvent;
   const final = (a: AgentFuturesJson) => ({ ...finalOf(), samples: [{ agents: { '1': a } }] }) as unknown as FinalEvent;
-  const names = () => editor.futures.peek()!.modes.map((m) => m.name);
-  const anchors = () => editor.futures.peek()!.modes.map((m) => m.anchor);
+  const names = () => editor.reading.futures.peek()!.modes.map((m) => m.name);
+  const anchors = () => editor.reading.futures.peek()!.modes.map((m) => m.anchor);
   const goal = (x: number) => {
     const a = editor.scene.peek()!.agents.get('1')!;
     return setGoal(a, { ...a.goal, pos: [x, 10] });
   };
 
   beforeEach(() => {
-    editor.run(setOthers('log'));
+    editor.commits.run(setOthers('log'));
     rest();
     editor.select('1');
     generator.last.on.final(final(sent('ABCDEF', 0)), 5);
   });
 
   const dragTo = (x: number) => {
-    if (!editor.dragging.peek()) editor.beginDrag({ part: 'goal', handle: 'body' });
-    editor.previewDrag(goal(x));
+    if (!editor.drag.active.peek()) editor.drag.begin({ part: 'goal', handle: 'body' });
+    editor.drag.preview(goal(x));
     generation.preview('1');
   };
 
@@ -505,11 +512,11 @@ describe('what is shown of a drag', () => {
     expect([anchor, x_m.length, y_m.length]).toEqual([0, 18, 18]);
     expect(x_m[0]).toBeCloseTo(judgedSix[0].x_m[4], 3);
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
-    editor.endDrag(goal(10));
+    editor.drag.end(goal(10));
     rest();
     expect(generator.last.options).toMatchObject({ score: true, shown: { '1': { anchor: 1 } } });
     generator.last.on.final(final(sent('BACDEF', 0)), 5);
-    editor.run(goal(20));
+    editor.commits.run(goal(20));
     rest();
     expect(generator.last.options.shown).toBeUndefined();
   });
@@ -522,17 +529,17 @@ describe('what is shown of a drag', () => {
     expect([anchors(), names()]).toEqual([[0, 1, 2, 3, 4, 5], before]);
     generator.last.on.final(final(swapped), 12);
     expect([anchors(), names()]).toEqual([[0, 1, 2, 3, 4, 5], before]);
-    expect(editor.chosen.peek()).toBe(0);
-    editor.endDrag(goal(10));
+    expect(editor.reading.chosen.peek()).toBe(0);
+    editor.drag.end(goal(10));
     rest();
     generator.last.on.draft(draft(swapped), 5, 5, 10);
     expect(anchors()).toEqual([0, 1, 2, 3, 4, 5]);
     generator.last.on.final(final(swapped), 12);
     expect(anchors()).toEqual([5, 4, 3, 2, 1, 0]);
-    const chances = editor.futures.peek()!.modes.map((m) => m.probability);
+    const chances = editor.reading.futures.peek()!.modes.map((m) => m.probability);
     expect(chances).toEqual([...chances].sort((a, b) => b - a));
     // The bold one is the same, under its new letter.
-    expect(editor.futures.peek()!.modes[editor.chosen.peek()].anchor).toBe(0);
+    expect(editor.reading.futures.peek()!.modes[editor.reading.chosen.peek()].anchor).toBe(0);
     expect(editor.answers.remark.peek()).toBeNull();
   });
 
@@ -544,7 +551,7 @@ describe('what is shown of a drag', () => {
     vi.advanceTimersByTime(300);
     expect(names()).toEqual(moving);
     vi.advanceTimersByTime(300);
-    const f = editor.futures.peek()!;
+    const f = editor.reading.futures.peek()!;
     const who = { onFoot: false, nameOf: nameIn(editor.scene.peek()!) };
     expect(names()).toEqual(nameAll(f.modes, who).map((n) => n.name));
     expect(names()).not.toEqual(moving);
@@ -553,7 +560,7 @@ describe('what is shown of a drag', () => {
   it('says why another is shown than in the drag, until the next one', () => {
     dragTo(10);
     generator.last.on.draft(draft(sent('ABCDEF', 0)), 5, 5, 10);
-    editor.endDrag(goal(10));
+    editor.drag.end(goal(10));
     rest();
     const hits = judged(six('1').modes as ModeJson[], ['2', '17'], true);
     generator.last.on.final(final({ chosen: 2, modes: hits }), 12);
@@ -564,7 +571,7 @@ describe('what is shown of a drag', () => {
   });
 
   it('is taken over from what was foreseen, ranked and explained', async () => {
-    editor.run(setOthers('react'));
+    editor.commits.run(setOthers('react'));
     rest();
     dragTo(10);
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
@@ -572,7 +579,7 @@ describe('what is shown of a drag', () => {
     await Promise.resolve();
     expect(others.last.options).toMatchObject({ react: true, shown: { '1': { anchor: 1 } } });
     others.last.on.final(final(sent('FBACDE', 2)), 20);
-    editor.endDrag(goal(10));
+    editor.drag.end(goal(10));
     rest();
     expect(anchors()).toEqual([5, 1, 0, 2, 3, 4]);
     expect(editor.answers.remark.peek()?.words).toBe('C is shown; B was shown in the drag.');

@@ -2,8 +2,8 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { wrapAngle, type Point } from '../../src/model/base/geometry';
 import { startPose } from '../../src/model/document/scene';
-import { lockAll } from '../../src/edit/several';
-import { TOOLS } from '../../src/edit/gestures/tools';
+import { lockAll } from '../../src/edit/moves/several';
+import { RAIL } from '../../src/edit/tools/tools';
 import { Pointer } from './pointer';
 
 let p: Pointer;
@@ -100,16 +100,16 @@ describe('dragging a handle', () => {
     const from = take();
     p.move({ x: from.x + 4, y: from.y });
     expect([p.state, p.cursor]).toEqual(['dragging handle', 'grabbing']);
-    expect(p.editor.drag.peek()?.grip).toEqual(goalBody.grip);
+    expect(p.editor.drag.info.peek()?.grip).toEqual(goalBody.grip);
     const to = { x: from.x + 80, y: from.y };
     p.move(to);
     expect(p.previewed).toEqual(['1', '1']);
     expect(p.editor.agent.peek()!.goal.pos).not.toBeNull();
-    expect(p.editor.undoName.peek()).toBeNull();
+    expect(p.editor.document.undoName.peek()).toBeNull();
     p.up(to);
-    expect([p.state, p.editor.drag.peek()]).toEqual(['idle', null]);
-    expect(p.editor.undoName.peek()).toMatch(/^Goal of Car 1/);
-    p.editor.undo();
+    expect([p.state, p.editor.drag.info.peek()]).toEqual(['idle', null]);
+    expect(p.editor.document.undoName.peek()).toMatch(/^Goal of Car 1/);
+    p.editor.commits.undo();
     expect(p.editor.agent.peek()!.goal.pos).toBeNull();
   });
 
@@ -135,17 +135,17 @@ describe('dragging a handle', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     expect(p.chart.cancel()).toBe(true);
-    expect([p.state, p.editor.drag.peek(), p.dropped]).toEqual(['idle', null, 1]);
+    expect([p.state, p.editor.drag.info.peek(), p.dropped]).toEqual(['idle', null, 1]);
     expect(p.editor.agent.peek()!.goal.pos).toBeNull();
     p.up(from);
-    expect(p.editor.undoName.peek()).toBeNull();
+    expect(p.editor.document.undoName.peek()).toBeNull();
   });
 
   it('is put back by a second finger, which then pinches', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     p.down({ x: 500, y: 400 }, { id: 2 });
-    expect([p.state, p.editor.drag.peek()]).toEqual(['pinching', null]);
+    expect([p.state, p.editor.drag.info.peek()]).toEqual(['pinching', null]);
   });
 
   it('asks ahead of the frame, once, and not again for the same place', () => {
@@ -188,7 +188,7 @@ describe('dragging a handle', () => {
     p.frame();
     expect(p.previewed).toHaveLength(asked + 3);
     p.up({ x: from.x + 90, y: from.y });
-    expect(p.editor.undoName.peek()).not.toBeNull();
+    expect(p.editor.document.undoName.peek()).not.toBeNull();
   });
 
   it('is not told ahead before it is held, nor with two fingers', () => {
@@ -214,10 +214,10 @@ describe('dragging a handle', () => {
     p.down(A);
     p.move(B);
     expect(p.editor.selection.peek()).toBe('2');
-    expect(p.editor.drag.peek()?.grip).toEqual({ part: 'start', handle: 'body' });
+    expect(p.editor.drag.info.peek()?.grip).toEqual({ part: 'start', handle: 'body' });
     p.chart.cancel();
     p.up(B);
-    p.editor.setTime(3);
+    p.editor.playhead.moveTo(3);
     p.down(A);
     p.move(B);
     expect(p.state).toBe('marquee');
@@ -274,9 +274,9 @@ describe('two fingers on the selected road user', () => {
     expect([p.view.z, p.previewed.at(-1)]).toEqual([z, '1']);
     p.up(pair(0.6)[0]);
     p.up(pair(0.6)[1], { id: 2 });
-    expect([p.state, p.editor.dragging.peek()]).toEqual(['idle', false]);
-    expect(p.editor.undoName.peek()).toMatch(/^Heading of .* changed$/);
-    p.editor.undo();
+    expect([p.state, p.editor.drag.active.peek()]).toEqual(['idle', false]);
+    expect(p.editor.document.undoName.peek()).toMatch(/^Heading of .* changed$/);
+    p.editor.commits.undo();
     expect(heading()).toBeCloseTo(before);
   });
 
@@ -296,7 +296,7 @@ describe('two fingers on the selected road user', () => {
   it('zoom the picture elsewhere, and where it is locked', () => {
     press();
     p.chart.cancel();
-    p.editor.run(lockAll([p.editor.agent.peek()!], true)!);
+    p.editor.commits.run(lockAll([p.editor.agent.peek()!], true)!);
     p.up(pair(0)[0]);
     p.up(pair(0)[1], { id: 2 });
     press();
@@ -365,6 +365,6 @@ describe('measuring', () => {
 describe('tools', () => {
   it('each have a name, a key and words of their own', () => {
     for (const of of ['name', 'key', 'label', 'help'] as const)
-      expect(new Set(TOOLS.map((t) => t[of])).size).toBe(TOOLS.length);
+      expect(new Set(RAIL.map((t) => t[of])).size).toBe(RAIL.length);
   });
 });

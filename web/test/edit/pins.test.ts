@@ -7,8 +7,8 @@ import { misfit } from '../../src/model/words/pin-words';
 import { readScene } from '../../src/model/document/scene-reader';
 import { withAgents } from '../../src/model/document/scene';
 import { writeScene } from '../../src/model/document/scene-writer';
-import { askedAfter } from '../../src/edit/after-change';
-import { pinnedAt, pinsApart, togglePin } from '../../src/edit/pins';
+import { requestForChange } from '../../src/edit/asking/request-for-change';
+import { pinnedAt, pinsApart, togglePin } from '../../src/edit/moves/pins';
 import { finalOf, finalWith, json, Session, six } from './session';
 
 const ID = '1';
@@ -27,7 +27,7 @@ class Pinning extends Session {
   toggle(index: number): string | undefined {
     const done = togglePin(this.editor, this.agent, index);
     if (typeof done === 'string') return done;
-    this.editor.run(done);
+    this.editor.commits.run(done);
     return undefined;
   }
 
@@ -35,11 +35,11 @@ class Pinning extends Session {
   drawnAnew(shift: number): void {
     const other = six(ID);
     for (const m of other.modes) m.x_m = Array.from(m.x_m, (x) => x + shift);
-    this.editor.answers.look(ID, { ...this.editor.futures.peek()!, modes: [] }, null);
-    this.generation.opened(false);
+    this.editor.answers.look(ID, { ...this.editor.reading.futures.peek()!, modes: [] }, null);
+    this.generation.begin(false);
     this.editor.answers.settle(
       this.editor.scene.peek()!,
-      { ...this.editor.motion.peek(), futures: new Map(), stale: false },
+      { ...this.editor.answers.motion.peek(), futures: new Map(), stale: false },
       null,
     );
     this.editor.select(null);
@@ -57,14 +57,14 @@ describe('a pinned future', () => {
     expect(pinsApart(t.editor)).toEqual([]);
     t.toggle(1);
     expect(t.agent.pins).toHaveLength(MOST_PINS - 1);
-    t.editor.undo();
-    t.editor.undo();
+    t.editor.commits.undo();
+    t.editor.commits.undo();
     expect(t.agent.pins).toHaveLength(MOST_PINS - 1);
   });
 
   it('stands beside others that are drawn anew, and in the file', () => {
     const t = new Pinning();
-    const [, b] = t.editor.futures.peek()!.modes;
+    const [, b] = t.editor.reading.futures.peek()!.modes;
     t.toggle(1);
     t.drawnAnew(4);
     expect(pinsApart(t.editor).map((p) => [p.pin.name, p.why])).toEqual([[b.name, null]]);
@@ -83,39 +83,39 @@ describe('a pinned future', () => {
     expect(misfit(t.agent, pin, 'km/h')).toBeNull();
     const end = motionOfPin(pin);
     const [x, y] = [end.x[end.x.length - 1], end.y[end.y.length - 1]];
-    t.editor.run(setGoal(t.agent, { ...goal, pos: [x + 12, y] }));
+    t.editor.commits.run(setGoal(t.agent, { ...goal, pos: [x + 12, y] }));
     expect(misfit(t.agent, pin, 'km/h')).toBe('12 m from the goal');
     const turned = { ...t.agent, start: { ...t.agent.start, speed: 1 } };
     expect(misfit(turned, pin, 'km/h')).toMatch(/^starts at \d+ km\/h$/);
-    t.editor.run(takePin(t.agent, pin));
+    t.editor.commits.run(takePin(t.agent, pin));
     expect([t.agent.chosen, t.agent.goal, takenPin(t.agent)]).toEqual([0, goal, pin]);
-    expect(t.editor.futures.peek()!.modes).toHaveLength(1);
-    const motion = motionOf(t.editor.scene.peek()!, t.editor.motion.peek(), t.agent);
+    expect(t.editor.reading.futures.peek()!.modes).toHaveLength(1);
+    const motion = motionOf(t.editor.scene.peek()!, t.editor.answers.motion.peek(), t.agent);
     expect(motion).toBe(motionOfPin(pin));
     // Let go, it is free again.
-    t.editor.run(unpin(t.agent, pin));
+    t.editor.commits.run(unpin(t.agent, pin));
     expect([t.agent.chosen, t.agent.pins]).toEqual([null, []]);
   });
 
   it('goes on while everybody else is drawn anew, and is there whatever answer was kept', () => {
     const t = new Pinning();
     t.toggle(3);
-    t.editor.run(takePin(t.agent, t.agent.pins[0]));
+    t.editor.commits.run(takePin(t.agent, t.agent.pins[0]));
     const { editor } = t;
     const anew = drawAnew(editor.scene.peek()!).apply(editor.scene.peek()!);
-    const asked = askedAfter(editor, anew, { name: '', agent: null, undo: false, everybody: true });
+    const asked = requestForChange(editor, anew, { name: '', agent: null, undo: false, everybody: true });
     expect(asked).toMatchObject({ react: false });
     expect((asked as { agents: string[] }).agents).not.toContain(ID);
     expect((asked as { kept: ReadonlySet<string> }).kept.has(ID)).toBe(true);
     const seeded = setSeed(7).apply(editor.scene.peek()!);
-    expect(askedAfter(editor, seeded, { name: '', agent: null, undo: false })).toMatchObject({ pinned: [ID] });
+    expect(requestForChange(editor, seeded, { name: '', agent: null, undo: false })).toMatchObject({ pinned: [ID] });
     // Opened without an answer it is known all the same.
     editor.open(editor.scene.peek()!);
-    const f = editor.motion.peek().futures.get(ID)!;
+    const f = editor.answers.motion.peek().futures.get(ID)!;
     expect(f.modes[0].motion).toBe(motionOfPin(editor.scene.peek()!.agents.get(ID)!.pins[0]));
     // Of somebody who takes none nothing is said.
     const free = withAgents(editor.scene.peek()!, [{ ...editor.scene.peek()!.agents.get(ID)!, chosen: null }]);
     editor.open(clearGoal(free.agents.get(ID)!).apply(free));
-    expect(editor.motion.peek().futures.size).toBe(0);
+    expect(editor.answers.motion.peek().futures.size).toBe(0);
   });
 });

@@ -1,9 +1,12 @@
 // A pointer without a page: drives the state chart of gestures as the page would.
 import { View } from '../../src/draw/view';
-import { Editor } from '../../src/edit/editor';
-import { Chart, type Modifiers, type Surface } from '../../src/edit/gestures/chart';
-import { toolOf } from '../../src/edit/gestures/tools';
-import { NOTHING, type Hit } from '../../src/edit/hit';
+import { Editor } from '../../src/edit/session/editor';
+import { Chart, NOTHING, type Hit, type Modifiers, type Surface } from '../../src/edit/gestures/chart';
+import { Idle } from '../../src/edit/gestures/idle';
+import { twoFingers } from '../../src/edit/gestures/turning';
+import { Placement } from '../../src/edit/moves/placement';
+import { PLACING } from '../../src/edit/tools/placing/feature';
+import { POINTING } from '../../src/edit/tools/pointing/feature';
 import type { Point } from '../../src/model/base/geometry';
 import { crossing } from '../helpers';
 
@@ -11,6 +14,7 @@ const PLAIN: Modifiers = { alt: false, shift: false, ctrl: false };
 
 export class Pointer {
   readonly editor = new Editor();
+  readonly placement = new Placement();
   readonly view = new View();
   /** What lies under the pointer, wherever it is. */
   hit: Hit = NOTHING;
@@ -33,6 +37,7 @@ export class Pointer {
   readonly chart: Chart;
 
   constructor() {
+    this.editor.join(this.placement);
     this.editor.open(crossing());
     const surface: Surface = {
       view: this.view,
@@ -48,6 +53,9 @@ export class Pointer {
     this.chart = new Chart({
       surface,
       editor: this.editor,
+      placement: this.placement,
+      idle: (chart) => new Idle(chart),
+      twoFingers,
       previews: { preview: (id) => this.previewed.push(id), cancelPreviews: () => this.dropped++ },
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
@@ -55,7 +63,7 @@ export class Pointer {
       ticks: () => this.ticked++,
       menu: (_, on, future) => this.menus.push(future === null ? on : `${on} ${future}`),
       tapped: (fingers) => this.taps.push(fingers),
-      tool: toolOf,
+      tool: (name) => [...POINTING.rail, ...PLACING.rail].find((t) => t.name === name)!,
     });
   }
 

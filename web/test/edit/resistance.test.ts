@@ -102,10 +102,10 @@ describe('a flag at a kerb', () => {
   it('hangs on a string that ends at the hand, and is left where it hangs', () => {
     take();
     p.move(p.at(lane[0], -6));
-    expect(p.editor.drag.peek()!.lag).toBeNull();
+    expect(p.editor.drag.info.peek()!.lag).toBeNull();
     over();
     expect(goal()[1]).toBeCloseTo(-9.6);
-    const { from, to } = p.editor.drag.peek()!.lag!;
+    const { from, to } = p.editor.drag.info.peek()!.lag!;
     expect([to[1], to[1] - from[1]].map((v) => Math.round(v * 10) / 10)).toEqual([-12, -2.4]);
     p.up(p.at(lane[0], -12));
     expect(goal()[1]).toBeCloseTo(-9.6);
@@ -117,13 +117,13 @@ describe('a flag at a kerb', () => {
     over({ alt: true });
     expect(goal()[1]).toBeCloseTo(-12);
     p.move(p.at(lane[0], -13));
-    expect([goal()[1], p.editor.drag.peek()!.lag]).toEqual([expect.closeTo(-13), null]);
+    expect([goal()[1], p.editor.drag.info.peek()!.lag]).toEqual([expect.closeTo(-13), null]);
     p.up(p.at(lane[0], -13));
     p.hit = { kind: 'grip', grip: { part: 'goal', handle: 'body' } };
-    p.editor.undo();
+    p.editor.commits.undo();
     take();
     over();
-    expect(p.editor.drag.peek()!.lag).not.toBeNull();
+    expect(p.editor.drag.info.peek()!.lag).not.toBeNull();
   });
 
   it('may go over what the shown future goes over, as long as Alt is held past a kerb', () => {
@@ -148,7 +148,7 @@ describe('a flag at a kerb', () => {
     over({ alt: true });
     p.up(p.at(lane[0], -12));
     expect(mayCross()).toEqual([MEDIAN]);
-    p.editor.undo();
+    p.editor.commits.undo();
     expect([p.editor.agent.peek()!.goal.pos, mayCross()]).toEqual([null, []]);
   });
 
@@ -156,7 +156,7 @@ describe('a flag at a kerb', () => {
     take(true);
     over();
     expect(p.ticked).toBe(1);
-    expect(p.editor.drag.peek()!.lag!.touch).toBe(true);
+    expect(p.editor.drag.info.peek()!.lag!.touch).toBe(true);
     const rest = (frames: number) => {
       for (let i = 0; i < frames; i++) p.frame(0.05);
     };
@@ -174,7 +174,7 @@ describe('a flag at a kerb', () => {
     const at = startPose(p.editor.agent.peek()!)!;
     p.down(p.at(at.x, at.y));
     p.move(p.at(at.x, -12));
-    expect(p.editor.drag.peek()!.lag).toBeNull();
+    expect(p.editor.drag.info.peek()!.lag).toBeNull();
     expect(p.editor.agent.peek()!.start.pos![1]).toBeCloseTo(-12);
   });
 });

@@ -5,9 +5,10 @@ import { reasons } from '../../src/model/words/feedback-words';
 import { readScene } from '../../src/model/document/scene-reader';
 import { sceneKey } from '../../src/model/document/scene';
 import { writeScene } from '../../src/model/document/scene-writer';
-import { Questions } from '../../src/edit/question';
-import { Rounds } from '../../src/edit/rounds/rounds';
-import { pickFuture } from '../../src/edit/moves';
+import { Deck } from '../../src/edit/tools/rounds/deck';
+import { RequestBuilder } from '../../src/edit/asking/request-builder';
+import { Rounds } from '../../src/edit/tools/rounds/rounds';
+import { pickFuture } from '../../src/edit/moves/moves';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import type { FinalEvent, Problem } from '../../src/net/types';
 import { finalOf, InMemoryGenerator, json, late, Session, six, uneventful } from './session';
@@ -16,13 +17,15 @@ const ID = '1';
 
 class Table extends Session {
   readonly cards = new InMemoryGenerator();
+  readonly deck = new Deck(this.editor.scene);
   readonly rounds: Rounds;
 
   constructor() {
     super();
+    this.editor.reading.layCards(this.deck);
     const file = new SceneFile(this.editor);
     file.adopt(json, {} as never, true);
-    this.rounds = new Rounds(this.editor, new Questions(this.editor, file), this.cards);
+    this.rounds = new Rounds(this.editor, this.deck, new RequestBuilder(this.editor, file), this.cards);
     this.editor.select(ID);
     this.generator.last.on.final(finalOf(ID), 10);
   }
@@ -58,7 +61,7 @@ class Table extends Session {
 
   /** Of a reason, by its words. */
   keyOf(words: string): string {
-    const { features } = this.editor.deck.hand.peek()!.round.cards[0];
+    const { features } = this.deck.hand.peek()!.round.cards[0];
     return reasons(ID, features, 'reject', () => null).find((r) => r.words === words)!.key;
   }
 
@@ -73,21 +76,21 @@ class Table extends Session {
 describe('rounds', () => {
   it('ask for one road user whom nobody answers, and leave its motion alone', () => {
     const t = new Table();
-    const before = t.editor.motion.peek();
+    const before = t.editor.answers.motion.peek();
     t.rounds.open();
     const { options } = t.cards.last;
     expect([options.agents, options.react]).toEqual([[ID], false]);
     expect(t.feedback).toEqual({ answers: [], wishes: [], forgotten: [] });
     t.deal();
-    expect(t.editor.futures.peek()).toBe(t.editor.deck.ofAgent(ID)!.futures);
-    expect(t.editor.motion.peek()).toBe(before);
-    t.editor.deck.point(3);
-    expect(t.editor.chosen.peek()).toBe(3);
-    expect(t.editor.motionFor(t.agent)).toBe(t.editor.futures.peek()!.modes[3].motion);
+    expect(t.editor.reading.futures.peek()).toBe(t.deck.ofAgent(ID)!.futures);
+    expect(t.editor.answers.motion.peek()).toBe(before);
+    t.deck.point(3);
+    expect(t.editor.reading.chosen.peek()).toBe(3);
+    expect(t.editor.reading.motionFor(t.agent)).toBe(t.editor.reading.futures.peek()!.modes[3].motion);
     // Nothing that follows a pick may take them for futures.
     expect(pickFuture(t.editor, t.agent, 2)).toBeNull();
     t.rounds.close();
-    expect(t.editor.futures.peek()).toBe(before.futures.get(ID));
+    expect(t.editor.reading.futures.peek()).toBe(before.futures.get(ID));
   });
 
   it('go back with undo, a step for each thing that was said, without asking again', () => {
@@ -95,7 +98,7 @@ describe('rounds', () => {
     t.rounds.open();
     t.deal();
     t.rounds.next();
-    expect(t.editor.undoName.peek(), 'nothing new to go on from').toBeNull();
+    expect(t.editor.document.undoName.peek(), 'nothing new to go on from').toBeNull();
     t.rounds.say(0, 'keep');
     t.rounds.say(2, 'reject');
     t.rounds.sayWhy(4, t.keyOf('too harsh'));
@@ -110,14 +113,14 @@ describe('rounds', () => {
     expect(t.agent.feedback!.answers).toHaveLength(3);
     t.deal(50);
     expect(t.letters).toBe('......');
-    t.editor.undo();
+    t.editor.commits.undo();
     expect(t.letters).toBe('k.r.r.');
-    t.editor.undo();
+    t.editor.commits.undo();
     expect(t.letters).toBe('k.r...');
-    t.editor.redo();
-    t.editor.redo();
+    t.editor.commits.redo();
+    t.editor.commits.redo();
     expect(t.letters).toBe('......');
-    expect(t.editor.deck.hand.peek()!.asked.round).toBe(2);
+    expect(t.deck.hand.peek()!.asked.round).toBe(2);
     expect(t.cards.asked).toHaveLength(2);
   });
 
@@ -132,12 +135,12 @@ describe('rounds', () => {
     expect(words()).toEqual(['Smoother', 'Faster']);
     t.rounds.forget(t.rounds.wished.peek()[0]);
     expect(words()).toEqual(['Faster']);
-    t.editor.undo();
+    t.editor.commits.undo();
     expect(words()).toEqual(['Smoother', 'Faster']);
     t.rounds.forgetAll();
     expect(words()).toEqual([]);
     expect(t.agent.feedback!.forgotten).toEqual([{ trait: 'harshness' }, { trait: 'pace' }]);
-    t.editor.undo();
+    t.editor.commits.undo();
     expect(words()).toEqual(['Smoother', 'Faster']);
     t.rounds.next();
     expect(t.feedback.wishes).toEqual([{ trait: 'pace', wants: 'more' }]);
@@ -145,8 +148,8 @@ describe('rounds', () => {
 
   it.each<[string, (t: Table) => void]>([
     ['somebody else is selected', (t) => t.editor.select('2')],
-    ['the goal moves', (t) => t.editor.run(setGoal(t.agent, { ...t.agent.goal, pos: [10, 3] }))],
-    ['a handle is dragged', (t) => t.editor.beginDrag({ part: 'goal', handle: 'body' })],
+    ['the goal moves', (t) => t.editor.commits.run(setGoal(t.agent, { ...t.agent.goal, pos: [10, 3] }))],
+    ['a handle is dragged', (t) => t.editor.drag.begin({ part: 'goal', handle: 'body' })],
     ['the tab loses its turn', (t) => t.editor.lockWith({ words: '', label: '', run: () => undefined })],
   ])('end when %s; what was said stays', (_, change) => {
     const t = new Table();
@@ -155,7 +158,7 @@ describe('rounds', () => {
     t.rounds.say(0, 'keep');
     change(t);
     expect(t.rounds.isOpen.peek()).toBe(false);
-    expect(t.editor.deck.hand.peek()).toBeNull();
+    expect(t.deck.hand.peek()).toBeNull();
     expect(t.editor.scene.peek()!.agents.get(ID)!.feedback!.answers).toHaveLength(1);
   });
 
@@ -163,14 +166,14 @@ describe('rounds', () => {
     const t = new Table();
     t.rounds.open();
     t.cards.last.on.refused({ code: 'http-500', title: 'Too much is asked' } as Problem);
-    expect(t.editor.deck.problem.peek()).toBe('Too much is asked');
+    expect(t.deck.problem.peek()).toBe('Too much is asked');
     t.rounds.tryAgain();
-    expect(t.editor.deck.asking.peek()).toBe(true);
+    expect(t.deck.asking.peek()).toBe(true);
     t.cards.last.on.away();
-    expect(t.editor.deck.problem.peek()).toBe('The generator is not answering.');
+    expect(t.deck.problem.peek()).toBe('The generator is not answering.');
     t.rounds.tryAgain();
     t.deal();
-    expect(t.editor.deck.problem.peek()).toBeNull();
+    expect(t.deck.problem.peek()).toBeNull();
     expect(t.letters).toBe('......');
   });
 
@@ -184,45 +187,45 @@ describe('rounds', () => {
 
   it('end with a card taken: others answer it as they do a pick, and undo brings the usual six back', () => {
     const t = new Table();
-    const usual = t.editor.motion.peek();
+    const usual = t.editor.answers.motion.peek();
     t.rounds.open();
     t.deal();
-    const { futures } = t.editor.deck.ofAgent(ID)!;
+    const { futures } = t.deck.ofAgent(ID)!;
     t.rounds.take(2);
     expect(t.rounds.isOpen.peek()).toBe(false);
     expect(t.agent.chosen).toBe(2);
-    expect(t.editor.futures.peek()).toBe(futures);
+    expect(t.editor.reading.futures.peek()).toBe(futures);
     const key = sceneKey(t.editor.scene.peek()!);
-    t.editor.undo();
-    expect(t.editor.motion.peek()).toBe(usual);
+    t.editor.commits.undo();
+    expect(t.editor.answers.motion.peek()).toBe(usual);
     // The same letter among the usual six is another document.
-    t.editor.run(pickFuture(t.editor, t.agent, 2)!);
+    t.editor.commits.run(pickFuture(t.editor, t.agent, 2)!);
     expect(sceneKey(t.editor.scene.peek()!)).not.toBe(key);
   });
 
   describe('of the whole scene', () => {
     const sets = (t: Table) => {
-      const { hand } = t.editor.deck;
+      const { hand } = t.deck;
       const now = hand.peek();
       return now?.id === null ? now.sets : [];
     };
 
     it('ask for everybody, and show what all of them do on a card without changing anything', () => {
       const t = new Table();
-      const before = t.editor.motion.peek();
+      const before = t.editor.answers.motion.peek();
       t.rounds.openScene();
       expect([t.cards.last.options.agents, t.cards.last.options.react]).toEqual(['all', false]);
       t.dealScenes();
       expect(sets(t)).toHaveLength(3);
-      expect(t.editor.motion.peek()).toBe(before);
+      expect(t.editor.answers.motion.peek()).toBe(before);
       // Those of one road user are not what is on the table.
-      expect(t.editor.futures.peek()).toBe(before.futures.get(ID));
-      t.editor.deck.point(2);
-      expect(t.editor.motionFor(t.agent)).toBe(sets(t)[2].futures.get(ID)!.modes[0].motion);
+      expect(t.editor.reading.futures.peek()).toBe(before.futures.get(ID));
+      t.deck.point(2);
+      expect(t.editor.reading.motionFor(t.agent)).toBe(sets(t)[2].futures.get(ID)!.modes[0].motion);
       t.editor.select('2');
       expect(t.rounds.isOpen.peek(), 'whoever is looked at').toBe(true);
       t.rounds.close();
-      expect(t.editor.motion.peek()).toBe(before);
+      expect(t.editor.answers.motion.peek()).toBe(before);
     });
 
     it('keep what was said with the scene, apart from what was said of one', () => {
@@ -233,21 +236,21 @@ describe('rounds', () => {
       t.rounds.say(1, 'reject');
       expect(t.letters).toBe('kr.');
       expect(t.agent.feedback).toBeNull();
-      expect(t.editor.undoName.peek()).toBe('Card B rejected, the whole scene');
+      expect(t.editor.document.undoName.peek()).toBe('Card B rejected, the whole scene');
       const scene = t.editor.scene.peek()!;
       const file = writeScene(json, scene, null);
       expect(readScene(JSON.parse(JSON.stringify(file))).feedback).toEqual(scene.feedback);
       t.rounds.next();
       expect(t.feedback.answers!.map((a) => a.verdict)).toEqual(['keep', 'reject']);
-      t.editor.undo();
-      t.editor.undo();
-      t.editor.undo();
+      t.editor.commits.undo();
+      t.editor.commits.undo();
+      t.editor.commits.undo();
       expect(t.editor.scene.peek()!.feedback).toBeNull();
     });
 
     it('end with a card taken: everybody does it, and undo takes it back', () => {
       const t = new Table();
-      const before = t.editor.motion.peek();
+      const before = t.editor.answers.motion.peek();
       t.rounds.openScene();
       t.dealScenes();
       const taken = sets(t)[1];
@@ -255,13 +258,13 @@ describe('rounds', () => {
       const known = asked();
       t.rounds.take(1);
       expect(t.rounds.isOpen.peek()).toBe(false);
-      expect(t.editor.motion.peek().futures).toBe(taken.futures);
-      expect([...t.editor.motion.peek().driving].sort()).toEqual([ID, '2']);
+      expect(t.editor.answers.motion.peek().futures).toBe(taken.futures);
+      expect([...t.editor.answers.motion.peek().driving].sort()).toEqual([ID, '2']);
       expect(asked(), 'it is known what comes of it').toBe(known);
-      t.editor.undo();
-      expect(t.editor.motion.peek()).toBe(before);
-      t.editor.redo();
-      expect(t.editor.motion.peek().futures).toBe(taken.futures);
+      t.editor.commits.undo();
+      expect(t.editor.answers.motion.peek()).toBe(before);
+      t.editor.commits.redo();
+      expect(t.editor.answers.motion.peek().futures).toBe(taken.futures);
     });
 
     it('give every kept card as a document of its own', () => {

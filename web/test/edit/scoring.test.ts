@@ -2,7 +2,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { withAgents } from '../../src/model/document/scene';
-import { scoreOf } from '../../src/edit/scoring';
+import { scoreOf } from '../../src/edit/asking/scoring';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import { finalWith, json, late, Session } from './session';
 
@@ -17,13 +17,13 @@ describe('a score', () => {
     editor.select('1');
     generator.last.on.final(finalWith({}), 5);
     const a = editor.scene.peek()!.agents.get('1')!;
-    editor.run(setGoal(a, { ...a.goal, pos: [10, 10] }));
+    editor.commits.run(setGoal(a, { ...a.goal, pos: [10, 10] }));
     vi.advanceTimersByTime(100);
     generator.last.on.final(finalWith({ 2: late('2', 3, '1') }), 5);
     const scene = editor.scene.peek()!;
     const second = scene.agents.get('2')!;
     const later = withAgents(scene, [{ ...second, logStart: null }]);
-    await scoreOf(generator, file, later, editor.motion.peek());
+    await scoreOf(generator, file, later, editor.answers.motion.peek());
     expect(generator.scored.at(-1)!.ids).toContain('2');
     expect(generator.scored.at(-1)!.ids).not.toContain('3');
   });

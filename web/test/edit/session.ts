@@ -1,6 +1,7 @@
 // An editing session without a page or a server: its generators live in the test.
-import { Editor } from '../../src/edit/editor';
-import { Generation } from '../../src/edit/generation';
+import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
+import { Editor } from '../../src/edit/session/editor';
+import { Generation } from '../../src/edit/asking/generation';
 import { Journal } from '../../src/edit/document/journal';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import { SceneList } from '../../src/edit/document/scene-list';
@@ -78,6 +79,7 @@ export const answered = (id: string, others: Record<string, AgentFuturesJson>) =
 
 export class Session {
   readonly editor = new Editor();
+  readonly curve = new SpeedCurve(this.editor);
   readonly generator = new InMemoryGenerator();
   /** Asked what the others would do. */
   readonly others = new InMemoryGenerator();
@@ -94,7 +96,9 @@ export class Session {
       client,
       new Journal(new PassingStepStore()),
     );
-    this.generation = new Generation(editor, file, saving, this.generator, this.others);
+    this.generation = new Generation(editor, file, saving, this.generator, this.others, (id, joins) =>
+      this.curve.takeUp(id, joins),
+    );
     file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
     editor.open(readScene(json));
   }

@@ -5,12 +5,12 @@ import type { Vec } from '../../src/model/base/geometry';
 import { PRESETS } from '../../src/model/base/kinds';
 import { readTyped } from '../../src/model/base/units';
 import { startPose, type Agent } from '../../src/model/document/scene';
-import { Copying, removeSelected } from '../../src/edit/copying';
+import { Copying, removeSelected } from '../../src/edit/moves/copying';
 import { placeGhost } from '../../src/edit/gestures/placing';
 import { touching } from '../../src/model/physics/boxes';
-import { inTheWay, standing } from '../../src/edit/room';
-import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, swapTwo, withRoom } from '../../src/edit/several';
-import { askedAfter } from '../../src/edit/after-change';
+import { inTheWay, standing } from '../../src/edit/moves/room';
+import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, swapTwo, withRoom } from '../../src/edit/moves/several';
+import { requestForChange } from '../../src/edit/asking/request-for-change';
 import { Pointer } from './pointer';
 import { Session } from './session';
 
@@ -117,15 +117,15 @@ describe('several in hand', () => {
       expect(place(id).x).toBeCloseTo(was.x + 80 / p.view.z);
       expect(place(id).y).toBeCloseTo(was.y + 40 / p.view.z);
     }
-    expect(p.editor.undoName.peek()).toBe('2 cars moved');
-    p.editor.undo();
+    expect(p.editor.document.undoName.peek()).toBe('2 cars moved');
+    p.editor.commits.undo();
     expect([place('1'), place('2')]).toEqual([before.a, before.b]);
-    expect(p.editor.undoName.peek()).toBeNull();
+    expect(p.editor.document.undoName.peek()).toBeNull();
   });
 
   it('leave locked ones where they are', () => {
     const was = place('1');
-    p.editor.run(lockAll([agent('1')], true)!);
+    p.editor.commits.run(lockAll([agent('1')], true)!);
     const from = on('2');
     p.down(from);
     p.move({ x: from.x + 50, y: from.y });
@@ -147,24 +147,24 @@ describe('several in hand', () => {
       const [dx, dy] = [x - mx, y - my];
       return [dx * Math.cos(axis) + dy * Math.sin(axis), dy * Math.cos(axis) - dx * Math.sin(axis)];
     };
-    p.editor.run(mirrorAll(ids.map(agent))!);
+    p.editor.commits.run(mirrorAll(ids.map(agent))!);
     ids.map(place).forEach((now, i) => {
       expect(seen(now)[0]).toBeCloseTo(seen(before[i])[0], 3);
       expect(seen(now)[1]).toBeCloseTo(-seen(before[i])[1], 3);
       expect(Math.sin(now.heading - axis)).toBeCloseTo(-Math.sin(before[i].heading - axis), 4);
     });
-    expect(p.editor.undoName.peek()).toMatch(/mirrored$/);
-    p.editor.undo();
+    expect(p.editor.document.undoName.peek()).toMatch(/mirrored$/);
+    p.editor.commits.undo();
     ids.map(place).forEach((now, i) => expect(now).toEqual(before[i]));
   });
 
   it('two change places, and keep their speeds', () => {
     const [a, b] = ['1', '2'].map((id) => ({ ...place(id) }));
     expect(swapTwo([agent('1')])).toBeNull();
-    p.editor.run(swapTwo(['1', '2'].map(agent))!);
+    p.editor.commits.run(swapTwo(['1', '2'].map(agent))!);
     expect(place('1')).toEqual({ ...b, speed: a.speed });
     expect(place('2')).toEqual({ ...a, speed: b.speed });
-    p.editor.undo();
+    p.editor.commits.undo();
     expect(place('1')).toEqual(a);
   });
 
@@ -176,8 +176,8 @@ describe('several in hand', () => {
       x + 20 * Math.cos(heading) - left * Math.sin(heading),
       y + 20 * Math.sin(heading) + left * Math.cos(heading),
     ];
-    p.editor.run(setGoal(a, { ...a.goal, pos: beside(3), heading: heading + 0.3 }));
-    p.editor.run(mirrorAll([agent('1')])!);
+    p.editor.commits.run(setGoal(a, { ...a.goal, pos: beside(3), heading: heading + 0.3 }));
+    p.editor.commits.run(mirrorAll([agent('1')])!);
     const { pos, heading: to } = agent('1').goal;
     beside(-3).forEach((v, i) => expect(pos![i]).toBeCloseTo(v, 3));
     expect(to).toBeCloseTo(heading - 0.3, 4);
@@ -194,7 +194,7 @@ describe('several in hand', () => {
     p.up(p.at(mid.x - 20, mid.y));
     expect(place('1').heading - a.heading).toBeCloseTo(Math.PI / 2, 2);
     expect(place('1').x).toBeCloseTo(mid.x - (a.y - mid.y), 1);
-    p.editor.undo();
+    p.editor.commits.undo();
     p.down(from);
     p.move(p.at(mid.x - 20, mid.y), { alt: true });
     expect(place('1').x).toBeCloseTo(a.x);
@@ -212,7 +212,7 @@ describe('copies', () => {
     p.move({ x: from.x + 60, y: from.y }, { alt: true });
     p.move({ x: from.x + 90, y: from.y }, { alt: true });
     expect(p.state).toBe('dragging copies');
-    expect(p.editor.placement.ghosts.peek()!.all).toHaveLength(1);
+    expect(p.placement.ghosts.peek()!.all).toHaveLength(1);
     expect(all()).toHaveLength(n);
     p.up({ x: from.x + 90, y: from.y });
     expect(all()).toHaveLength(n + 1);
@@ -220,7 +220,7 @@ describe('copies', () => {
     expect([copy.placed, copy.kind, copy.length]).toEqual([true, agent('1').kind, agent('1').length]);
     expect(copy.log.x.length).toBe(1);
     expect(place('1')).toEqual(was);
-    p.editor.undo();
+    p.editor.commits.undo();
     expect(all()).toHaveLength(n);
   });
 
@@ -270,7 +270,7 @@ describe('placing', () => {
     p.editor.chooseTool('place-car');
     const [x, y] = free();
     p.move(p.at(x + 0.4, y + 0.4));
-    const ghost = p.editor.placement.ghosts.peek()!.all[0];
+    const ghost = p.placement.ghosts.peek()!.all[0];
     expect(ghost.fits).toBe(true);
     expect(Math.hypot(ghost.who.pose.x - x, ghost.who.pose.y - y)).toBeLessThan(1);
     const n = all().length;
@@ -295,7 +295,7 @@ describe('placing', () => {
     const put = p.editor.agent.peek()!;
     const others = standing(p.editor.scene.peek()!).filter((b) => b.agent.id !== put.id);
     expect(inTheWay({ ...put, pose: startPose(put)! }, others)).toBeUndefined();
-    p.editor.undo();
+    p.editor.commits.undo();
     toast.second!.run();
     const there = startPose(p.editor.agent.peek()!)!;
     expect(Math.hypot(there.x - x, there.y - y)).toBeLessThan(2.5);
@@ -307,14 +307,14 @@ describe('placing', () => {
     p.down(from);
     p.move({ x: from.x, y: from.y - 30 });
     expect(p.state).toBe('turning');
-    expect(p.editor.placement.ghosts.peek()!.all[0].who.pose.heading).toBeCloseTo(Math.PI / 2);
+    expect(p.placement.ghosts.peek()!.all[0].who.pose.heading).toBeCloseTo(Math.PI / 2);
     p.up({ x: from.x, y: from.y - 30 });
     expect(startPose(p.editor.agent.peek()!)!.heading).toBeCloseTo(Math.PI / 2);
     p.move(p.at(90, 80));
     const scene = p.editor.scene.peek()!;
-    expect(p.editor.placement.turnBy(scene, 0.5)).toBe(true);
-    expect(p.editor.placement.again(scene, 1, 0)).toBe(true);
-    placeGhost(p.editor);
+    expect(p.placement.turnBy(scene, 0.5)).toBe(true);
+    expect(p.placement.again(scene, 1, 0)).toBe(true);
+    placeGhost(p.editor, p.placement);
     expect(startPose(p.editor.agent.peek()!)!.heading).toBeCloseTo(0.5);
   });
 
@@ -324,32 +324,32 @@ describe('placing', () => {
       ['line', [110, 70]],
     ] as const) {
       p.editor.chooseTool('place-pedestrian');
-      p.editor.placement.choose('pedestrian', { spread, count: 20 });
+      p.placement.choose('pedestrian', { spread, count: 20 });
       const n = all().length;
       p.down(p.at(80, 80));
       p.move(p.at(90, 90));
       p.move(p.at(to[0], to[1]));
-      expect(p.editor.placement.ghosts.peek()!.words).toBe('20 pedestrians');
+      expect(p.placement.ghosts.peek()!.words).toBe('20 pedestrians');
       p.up(p.at(to[0], to[1]));
       expect(all()).toHaveLength(n + 20);
       expect(p.editor.selected.peek()).toHaveLength(20);
       const boxes = standing(p.editor.scene.peek()!).filter((b) => b.agent.placed);
       boxes.forEach((b, i) => expect(inTheWay(b, boxes.slice(i + 1))).toBeUndefined());
-      expect(p.editor.undoName.peek()).toBe('20 pedestrians placed');
-      p.editor.undo();
+      expect(p.editor.document.undoName.peek()).toBe('20 pedestrians placed');
+      p.editor.commits.undo();
       expect(all()).toHaveLength(n);
     }
   });
 
   it('says how many find room where not all do', () => {
     p.editor.chooseTool('place-bus');
-    p.editor.placement.choose('bus', { spread: 'area', count: 50 });
+    p.placement.choose('bus', { spread: 'area', count: 50 });
     p.down(p.at(80, 80));
     p.move(p.at(90, 90));
     p.up(p.at(100, 100));
     const placed = p.editor.selected.peek().length;
     expect(placed).toBeLessThan(50);
-    if (placed) expect(p.editor.undoName.peek()).toMatch(/of 50 buses placed: no room for more/);
+    if (placed) expect(p.editor.document.undoName.peek()).toMatch(/of 50 buses placed: no room for more/);
     else expect(p.editor.notices.toast.peek()?.text).toBe('No room here.');
   });
 });
@@ -405,7 +405,7 @@ describe('a pennant', () => {
 
 describe('a locked road user', () => {
   it('refuses drags and says how it is unlocked', () => {
-    p.editor.run(lockAll([agent('1')], true)!);
+    p.editor.commits.run(lockAll([agent('1')], true)!);
     const was = place('1');
     const at = on('1');
     p.down(at);
@@ -441,7 +441,7 @@ describe('what is asked of the generator', () => {
     s.editor.selectAll(['1', '2']);
     copying.duplicate();
     const fresh = s.editor.selected.peek();
-    const asked = askedAfter(s.editor, roster(s), { name: '', agent: null, several: fresh, undo: false });
+    const asked = requestForChange(s.editor, roster(s), { name: '', agent: null, several: fresh, undo: false });
     expect(asked).toMatchObject({ agents: [...fresh], react: true });
     s.generation.generateAll();
     const { scene, options } = s.generator.last;
@@ -461,8 +461,8 @@ describe('what is asked of the generator', () => {
     const sent = s.generator.last.scene() as { scene: { agents: { id: string }[] } };
     expect(sent.scene.agents.map((a) => a.id)).not.toContain('2');
     // What was generated since is a step of its own.
-    s.editor.undo();
-    s.editor.undo();
+    s.editor.commits.undo();
+    s.editor.commits.undo();
     s.generation.generateAll();
     expect(s.generator.last.scene()).toEqual({ id: roster(s).id });
   });
@@ -471,9 +471,9 @@ describe('what is asked of the generator', () => {
     const s = new Session();
     const scene = roster(s);
     const still = setDoes(scene, [scene.agents.get('2')!], 'still')!;
-    s.editor.run(still);
+    s.editor.commits.run(still);
     s.editor.select('1');
-    const asked = askedAfter(s.editor, roster(s), { name: '', agent: '1', undo: false });
+    const asked = requestForChange(s.editor, roster(s), { name: '', agent: '1', undo: false });
     expect(asked).toBe('nothing');
     s.generation.generateAll();
     const sent = s.generator.last.scene() as { scene: { agents: { id: string; track: { x_m: number[] } }[] } };

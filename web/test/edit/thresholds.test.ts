@@ -15,7 +15,7 @@ describe('what counts', () => {
     const t = new Session();
     const before = t.editor.scene.peek()!;
     expect([threshold(before, 'gap_m'), threshold(before, 'ttc_s')]).toEqual([1, 1.5]);
-    t.editor.run(setThreshold(before, 'gap_m', 2));
+    t.editor.commits.run(setThreshold(before, 'gap_m', 2));
     const scene = t.editor.scene.peek()!;
     expect(scene.thresholds).toEqual({ gap_m: 2 });
     const file = writeScene(json, scene, null);
@@ -26,9 +26,9 @@ describe('what counts', () => {
     expect(readThresholds({ gap_m: -1, ttc_s: 'x', harsh_brake_mps2: 2, toString: 3 })).toEqual({
       harsh_brake_mps2: 2,
     });
-    t.editor.run(resetThresholds());
+    t.editor.commits.run(resetThresholds());
     expect(sceneKey(t.editor.scene.peek()!)).toBe(sceneKey(before));
-    t.editor.undo();
+    t.editor.commits.undo();
     expect(t.editor.scene.peek()!.thresholds).toEqual({ gap_m: 2 });
   });
 
@@ -36,13 +36,13 @@ describe('what counts', () => {
     const t = new Session();
     t.editor.select(ID);
     t.generator.last.on.final(finalOf(ID), 10);
-    t.editor.run(choose(t.editor.agent.peek()!, 1, 'B'));
-    t.editor.answers.settle(t.editor.scene.peek()!, { ...t.editor.motion.peek(), key: '', stale: false }, null);
-    const driving = t.editor.motion.peek().futures.get(ID);
+    t.editor.commits.run(choose(t.editor.agent.peek()!, 1, 'B'));
+    t.editor.answers.settle(t.editor.scene.peek()!, { ...t.editor.answers.motion.peek(), key: '', stale: false }, null);
+    const driving = t.editor.answers.motion.peek().futures.get(ID);
     const asked = t.generator.asked.length;
-    t.editor.run(setThreshold(t.editor.scene.peek()!, 'harsh_brake_mps2', 2));
-    expect(t.editor.motion.peek().futures.get(ID)).toBe(driving);
-    expect([t.editor.motion.peek().stale, t.generator.scored.length]).toEqual([false, 1]);
+    t.editor.commits.run(setThreshold(t.editor.scene.peek()!, 'harsh_brake_mps2', 2));
+    expect(t.editor.answers.motion.peek().futures.get(ID)).toBe(driving);
+    expect([t.editor.answers.motion.peek().stale, t.generator.scored.length]).toEqual([false, 1]);
     expect(t.generator.asked.length).toBe(asked);
     t.editor.select('2');
     expect(t.generator.last.options.thresholds).toEqual({ harsh_brake_mps2: 2 });
@@ -52,7 +52,7 @@ describe('what counts', () => {
 describe('the code of a result', () => {
   it('is the same for the same scene, whatever it is called, and another for whatever is asked', () => {
     const t = new Session();
-    const [scene, set] = [t.editor.scene.peek()!, t.editor.motion.peek()];
+    const [scene, set] = [t.editor.scene.peek()!, t.editor.answers.motion.peek()];
     const code = resultCode(scene, set);
     expect(code).toMatch(/^[0-9A-HJKMNP-TV-Z]{6}$/);
     expect(resultCode(readScene({ ...json, id: 'other', name: 'Other' }), set)).toBe(code);

@@ -4,9 +4,9 @@ import { setGoal } from '../../src/model/document/commands';
 import { readFutures, withNames } from '../../src/model/words/named-futures';
 import type { ModeJson } from '../../src/model/document/scene-json';
 import { nameIn, startPose, type Agent } from '../../src/model/document/scene';
-import { Editor } from '../../src/edit/editor';
-import { roadGoal } from '../../src/edit/goal-verdict';
-import { edgesInTheWay, leaveGiven, leaveToCross, roadWay } from '../../src/edit/ways-out';
+import { Editor } from '../../src/edit/session/editor';
+import { roadGoal } from '../../src/edit/moves/goal-verdict';
+import { edgesInTheWay, leaveGiven, leaveToCross, roadWay } from '../../src/edit/moves/ways-out';
 import { car, crossing, crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';
 import { judged } from '../standin/judged.mjs';
@@ -34,7 +34,7 @@ beforeEach(() => {
   e = new Editor();
   e.open(crossing());
   e.select('1');
-  e.run(setGoal(agent(), { ...agent().goal, pos: GOAL }));
+  e.commits.run(setGoal(agent(), { ...agent().goal, pos: GOAL }));
 });
 
 describe('the way by the road', () => {
@@ -44,9 +44,9 @@ describe('the way by the road', () => {
     const way = roadWay(e, agent())!;
     expect(way.words).toBe('By road: 14 m further on');
     expect(way.to).toMatchObject({ x: ROAD.x, y: ROAD.y });
-    e.run(way.command);
+    e.commits.run(way.command);
     expect(agent().goal.pos).toEqual([ROAD.x, ROAD.y]);
-    e.undo();
+    e.commits.undo();
     expect(agent().goal.pos).toEqual(GOAL);
   });
 
@@ -61,7 +61,7 @@ describe('the way by the road', () => {
     answer();
     reach({ ...ROAD, y: GOAL[1] });
     const { path } = roadWay(e, agent())!;
-    const clean = e.futures.peek()!.modes[4].motion;
+    const clean = e.reading.futures.peek()!.modes[4].motion;
     expect(path.slice(0, 20)).toEqual([...clean.x.slice(0, 20)].map((x, i) => [x, clean.y[i]]));
     expect(Math.hypot(path.at(-1)![0] - ROAD.x, path.at(-1)![1] - GOAL[1])).toBeLessThan(4);
   });
@@ -79,7 +79,7 @@ describe('the way by the road', () => {
     answer();
     reach({ ...ROAD, x: 5.1, y: 60 });
     const { path } = roadWay(e, agent())!;
-    const clean = e.futures.peek()!.modes[4].motion;
+    const clean = e.reading.futures.peek()!.modes[4].motion;
     expect(path).toHaveLength(clean.x.length);
     expect(path.at(-1)).toEqual([clean.x.at(-1), clean.y.at(-1)]);
   });
@@ -89,7 +89,7 @@ describe('the way by the road', () => {
     reach(null);
     const way = roadWay(e, agent())!;
     expect([way.words, way.note, way.to]).toEqual(['By road: E', 'By road', null]);
-    e.run(way.command);
+    e.commits.run(way.command);
     expect(agent().chosen).toBe(4);
   });
 
@@ -100,13 +100,13 @@ describe('the way by the road', () => {
   });
 
   it('stays while the hand moves on, as far from the goal as it is by then', () => {
-    e.beginDrag({ part: 'goal', handle: 'body' });
+    e.drag.begin({ part: 'goal', handle: 'body' });
     answer();
     reach(ROAD);
-    e.previewDrag(setGoal(agent(), { ...agent().goal, pos: [GOAL[0], GOAL[1] + 4] }));
+    e.drag.preview(setGoal(agent(), { ...agent().goal, pos: [GOAL[0], GOAL[1] + 4] }));
     answer();
     expect(roadWay(e, agent())!.words).toBe('By road: 10 m further on');
-    e.cancelDrag();
+    e.drag.cancel();
     expect(roadWay(e, agent())).toBeNull();
   });
 });
@@ -117,14 +117,14 @@ describe('leave to go over an edge', () => {
     const leave = leaveToCross(e, agent())!;
     expect([leave.words, leave.command.name]).toEqual(['Allow crossing this median', 'Car 1 may cross this median']);
     expect(leaveGiven(e, agent())).toBeNull();
-    e.run(leave.command);
+    e.commits.run(leave.command);
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: ['m0'] });
     const given = leaveGiven(e, agent())!;
     expect([given.words, given.command.name]).toEqual(['May cross this median', 'Car 1 may not cross this median']);
-    e.run(given.command);
+    e.commits.run(given.command);
     expect(agent().goal.mayCross).toEqual([]);
-    e.undo();
-    e.undo();
+    e.commits.undo();
+    e.commits.undo();
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: [] });
   });
 
@@ -138,7 +138,7 @@ describe('leave to go over an edge', () => {
     expect(leaveToCross(e, agent())).toBeNull();
     answer();
     expect(edgesInTheWay(e, agent())).toEqual(['m0']);
-    e.run(leaveToCross(e, agent())!.command);
+    e.commits.run(leaveToCross(e, agent())!.command);
     answer();
     expect(leaveToCross(e, agent())).toBeNull();
   });

@@ -85,24 +85,24 @@ const HAPPENINGS: Record<string, Happening> = {
     run(t, c) {
       const command = c.command(t);
       if (!command) return null;
-      t.tab.editor.run(command);
+      t.tab.editor.commits.run(command);
       return `${command.name}${command.fold ? ' (folds)' : ''}${command.joins ? ' (joins)' : ''}`;
     },
   },
   'begin a drag': {
     weight: 5,
     run({ tab: { editor } }) {
-      if (editor.dragging.peek() || !editor.scene.peek()) return null;
-      editor.beginDrag({ part: 'goal', handle: 'body' });
+      if (editor.drag.active.peek() || !editor.scene.peek()) return null;
+      editor.drag.begin({ part: 'goal', handle: 'body' });
       return '';
     },
   },
   preview: {
     weight: 9,
     run(t, c) {
-      const command = t.tab.editor.dragging.peek() ? c.goal(t) : null;
+      const command = t.tab.editor.drag.active.peek() ? c.goal(t) : null;
       if (!command) return null;
-      t.tab.editor.previewDrag(command);
+      t.tab.editor.drag.preview(command);
       return '';
     },
   },
@@ -110,21 +110,21 @@ const HAPPENINGS: Record<string, Happening> = {
     weight: 5,
     run(t, c) {
       const { editor } = t.tab;
-      if (!editor.dragging.peek()) return null;
+      if (!editor.drag.active.peek()) return null;
       const put = c.dice.chance(0.4);
-      if (put) editor.cancelDrag();
-      else editor.endDrag(c.goal(t));
+      if (put) editor.drag.cancel();
+      else editor.drag.end(c.goal(t));
       return put ? 'Esc' : 'release';
     },
   },
-  undo: { weight: 5, run: ({ tab }) => (tab.editor.undo(), '') },
-  redo: { weight: 3, run: ({ tab }) => (tab.editor.redo(), '') },
+  undo: { weight: 5, run: ({ tab }) => (tab.editor.commits.undo(), '') },
+  redo: { weight: 3, run: ({ tab }) => (tab.editor.commits.redo(), '') },
   'go to': {
     weight: 2,
     run({ tab: { editor } }, c) {
       const steps = editor.document.history?.kept().steps ?? [];
       const id = c.dice.chance(0.2) || !steps.length ? null : c.dice.of(steps).id;
-      editor.goTo(id);
+      editor.commits.goTo(id);
       return String(id);
     },
   },
@@ -132,16 +132,16 @@ const HAPPENINGS: Record<string, Happening> = {
     weight: 1,
     run({ tab: { editor } }, c) {
       const head = editor.document.history?.head;
-      if (!head || editor.lock.peek()) return null;
+      if (!head || editor.document.lock.peek()) return null;
       editor.document.entitle(head, `title ${c.fresh()}`);
       return '';
     },
   },
   'speed curve': {
     weight: 2,
-    run({ tab: { editor } }) {
-      if (!editor.scene.peek() || editor.curve.why) return null;
-      editor.curve.add(4, 0, 2);
+    run({ tab: { curve, editor } }) {
+      if (!editor.scene.peek() || curve.why) return null;
+      curve.add(4, 0, 2);
       return '';
     },
   },
@@ -168,7 +168,7 @@ const HAPPENINGS: Record<string, Happening> = {
   'edit here': {
     weight: 4,
     run({ tab }) {
-      if (!tab.editor.lock.peek()) return null;
+      if (!tab.editor.document.lock.peek()) return null;
       tab.library.editHere();
       return '';
     },
@@ -176,7 +176,7 @@ const HAPPENINGS: Record<string, Happening> = {
   'keep mine': {
     weight: 4,
     run({ tab }) {
-      if (!tab.saving.conflict.peek() || tab.editor.lock.peek()) return null;
+      if (!tab.saving.conflict.peek() || tab.editor.document.lock.peek()) return null;
       void tab.saving.keepMine();
       return '';
     },
@@ -184,7 +184,7 @@ const HAPPENINGS: Record<string, Happening> = {
   'take theirs': {
     weight: 3,
     run({ tab }) {
-      if (!tab.saving.conflict.peek()?.etag || tab.editor.lock.peek()) return null;
+      if (!tab.saving.conflict.peek()?.etag || tab.editor.document.lock.peek()) return null;
       void tab.library.takeTheirs();
       return '';
     },
@@ -260,7 +260,7 @@ async function begin(c: Course): Promise<string | null> {
 /** All that is on its way arrives, the server answers, and hands are taken off. */
 async function rest(c: Course): Promise<void> {
   c.world.weather = WEATHERS.fair;
-  for (const { tab } of c.world.tabs) tab.editor.endDrag(null);
+  for (const { tab } of c.world.tabs) tab.editor.drag.end(null);
   await c.clock.pass(150_000);
   await c.world.checkAtRest();
 }
@@ -302,7 +302,7 @@ export async function runSchedule(seed: number): Promise<Outcome> {
 async function closeAll(c: Course): Promise<void> {
   for (const t of [...c.world.tabs]) {
     const { editor, saving } = t.tab;
-    if (!c.world.broken.length && saving.conflict.peek() && !editor.lock.peek()) await endConflict(t, c);
+    if (!c.world.broken.length && saving.conflict.peek() && !editor.document.lock.peek()) await endConflict(t, c);
     c.world.closeTab(t);
   }
 }

@@ -45,7 +45,7 @@ interface Entry {
 export interface OpenTab {
   readonly name: string;
   readonly tab: Tab;
-  /** Questions of the generator that were answered. */
+  /** RequestBuilder of the generator that were answered. */
   answered: number;
   here: boolean;
   /** Releases what the tab holds, as a browser does when it is closed. */

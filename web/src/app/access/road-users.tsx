@@ -5,7 +5,7 @@ import type { Context } from '../../actions/context';
 import { canChange, hasGoal, startPose, type Agent } from '../../model/document/scene';
 import type { AgentType } from '../../model/base/kinds';
 import { speedLabel } from '../../model/base/units';
-import { laneWords } from '../../edit/snap';
+import { laneWords } from '../../edit/moves/snap';
 import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
@@ -106,16 +106,16 @@ function Head({ filter }: { filter: { value: Filter } }) {
 }
 
 const inEvent = ({ editor }: Context, id: string) =>
-  editor.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id));
+  editor.reading.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id));
 
 function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const c = useApp();
   const { editor } = c;
   // Who comes or goes makes another list; who only changes does not.
-  const roster = useComputed(() => editor.resting.value?.roster).value;
+  const castKey = useComputed(() => editor.resting.value?.castKey).value;
   const everybody = useMemo(
     () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
-    [roster, editor],
+    [castKey, editor],
   );
   const listed = useComputed(() => {
     const { kind, goal, events } = filter.value;
@@ -180,5 +180,5 @@ function wordsFor({ editor }: Context, a: Agent, event: string): string {
   if (!p) return TEXTS.appearsLater;
   const place = a.parked ? TEXTS.parked : laneWords(editor.scene.peek()!.map, a, p.x, p.y, p.heading);
   const goal = hasGoal(a.goal) ? TEXTS.goalSet : '';
-  return [speedLabel(p.speed, editor.unitOf(a)), place, goal, inSentence(event)].filter(Boolean).join(', ');
+  return [speedLabel(p.speed, editor.view.unitOf(a)), place, goal, inSentence(event)].filter(Boolean).join(', ');
 }

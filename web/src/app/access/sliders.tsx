@@ -4,11 +4,12 @@ import { useRef } from 'preact/hooks';
 import type { Command } from '../../model/document/commands';
 import { deg } from '../../model/base/geometry';
 import { lengthText, lengthUnitWord, num, speedLabel } from '../../model/base/units';
-import type { Field, Part } from '../../edit/editor';
-import * as moves from '../../edit/moves';
-import { laneWords } from '../../edit/snap';
-import { heldTime, viaTime } from '../../edit/via-times';
-import { changeVia, moveVia, viaName, widenVia } from '../../edit/vias';
+import type { Field } from '../../edit/session/editor';
+import type { HandlePart } from '../../edit/session/drag';
+import * as moves from '../../edit/moves/moves';
+import { laneWords } from '../../edit/moves/snap';
+import { heldTime, viaTime } from '../../edit/moves/via-times';
+import { changeVia, moveVia, viaName, widenVia } from '../../edit/moves/vias';
 import { useAgent, type LiveAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/desk/access';
@@ -36,7 +37,7 @@ const ARROWS: Record<string, readonly [right: number, up: number, more: 1 | -1]>
 
 interface SliderProps {
   label: string;
-  part: Part;
+  part: HandlePart;
   /** The via point that it is about. */
   via?: number;
   now: () => number;
@@ -57,7 +58,7 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
     e.preventDefault();
     e.stopPropagation();
     const command = move(ARROWS[e.key], e.shiftKey);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   };
   return (
     <div
@@ -79,12 +80,14 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
 function useAtRest(read: () => string): ReadonlySignal<string> {
   const { editor } = useApp();
   const last = useRef<string | null>(null);
-  return useComputed(() => (editor.dragging.value && last.current !== null ? last.current : (last.current = read())));
+  return useComputed(() =>
+    editor.drag.active.value && last.current !== null ? last.current : (last.current = read()),
+  );
 }
 
 const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
-function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
+function PartSliders({ agent, part }: { agent: LiveAgent; part: HandlePart }) {
   const { editor, stage } = useApp();
   const pose = () => moves.shownPose(editor, agent.value, part);
   const freedom = (f: Field) => (agent.value[part][f] === null ? TEXTS.free : TEXTS.fixed);
@@ -119,7 +122,7 @@ function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
         label={TEXTS.speed(WORD[part])}
         part={part}
         now={speed}
-        text={() => `${speedLabel(speed(), editor.unitOf(agent.value))}${freedom('speed')}`}
+        text={() => `${speedLabel(speed(), editor.view.unitOf(agent.value))}${freedom('speed')}`}
         move={([, , more], far) => moves.faster(editor, agent.peek(), part, more * (far ? 10 : 1))}
       />
     </>

@@ -3,11 +3,11 @@ import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/physics/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
 import { readEvents } from '../../model/words/event-words';
-import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/cases/cases';
+import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/tools/cases/cases';
 import { PLACE_MORE_M } from '../../model/physics/attempts';
 import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/base/units';
 import { useAlbum } from '../variants/album';
-import type { Pictured } from '../../edit/variants/cards';
+import type { Pictured } from '../../edit/tools/variants/cards';
 import { LivePicture } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -316,7 +316,7 @@ function Words({ found: { id, take, moment, like }, sought }: { found: Case; sou
     <span class="words">
       <span>{TEXTS.case(id)}</span>
       <b>{momentWords(sought, moment)}</b>
-      {howWords(a, take.scene, moment, editor.unitOf(a), from).map((words) => (
+      {howWords(a, take.scene, moment, editor.view.unitOf(a), from).map((words) => (
         <small key={words}>{words}</small>
       ))}
       {like ? <small>{TEXTS.andSimilar(like)}</small> : null}

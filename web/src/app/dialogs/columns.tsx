@@ -1,7 +1,7 @@
 // Which column of a table says what: as far as the names tell it is filled in already.
 import { useSignal } from '@preact/signals';
-import type { FileVerdict } from '../../edit/importing';
-import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/table-columns';
+import type { FileVerdict } from '../../edit/tools/importing/importing';
+import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/tools/outward/table-columns';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/files/imports';
 

@@ -186,7 +186,7 @@ function times({ editor }: Context, query: string): Entry[] {
   if (!/^\d([.,]\d)?$/.test(query)) return [];
   const run = () => {
     editor.playhead.pause();
-    editor.setTime(Number(query.replace(',', '.')));
+    editor.playhead.moveTo(Number(query.replace(',', '.')));
   };
   return [
     { ...possibleEntry, label: TEXTS.goToS(query), note: TEXTS.playhead, group: GROUP_TITLES.time, icon: 'clock', run },

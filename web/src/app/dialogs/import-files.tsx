@@ -1,7 +1,7 @@
 // What can be brought in, by kind, and the way to do it.
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
-import { inKinds } from '../../edit/outward/formats';
+import { inKinds } from '../../edit/tools/outward/formats';
 import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';

@@ -1,7 +1,7 @@
 // What became of the files that were brought in: one row a file, what is wrong with it below, and the way on.
 import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
-import type { FileVerdict } from '../../edit/importing';
+import type { FileVerdict } from '../../edit/tools/importing/importing';
 import { messageText } from '../../model/words/message-text';
 import { SENTENCES } from '../../texts/messages/file-messages';
 import { useApp } from '../parts/app-context';

@@ -89,7 +89,7 @@ function First({ now }: { now: boolean }) {
   const { editor } = useApp();
   return (
     <li class={`step ${now ? 'now' : ''}`} aria-current={now ? 'step' : undefined}>
-      <button type="button" class="go" data-step="first" onClick={() => editor.goTo(null)}>
+      <button type="button" class="go" data-step="first" onClick={() => editor.commits.goTo(null)}>
         <i class="dot" />
         <b>{TEXTS.initialState}</b>
         <small>{now ? TEXTS.now : TEXTS.beforeTheFirst}</small>
@@ -110,7 +110,7 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
       class={`step ${now ? 'now' : ''} ${branch ? 'branch' : ''} ${step.title ? 'named' : ''}`}
       aria-current={now ? 'step' : undefined}
     >
-      <button type="button" class="go" data-step={step.id} onClick={() => editor.goTo(step.id)}>
+      <button type="button" class="go" data-step={step.id} onClick={() => editor.commits.goTo(step.id)}>
         <i class="dot" />
         <b>{step.title ?? step.name}</b>
         <time title={dayAndTime(step.at)}>{clock(step.at)}</time>

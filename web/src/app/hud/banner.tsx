@@ -8,10 +8,10 @@ import { TEXTS } from '../../texts/desk/hud';
 
 export function Banner() {
   const { editor, journal, library, saving, sharing } = useApp();
-  const away = useComputed(() => editor.away.value !== null).value;
+  const away = useComputed(() => editor.answers.away.value !== null).value;
   if (editor.notices.crash.value) return <Crash details={editor.notices.crash.value} />;
   if (away) return <Away />;
-  if (editor.lock.value) return <Locked />;
+  if (editor.document.lock.value) return <Locked />;
   if (saving.conflict.value) return <Conflict />;
   if (journal.keeping.value === 'full') return <Full />;
   if (sharing.error.value) return <BrokenLink why={sharing.error.value} />;
@@ -58,8 +58,8 @@ function Crash({ details }: { details: string }) {
 
 function Away() {
   const { editor, generation } = useApp();
-  const waiting = useComputed(() => editor.away.value?.waiting ?? 0).value;
-  const retryIn = useComputed(() => editor.away.value?.retryIn ?? 0);
+  const waiting = useComputed(() => editor.answers.away.value?.waiting ?? 0).value;
+  const retryIn = useComputed(() => editor.answers.away.value?.retryIn ?? 0);
   const changes = waiting ? TEXTS.keepEditingChanges(waiting) : TEXTS.keepEditingChangesWill;
   const words = (
     <>
@@ -92,7 +92,7 @@ function Conflict() {
 
 function Locked() {
   const { editor } = useApp();
-  const lock = editor.lock.value!;
+  const lock = editor.document.lock.value!;
   return (
     <Box icon="lock" title={lock.words} words={TEXTS.youCanLookPlay}>
       <Button label={lock.label} run={() => lock.run()} />

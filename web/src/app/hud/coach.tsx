@@ -2,7 +2,7 @@
 import type { Context } from '../../actions/context';
 import { placedBy } from '../../actions/place';
 import { FLAG_HEIGHT } from '../../draw/handles';
-import { poseShown } from '../../edit/frame';
+import { poseShown } from '../../edit/overlay/frame';
 import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
 import { Icon } from '../parts/icons';
@@ -18,16 +18,16 @@ const REACHES_DOWN_PX = 150;
 
 export function Coach() {
   const c = useApp();
-  const { editor, rounds, searching, ui, variants } = c;
+  const { editor, rounds, searching, ui, variants, filling, layouts } = c;
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
       // What can only be looked at is not dragged.
-      editor.lock.value === null &&
-      !editor.dragging.value &&
+      editor.document.lock.value === null &&
+      !editor.drag.active.value &&
       !editor.notices.toast.value &&
-      !editor.filling.wish.value &&
-      !editor.layouts.isOpen.value &&
+      !filling.wish.value &&
+      !layouts.isOpen.value &&
       editor.selected.value.length < 2 &&
       // Those who look for something else, or put somebody there, have found their way.
       placedBy(c) === null &&
@@ -57,7 +57,7 @@ export function Coach() {
 function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'below' | 'left' | 'right' {
   void viewTick.value;
   const a = editor.agent.value;
-  const [car, goal] = [a && poseShown(editor, a), a && editor.goalPose(a)].map((p) => p && v.to(p.x, p.y));
+  const [car, goal] = [a && poseShown(editor, a), a && editor.reading.goalPose(a)].map((p) => p && v.to(p.x, p.y));
   const flag = goal && ([goal[0], goal[1] - FLAG_HEIGHT * v.grip] as const);
   const covers = (x0: number, x1: number, y0: number, y1: number): boolean =>
     [car, goal, flag].some((p) => !!p && p[0] > x0 && p[0] < x1 && p[1] > y0 && p[1] < y1);

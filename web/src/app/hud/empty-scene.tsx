@@ -11,7 +11,7 @@ import { TEXTS } from '../../texts/desk/empty';
 const WAYS = ['place-first', 'tool-fill', 'import-log'] as const;
 
 export function EmptyScene() {
-  const { editor, ui } = useApp();
+  const { editor, ui, layouts } = useApp();
   const scene = useComputed(() => editor.resting.value?.id ?? null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
   // Once somebody was here the card does not come back.
@@ -24,7 +24,7 @@ export function EmptyScene() {
       editor.resting.value !== null &&
       ui.emptyHidden.value !== editor.resting.value.id,
   ).value;
-  return nobody && shown && !editor.layouts.isOpen.value ? <Card scene={scene!} /> : null;
+  return nobody && shown && !layouts.isOpen.value ? <Card scene={scene!} /> : null;
 }
 
 function Card({ scene }: { scene: string }) {

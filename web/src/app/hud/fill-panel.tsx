@@ -1,9 +1,9 @@
 // Filling an area: how busy, which kinds, and what is added with one key.
 import { useComputed } from '@preact/signals';
 import type { ComponentChildren, ComponentProps } from 'preact';
-import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
-import { armName, RATE_STEP } from '../../edit/arm-handles';
-import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/filling';
+import { FILL_KINDS, shareOf, type FillKind } from '../../edit/tools/filling/fill-mix';
+import { armName, RATE_STEP } from '../../edit/tools/filling/arm-handles';
+import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/tools/filling/filling';
 import { comesLater, type Newcomer } from '../../model/document/newcomer';
 import { KIND_NAMES } from '../../model/base/kinds';
 import { STEP_S } from '../../model/base/motion';
@@ -29,8 +29,7 @@ const NAMES: Record<FillKind, string> = {
 const MOST_WEIGHT = 100;
 
 export default function FillPanel() {
-  const { editor } = useApp();
-  const { filling } = editor;
+  const { editor, filling } = useApp();
   const size = useComputed(() => filling.all.value.length).value;
   const wish = filling.wish.value;
   if (!wish) return null;
@@ -114,8 +113,8 @@ export default function FillPanel() {
 
 /** One end of the range of speeds that vehicles start at. */
 function SpeedField({ end }: { end: 0 | 1 }) {
-  const { editor } = useApp();
-  const { filling, speedUnit } = editor;
+  const { editor, filling } = useApp();
+  const { speedUnit } = editor.view;
   const mps = (): number => (filling.wish.value?.speeds ?? ANY_SPEED)[end];
   return (
     <NumberField
@@ -133,14 +132,14 @@ function SpeedField({ end }: { end: 0 | 1 }) {
         // The end that is set wins: the other one goes along.
         filling.setSpeeds(end ? [Math.min(other, here), here] : [here, Math.max(other, here)]);
       }}
-      onUnit={end ? () => editor.setUnit(nextSpeedUnit(speedUnit.peek())) : undefined}
+      onUnit={end ? () => editor.view.setUnit(nextSpeedUnit(speedUnit.peek())) : undefined}
     />
   );
 }
 
 /** How many come in by each arm; the handles on the map are the same. */
 function Arms() {
-  const { filling } = useApp().editor;
+  const { filling } = useApp();
   const arms = filling.answer.value?.arms ?? [];
   if (!arms.length) return null;
   return (
@@ -156,7 +155,7 @@ function Arms() {
 }
 
 function RateField({ arm }: { arm: Arm }) {
-  const { filling } = useApp().editor;
+  const { filling } = useApp();
   const rate = (): number => filling.wish.value?.rates[arm.id] ?? 0;
   return (
     <NumberField
@@ -175,7 +174,7 @@ function RateField({ arm }: { arm: Arm }) {
 
 /** Who would come, for those who do not see the canvas: a button each, which pins. */
 function Preview() {
-  const { filling } = useApp().editor;
+  const { filling } = useApp();
   const all = filling.all.value;
   return (
     <div class="sr" role="group" aria-label={TEXTS.preview(all.length)}>
@@ -201,7 +200,7 @@ const what = (n: Newcomer): string =>
 
 /** What to do next, or why there are not more. */
 function Note() {
-  const { filling } = useApp().editor;
+  const { filling } = useApp();
   const wish = filling.wish.value!;
   const gone = filling.answer.value?.replaced.length ?? 0;
   const reason = filling.answer.value?.reason;

@@ -13,7 +13,7 @@ export function HoverCard() {
   const line = useRef<HTMLSpanElement>(null);
   // Written by hand: the card's own width decides where it stands.
   useLiveEffect(() => {
-    void [editor.hover.value, editor.drag.value, editor.selection.value];
+    void [editor.hover.value, editor.drag.info.value, editor.selection.value];
     const el = card.current!;
     const words = picture.hoverWords();
     const p = gestures.pointer;

@@ -4,8 +4,8 @@ import { useComputed } from '@preact/signals';
 import { typeOfKind } from '../../model/base/kinds';
 import { placedBy } from '../../actions/place';
 import { actionOf } from '../../actions/registry';
-import { TOOLS } from '../../edit/gestures/tools';
-import type { Spread } from '../../edit/placing';
+import { RAIL } from '../../edit/tools/tools';
+import type { Spread } from '../../edit/moves/placing';
 import { MenuButton } from '../menu';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
@@ -27,13 +27,13 @@ const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
   const c = useApp();
-  const { editor, form, ui } = c;
+  const { editor, form, ui, placement } = c;
   const shift = ui.drawer.value ? 'shift' : '';
-  const filling = useComputed(() => editor.filling.wish.value !== null).value;
+  const filling = useComputed(() => c.filling.wish.value !== null).value;
   const coached = useComputed(() => ui.coach.value > 0).value;
   const placing = useComputed(() => {
     const kind = placedBy(c);
-    return kind && editor.placement.choice(kind).spread;
+    return kind && placement.choice(kind).spread;
   }).value;
   return (
     <div class="hud">
@@ -53,7 +53,7 @@ export function Hud() {
         </div>
         <ScaleBar />
       </div>
-      {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
+      {editor.drag.active.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
       <Compass />
       {placing ? <Later part="place" /> : null}
       {filling ? <Later part="fill" /> : null}
@@ -70,10 +70,10 @@ export function Hud() {
 function Rail() {
   return (
     <nav class="rail" data-group="tools" aria-label={TEXTS.tools}>
-      {TOOLS.map((tool, i) => (
+      {RAIL.map((tool, i) => (
         <Fragment key={tool.name}>
-          {i && 'places' in tool !== 'places' in TOOLS[i - 1] ? <hr /> : null}
-          <Tool id={`tool-${tool.name}`} class={'places' in tool ? `t-${typeOfKind(tool.places)}` : ''} />
+          {i && !tool.places !== !RAIL[i - 1].places ? <hr /> : null}
+          <Tool id={`tool-${tool.name}`} class={tool.places ? `t-${typeOfKind(tool.places)}` : ''} />
         </Fragment>
       ))}
     </nav>
@@ -159,10 +159,10 @@ function PlaceHelp({ spread }: { spread: Spread }) {
 function DragHelp() {
   const { editor } = useApp();
   const several = editor.selected.peek().length > 1;
-  const handle = useComputed(() => editor.drag.value?.grip.handle ?? 'body').value;
-  const shown = editor.showForeseen.value;
+  const handle = useComputed(() => editor.drag.info.value?.grip.handle ?? 'body').value;
+  const shown = editor.view.showPreviewed.value;
   const react = editor.scene.peek()?.others === 'react';
-  const held = useComputed(() => !!editor.drag.value?.lag).value;
+  const held = useComputed(() => !!editor.drag.info.value?.lag).value;
   const answers = ['H', shown ? TEXTS.hideTheOthers : TEXTS.showTheOthers] as const;
   const tips = several
     ? SEVERAL[handle === 'heading' ? 'heading' : 'body']

@@ -4,7 +4,7 @@ import { rangesOf } from '../../model/base/domain';
 import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/base/kinds';
 import { areaText, lengthUnit, lengthUnitWord, sizeText } from '../../model/base/units';
 import { placedBy } from '../../actions/place';
-import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
+import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/moves/placing';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
@@ -25,8 +25,7 @@ export function PlacePanel() {
 const same = (a: Preset, b: Preset): boolean => a.length === b.length && a.width === b.width && a.subtype === b.subtype;
 
 function Panel({ kind }: { kind: PlacedKind }) {
-  const { editor } = useApp();
-  const { placement } = editor;
+  const { editor, placement } = useApp();
   const choice = useComputed(() => placement.choice(kind)).value;
   const { size, spread } = choice;
   const preset = PRESETS[kind].find((p) => same(p, size));
@@ -98,7 +97,7 @@ function Panel({ kind }: { kind: PlacedKind }) {
 }
 
 function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'width'; set: (v: number) => void }) {
-  const { placement } = useApp().editor;
+  const { placement } = useApp();
   return (
     <NumberField
       label={TEXTS.customIn(TEXTS.sizes[name], lengthUnitWord())}

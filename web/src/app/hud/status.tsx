@@ -8,8 +8,8 @@ import { touched } from '../../model/document/scene';
 import { placedBy } from '../../actions/place';
 import { goToEvent } from '../../actions/time';
 import type { Context } from '../../actions/context';
-import type { Status as GeneratorStatus } from '../../edit/answers';
-import { outOfReach } from '../../edit/goal-verdict';
+import type { Status as GeneratorStatus } from '../../edit/session/answers';
+import { outOfReach } from '../../edit/moves/goal-verdict';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/desk/hud';
 
@@ -23,19 +23,19 @@ interface Line {
 
 export function Status() {
   const c = useApp();
-  return c.editor.calm.read(() => statusLine(c));
+  return c.editor.reading.throttle.read(() => statusLine(c));
 }
 
 function statusLine(c: Context) {
-  const { editor } = c;
-  const s = editor.status.value;
+  const { editor, layouts, filling } = c;
+  const s = editor.answers.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return row(sceneLine(c));
-  if (editor.layouts.isOpen.value) return row(mapLine(c));
+  if (layouts.isOpen.value) return row(mapLine(c));
   const work = workLine(c);
-  if (work && !editor.dragging.value) return row(work);
+  if (work && !editor.drag.active.value) return row(work);
   const kind = placedBy(c);
-  if (editor.filling.wish.value) return row({ dot: '', text: TEXTS.previewNothing });
+  if (filling.wish.value) return row({ dot: '', text: TEXTS.previewNothing });
   if (kind) return row({ dot: '', text: TEXTS.placing(KIND_WORDS[kind]) });
   if (s.kind === 'refining') return refining(s);
   const some = editor.selected.value.length;
@@ -59,8 +59,8 @@ const driven = (lanes: ReadonlyMap<string, Lane>): number =>
   [...lanes.values()].filter((l) => l.kind === 'road').length;
 
 /** What the map that is being made holds. */
-function mapLine({ editor }: Context): Line {
-  const made = editor.layouts.made.value;
+function mapLine({ layouts }: Context): Line {
+  const made = layouts.made.value;
   if (!made) return { dot: 'busy', text: TEXTS.drawing };
   const { lanes, crosswalks } = made.scene.map;
   const bad = made.checks.some((k) => !k.passed);
@@ -113,13 +113,13 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
     case 'loading':
       return { dot: 'busy', text: TEXTS.loadingTheScene };
     case 'slow': {
-      const keep = editor.dragging.value ? TEXTS.youCanKeepDragging : '';
+      const keep = editor.drag.active.value ? TEXTS.youCanKeepDragging : '';
       return { dot: 'busy', text: TEXTS.thisTakesLonger(num(s.ms / 1000, 1), keep) };
     }
     case 'refused':
       return { dot: 'collision', text: s.words };
     case 'away': {
-      const n = editor.away.value?.waiting ?? 0;
+      const n = editor.answers.away.value?.waiting ?? 0;
       return { dot: 'near', text: n ? TEXTS.generatorOfflineWaiting(n) : TEXTS.generatorOffline };
     }
     case 'settled':
@@ -135,14 +135,14 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
   const bad = a?.goal.pos ? outOfReach(editor, a) : null;
   if (bad && !bad.outranked) return { dot: 'near', text: TEXTS.showingFutures };
   if (!editor.selection.value) return sceneLine(c);
-  const n = editor.futures.value?.modes.length ?? 6;
+  const n = editor.reading.futures.value?.modes.length ?? 6;
   const parts = [
     TEXTS.futures(n === 6 ? TEXTS.six : n),
     ms ? TEXTS.ms(ms.toFixed(0)) : '',
     adapted ? TEXTS.othersReact(adapted) : '',
   ];
   // Beside a collision nothing is green.
-  return { dot: dotOf(editor.events.value), text: parts.filter(Boolean).join(' · ') };
+  return { dot: dotOf(editor.reading.events.value), text: parts.filter(Boolean).join(' · ') };
 }
 
 function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
@@ -153,7 +153,7 @@ function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
 /** What happens in the scene; a press leads to the first of what is worst. */
 function sceneLine(c: Context): Line {
   const { editor } = c;
-  const events = editor.events.value;
+  const events = editor.reading.events.value;
   const worst = worstOf(events);
   if (worst) {
     const go = () =>
@@ -167,7 +167,7 @@ function sceneLine(c: Context): Line {
   if (!scene) return { dot: '', text: TEXTS.ready };
   const { size } = scene.agents;
   if (!size) return { dot: '', text: TEXTS.mapReadyLanes(driven(scene.map.lanes)) };
-  if (!editor.layers.value.log) return { dot: '', text: TEXTS.readyRoadUsers(size) };
+  if (!editor.view.layers.value.log) return { dot: '', text: TEXTS.readyRoadUsers(size) };
   const edited = [...scene.agents.values()].filter(touched).length;
   return { dot: '', text: TEXTS.logShownDashed(edited, size) };
 }

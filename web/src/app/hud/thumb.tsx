@@ -1,6 +1,6 @@
 // On a small page what the rail has stands behind a + at the thumb.
 import { useComputed } from '@preact/signals';
-import { TOOLS } from '../../edit/gestures/tools';
+import { RAIL } from '../../edit/tools/tools';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -10,7 +10,7 @@ import { TEXTS } from '../../texts/desk/hud';
 /** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
 const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];
 const NOT_LISTED = ['select', 'pan'];
-const REST = TOOLS.map((t): string => t.name).filter((name) => ![...FIRST, ...NOT_LISTED].includes(name));
+const REST = RAIL.map((t): string => t.name).filter((name) => ![...FIRST, ...NOT_LISTED].includes(name));
 const MENU = 'add';
 
 /** The + while nothing is placed; else what ends that. */

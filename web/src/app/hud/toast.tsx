@@ -13,7 +13,7 @@ export function Toast() {
     <div class={`toast ${undo || action ? '' : 'plain'} ${ui.drawer.value ? 'shift' : ''}`}>
       <span>{text}</span>
       {undo ? (
-        <button type="button" class="btn" data-action="undo" onClick={() => editor.undo()}>
+        <button type="button" class="btn" data-action="undo" onClick={() => editor.commits.undo()}>
           {TEXTS.undo}
           <KeyCaps of="Ctrl+Z" />
         </button>

@@ -24,7 +24,7 @@ export function WayBack() {
   const lost = useComputed(() => {
     void viewTick.value;
     const scene = editor.resting.value;
-    if (!scene || editor.dragging.value) return false;
+    if (!scene || editor.drag.active.value) return false;
     const { view: v } = stage;
     const there = v.box();
     const screen = { x0: 0, y0: 0, x1: v.w, y1: v.h };

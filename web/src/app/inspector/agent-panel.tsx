@@ -6,9 +6,9 @@ import { seenUntil } from '../../model/physics/playback';
 import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/document/scene';
 import { messageText } from '../../model/words/message-text';
 import { seconds } from '../../model/base/units';
-import { goalFromLog } from '../../edit/moves';
-import { callIt, noteOn } from '../../edit/several';
-import { laneWords } from '../../edit/snap';
+import { goalFromLog } from '../../edit/moves/moves';
+import { callIt, noteOn } from '../../edit/moves/several';
+import { laneWords } from '../../edit/moves/snap';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -72,7 +72,7 @@ function Head({ agent }: { agent: LiveAgent }) {
     const p = startPose(a);
     if (!p) return TEXTS.appearsAt(appearsAt(a));
     const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
-    const until = seenUntil(editor.scene.value!, editor.motion.value, a);
+    const until = seenUntil(editor.scene.value!, editor.answers.motion.value, a);
     const seen = until === null ? place : TEXTS.seenUntil(seconds(until), place);
     // Where the name says it already the place has the room.
     return a.name.endsWith(` ${a.id}`) ? seen : TEXTS.id(seen, a.id);
@@ -116,7 +116,7 @@ function NameField({ agent }: { agent: LiveAgent }) {
   const done = () => {
     if (!input.current) return;
     const typed = input.current.value.trim();
-    if (typed !== name.peek()) editor.run(callIt(agent.peek(), typed || null));
+    if (typed !== name.peek()) editor.commits.run(callIt(agent.peek(), typed || null));
     input.current.value = name.peek();
   };
   return (
@@ -222,7 +222,7 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
         onBlur={() => {
           if (!area.current) return;
           const typed = area.current.value.trim();
-          if (typed !== note.peek()) editor.run(noteOn(agent.peek(), typed));
+          if (typed !== note.peek()) editor.commits.run(noteOn(agent.peek(), typed));
         }}
         onKeyDown={(e) => {
           if (e.key === 'Escape') {
@@ -241,7 +241,7 @@ const OFF_ROAD: ReadonlySet<string> = new Set(['goal-off-road', 'start-off-road'
 function Warnings({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const list = useComputed(() => {
-    const all = c.editor.motion.value.warnings?.get(agent.value.id);
+    const all = c.editor.answers.motion.value.warnings?.get(agent.value.id);
     // The verdict says that there is no lane.
     return verdictOn(c, agent)?.snap ? all?.filter((w) => !OFF_ROAD.has(w.code)) : all;
   }).value;

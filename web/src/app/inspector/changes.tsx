@@ -11,15 +11,15 @@ const others = (n: number): string => TEXTS.others(n);
 
 export function Changes() {
   const { editor } = useApp();
-  const foreseen = useComputed(() => editor.foreseen.value).value;
+  const foreseen = useComputed(() => editor.answers.previewed.value).value;
   if (foreseen) return <Foreseen list={foreseen} />;
-  const list = editor.changes.value;
+  const list = editor.answers.changes.value;
   if (!list.length) return null;
   return (
     <section class="sect" aria-label={TEXTS.othersThatChanged}>
       <h3>
         {TEXTS.changed(others(list.length))}
-        <button type="button" aria-pressed={editor.showBefore.value} onClick={() => editor.toggleBefore()}>
+        <button type="button" aria-pressed={editor.view.showBefore.value} onClick={() => editor.view.toggleBefore()}>
           {TEXTS.showBeforeAfter}
         </button>
       </h3>
@@ -55,7 +55,7 @@ function Lines({ list }: { list: readonly Change[] }) {
           type="button"
           class="ch"
           title={`${change.name} ${change.words}`}
-          onClick={() => editor.setTime(change.at)}
+          onClick={() => editor.playhead.moveTo(change.at)}
           onPointerEnter={() => editor.pointAt({ agent: change.id })}
           onPointerLeave={() => editor.pointAt({})}
         >

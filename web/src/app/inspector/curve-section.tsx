@@ -5,7 +5,7 @@ import { poseAt, type Motion } from '../../model/base/motion';
 import { lineOf, stopsOf } from '../../model/physics/speed-profile';
 import type { SpeedPoint } from '../../model/document/profile';
 import { metres, seconds, speedLabel } from '../../model/base/units';
-import type { Editor } from '../../edit/editor';
+import type { Editor } from '../../edit/session/editor';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -18,18 +18,18 @@ const STOP_S = 2;
 const MISSED_MPS = 0.5;
 
 /** The motion that comes of the curve, as far as it is worked out. */
-const drivenOf = (e: Editor): Motion | undefined => e.toldFutures.value?.modes[e.toldChosen.value]?.motion;
+const drivenOf = (e: Editor): Motion | undefined =>
+  e.reading.toldFutures.value?.modes[e.reading.toldChosen.value]?.motion;
 
 export function CurveSection({ agent }: { agent: LiveAgent }) {
-  const { editor, ui } = useApp();
-  const { curve } = editor;
+  const { editor, ui, curve } = useApp();
   // Who opens the tall timeline is about to draw one.
   const shown = useComputed(
     () => curve.profile.value !== null || (ui.tall.value && curve.points.value.length > 1),
   ).value;
   if (!shown) return null;
   const points = curve.points.value;
-  const unit = editor.unitOf(agent.value);
+  const unit = editor.view.unitOf(agent.value);
   const driven = drivenOf(editor);
   /** What is driven instead where a point cannot be. */
   const missed = (p: SpeedPoint): string | null => {
@@ -77,8 +77,8 @@ const kindOf = (p: SpeedPoint, i: number, n: number): string =>
   i === 0 ? KINDS.start : i === n - 1 ? KINDS.end : p.v ? (p.hold ? KINDS.hold : '') : KINDS.stop;
 
 function Stops({ agent }: { agent: LiveAgent }) {
-  const { editor } = useApp();
-  const { profile } = editor.curve;
+  const { editor, curve } = useApp();
+  const { profile } = curve;
   const path = profile.value?.path;
   const motion = drivenOf(editor);
   const stops = motion ? stopsOf(motion, profile.value?.points) : [];
@@ -87,7 +87,7 @@ function Stops({ agent }: { agent: LiveAgent }) {
   return (
     <dl class="wh figures" aria-label={TEXTS.stopsTitle}>
       {stops.flatMap(({ pose, from, lasts }) => [
-        <dt key={from}>{TEXTS.stops(editor.curve.placeOf(agent.value, pose))}</dt>,
+        <dt key={from}>{TEXTS.stops(curve.placeOf(agent.value, pose))}</dt>,
         <dd key={`${from}:`}>{TEXTS.after(metres(project(line, pose.x, pose.y).s, 1), seconds(lasts))}</dd>,
       ])}
     </dl>

@@ -13,7 +13,7 @@ import { TEXTS } from '../../texts/panels/inspector';
 /** `below` is what stands under the event that is picked. */
 export function EventList({ most = Infinity, below }: { most?: number; below?: (e: TrafficEvent) => ComponentChild }) {
   const { editor, ui } = useApp();
-  const all = editor.events.value;
+  const all = editor.reading.events.value;
   const own = counted(all);
   // Those that count come first.
   const events = [...own, ...all.filter((e) => e.inLog)].slice(0, most);
@@ -66,10 +66,10 @@ function Row({ event: e, below }: { event: TrafficEvent; below?: (e: TrafficEven
 
 function NoEvents() {
   const { editor } = useApp();
-  const known = useComputed(() => editor.motion.value.score !== null).value;
-  const away = useComputed(() => editor.away.value !== null).value;
+  const known = useComputed(() => editor.answers.motion.value.score !== null).value;
+  const away = useComputed(() => editor.answers.away.value !== null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
-  const close = useComputed(() => closeInTime(editor.motion.value)).value;
+  const close = useComputed(() => closeInTime(editor.answers.motion.value)).value;
   if (nobody) return <p class="sec">{TEXTS.noneToCheck}</p>;
   const unknown = away ? TEXTS.unknownWhileOffline : TEXTS.notComputedYet;
   const none = close === null ? TEXTS.noCollisions : TEXTS.noneButSmallPet(seconds(close));

@@ -5,11 +5,11 @@ import type { TrafficEvent } from '../../model/words/event-words';
 import type { Agent } from '../../model/document/scene';
 import { threshold, type ThresholdName } from '../../model/document/thresholds';
 import { num } from '../../model/base/units';
-import type { Editor } from '../../edit/editor';
-import { laneWords } from '../../edit/snap';
+import type { Editor } from '../../edit/session/editor';
+import { laneWords } from '../../edit/moves/snap';
 import { poseAt } from '../../model/base/motion';
-import { eventRemedies } from '../../edit/event-remedies';
-import { Weighing } from '../../edit/weighing';
+import { eventRemedies } from '../../edit/moves/event-remedies';
+import { RemedyOutcomes } from '../../edit/asking/remedy-outcomes';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -23,7 +23,7 @@ export function EventsPanel() {
   const { editor, ui } = useApp();
   // Asked for by itself it comes first, above however many events there are.
   const first = ui.eventsPanel.value === 'counts';
-  const events = editor.events.value;
+  const events = editor.reading.events.value;
   const worst = worstOf(events);
   const own = counted(events).length;
   const length = TEXTS.inTheseS(num(editor.scene.peek()?.duration ?? 9, 0));
@@ -51,19 +51,19 @@ export function EventsPanel() {
 
 /** The lane on which the first of them is then. */
 function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): string {
-  const p = poseAt(editor.motionFor(a), time);
+  const p = poseAt(editor.reading.motionFor(a), time);
   // Where it is itself: between the two are other lanes.
   return laneWords(editor.scene.peek()!.map, a, p?.x ?? x, p?.y ?? y, p?.heading ?? 0);
 }
 
 function Facts({ event: e }: { event: TrafficEvent }) {
-  const { editor, supposing, ui, variants } = useApp();
-  const weighing = useMemo(() => new Weighing(editor, supposing), [editor, supposing]);
-  useEffect(() => weighing.begin(), [weighing]);
+  const { editor, whatIf, ui, variants } = useApp();
+  const outcomes = useMemo(() => new RemedyOutcomes(editor, whatIf), [editor, whatIf]);
+  useEffect(() => outcomes.begin(), [outcomes]);
   const now = (name: ThresholdName): string => told(name, threshold(editor.scene.peek()!, name));
   const counts = COUNTS.nearMissBelow(now('ttc_s'), now('gap_m'));
   const change = (id: string) => {
-    editor.setTime(0);
+    editor.playhead.moveTo(0);
     ui.showEvents(false);
     editor.select(id);
   };
@@ -82,7 +82,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
         <h3>{TEXTS.remedies}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (
-            <RemedyButton key={r.label} remedy={r} outcome={weighing.of(r)} />
+            <RemedyButton key={r.label} remedy={r} outcome={outcomes.of(r)} />
           ))}
           {[e.a, e.b]
             .filter((a): a is Agent => a !== null && a.type !== 'other' && a.logStart !== null)

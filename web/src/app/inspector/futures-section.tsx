@@ -9,9 +9,9 @@ import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene 
 import { seconds } from '../../model/base/units';
 import { placeWord } from '../../model/words/verdict-words';
 import { perform } from '../../actions/registry';
-import { verdictsHold } from '../../edit/goal-verdict';
-import { takeFuture } from '../../edit/moves';
-import { pinnedAt, pinsApart, togglePin, type ShownPin } from '../../edit/pins';
+import { verdictsHold } from '../../edit/moves/goal-verdict';
+import { takeFuture } from '../../edit/moves/moves';
+import { pinnedAt, pinsApart, togglePin, type ShownPin } from '../../edit/moves/pins';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -22,16 +22,16 @@ import { TEXTS as PINS } from '../../texts/editing/pins';
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const note = useComputed(() => {
-    const f = editor.toldFutures.value;
+    const f = editor.reading.toldFutures.value;
     const a = agent.value;
-    if (!f) return editor.calm.read(() => editor.status.value).kind === 'refining' ? 'working' : '';
+    if (!f) return editor.reading.throttle.read(() => editor.answers.status.value).kind === 'refining' ? 'working' : '';
     if (f.sketch) return TEXTS.sketchGenerator;
     if (!isSettled(f)) return f.step ? TEXTS.stepOf(f.step, f.steps) : TEXTS.firstGuess;
-    if (editor.outdated.value) return TEXTS.beforeTheLastChange;
+    if (editor.reading.outdated.value) return TEXTS.beforeTheLastChange;
     if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
     const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
     if (hasGoal(a.goal)) return TEXTS.of(n);
-    return editor.replays.value ? TEXTS.noneChosenYet(n) : TEXTS.noGoalSet(n);
+    return editor.reading.replays.value ? TEXTS.noneChosenYet(n) : TEXTS.noGoalSet(n);
   });
   return (
     <section class="sect last futsec" aria-label={TEXTS.futures}>
@@ -60,8 +60,8 @@ function Remark({ agent }: { agent: LiveAgent }) {
 
 function FutureList({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const count = useComputed(() => editor.toldFutures.value?.modes.length ?? 0).value;
-  const sketch = useComputed(() => editor.toldFutures.value?.sketch ?? false).value;
+  const count = useComputed(() => editor.reading.toldFutures.value?.modes.length ?? 0).value;
+  const sketch = useComputed(() => editor.reading.toldFutures.value?.sketch ?? false).value;
   if (!count) return <Waiting />;
   if (sketch) return <p class="mut">{TEXTS.aPlainCurveIs}</p>;
   return (
@@ -78,8 +78,8 @@ function FutureList({ agent }: { agent: LiveAgent }) {
 function Waiting() {
   const { editor } = useApp();
   const words = useComputed(() => {
-    if (editor.away.value) return TEXTS.waitingForThe;
-    return editor.status.value.kind === 'refused' ? TEXTS.noneSeeBelow : TEXTS.computing;
+    if (editor.answers.away.value) return TEXTS.waitingForThe;
+    return editor.answers.status.value.kind === 'refused' ? TEXTS.noneSeeBelow : TEXTS.computing;
   });
   return <p class="mut">{words}</p>;
 }
@@ -87,7 +87,7 @@ function Waiting() {
 /** What was recorded, where it is what happens or would be again without the pick. */
 function RecordedRow({ agent }: { agent: LiveAgent }) {
   const c = useApp();
-  const replays = useComputed(() => c.editor.calm.read(() => c.editor.replays.value));
+  const replays = useComputed(() => c.editor.reading.throttle.read(() => c.editor.reading.replays.value));
   const checked = useComputed(() => String(replays.value));
   const shown = useComputed(() => {
     const a = agent.value;
@@ -115,12 +115,14 @@ function RecordedRow({ agent }: { agent: LiveAgent }) {
 
 function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
-  const mode = useComputed(() => editor.toldFutures.value?.modes[index]);
+  const mode = useComputed(() => editor.reading.toldFutures.value?.modes[index]);
   const name = useComputed(() => mode.value?.name ?? '');
-  const percent = useComputed(() => `${percents(editor.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
+  const percent = useComputed(() => `${percents(editor.reading.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
   const title = useComputed(() => inWords(editor.resting.value, mode.value));
   const checked = useComputed(() =>
-    String(editor.toldChosen.value === index && !editor.calm.read(() => editor.replays.value)),
+    String(
+      editor.reading.toldChosen.value === index && !editor.reading.throttle.read(() => editor.reading.replays.value),
+    ),
   );
   const pick = () => takeFuture(editor, agent.peek(), index);
   const point = () => editor.pointAt({ future: index });
@@ -129,7 +131,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const toggle = () => {
     const done = togglePin(editor, agent.peek(), index);
     if (typeof done === 'string') editor.notices.show({ text: done });
-    else editor.run(done);
+    else editor.commits.run(done);
   };
   const label = (pin ? PINS.unpinLetter : PINS.pinLetter)(LETTERS[index]);
   return (
@@ -184,7 +186,7 @@ function PinnedRow({ pin, why }: ShownPin) {
   const { editor } = useApp();
   const on = (make: (a: Agent, p: Pin) => Command) => () => {
     const a = editor.agent.peek();
-    if (a && !a.locked) editor.run(make(a, pin));
+    if (a && !a.locked) editor.commits.run(make(a, pin));
   };
   return (
     <div class="furow">
@@ -229,7 +231,7 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
-    const told = verdictsHold(editor) ? editor.toldFutures.value?.modes[index] : null;
+    const told = verdictsHold(editor) ? editor.reading.toldFutures.value?.modes[index] : null;
     const m = told?.about ? markOf(told.about) : null;
     const due = goalTimeOf(agent.value);
     return m === 'ok' && (due === null || endsBefore(told!.motion, due)) ? null : m;
@@ -254,7 +256,7 @@ function inWords(scene: Scene | null, m: Future | undefined): string {
 function Share({ index }: { index: number }) {
   const { editor } = useApp();
   const missing = useComputed(() => {
-    const modes = editor.toldFutures.value?.modes ?? [];
+    const modes = editor.reading.toldFutures.value?.modes ?? [];
     const share = (modes[index]?.probability ?? 0) / Math.max(...modes.map((m) => m.probability), 1e-9);
     return `translate: ${((share - 1) * 100).toFixed(2)}%`;
   });

@@ -1,8 +1,8 @@
 // The verdict on the goal, and the ways out of one that cannot be reached.
 import { useComputed } from '@preact/signals';
 import { actionOf, perform } from '../../actions/registry';
-import { remedies, snapToNearest } from '../../edit/moves';
-import { leaveToCross, roadWay } from '../../edit/ways-out';
+import { remedies, snapToNearest } from '../../edit/moves/moves';
+import { leaveToCross, roadWay } from '../../edit/moves/ways-out';
 import { seconds } from '../../model/base/units';
 import type { Command } from '../../model/document/commands';
 import { useApp } from '../parts/app-context';
@@ -40,7 +40,7 @@ function Title({ verdict: { title, at } }: { verdict: Verdict }) {
   if (at == null) return <b>{title}</b>;
   const go = () => {
     editor.playhead.pause();
-    editor.setTime(at);
+    editor.playhead.moveTo(at);
   };
   return (
     <button type="button" class="to" title={TEXTS.playheadTo(seconds(at))} onClick={go}>
@@ -54,7 +54,7 @@ function WaysOut({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const road = useComputed(() => roadWay(editor, agent.value)).value;
   const leave = useComputed(() => leaveToCross(editor, agent.value)).value;
-  const dragging = editor.dragging.value;
+  const dragging = editor.drag.active.value;
   if (!road && !leave) return null;
   return (
     <div class="stack">
@@ -97,7 +97,7 @@ function WayOut({ id, words, note, cap, primary, command }: WayOutProps) {
 function Remedies({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const { editor } = c;
-  const ways = useComputed(() => (editor.dragging.value ? [] : remedies(editor, agent.value))).value;
+  const ways = useComputed(() => (editor.drag.active.value ? [] : remedies(editor, agent.value))).value;
   if (!ways.length) return null;
   return (
     <div class="stack">

@@ -6,8 +6,8 @@ import { ScenePanel } from './scene-panel';
 import { TEXTS } from '../../texts/panels/inspector';
 
 export function Inspector() {
-  const { editor, rounds, searching, ui, variants } = useApp();
-  const making = editor.layouts.isOpen.value;
+  const { editor, rounds, searching, ui, variants, layouts } = useApp();
+  const making = layouts.isOpen.value;
   const judging = rounds.isOpen.value;
   const cases = searching.open.value !== null;
   const comparing = useComputed(() => variants.compared.value !== null).value;
@@ -15,7 +15,7 @@ export function Inspector() {
     const open = ui.eventsPanel.value;
     // Where what counts was changed it stays open, though nothing may be left that does.
     const changed = Object.keys(editor.resting.value?.thresholds ?? {}).length > 0;
-    return open === 'counts' || (open && (changed || editor.events.value.length > 0));
+    return open === 'counts' || (open && (changed || editor.reading.events.value.length > 0));
   }).value;
   const scene = useComputed(() => editor.resting.value?.id).value;
   const selected = editor.selection.value;

@@ -15,15 +15,15 @@ export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) 
   const { editor } = useApp();
   const moving = useComputed(() => {
     const scene = editor.scene.value;
-    if (!scene || editor.dragging.value || editor.motion.value.stale) return null;
-    return { all: those.value.map((a) => [a, editor.motionFor(a)] as const), duration: scene.duration };
+    if (!scene || editor.drag.active.value || editor.answers.motion.value.stale) return null;
+    return { all: those.value.map((a) => [a, editor.reading.motionFor(a)] as const), duration: scene.duration };
   });
   const closest = useComputed(() => {
     const c = moving.value && closestOf(moving.value.all, moving.value.duration);
     // Of those who touch the event knows when, between two steps.
     const hits = (e: TrafficEvent): boolean =>
       e.kind === 'collision' && [e.a, e.b].every((x) => x === c?.a || x === c?.b);
-    const hit = c && c.gap <= TOUCH_M ? editor.shownEvents.value.find(hits) : undefined;
+    const hit = c && c.gap <= TOUCH_M ? editor.reading.shownEvents.value.find(hits) : undefined;
     return c && hit ? { ...c, time: hit.time } : c;
   }).value;
   const between = useComputed(() => {
@@ -57,7 +57,7 @@ function Moment({ time, title, words }: { time: number; title: string; words: st
       title={title}
       onClick={() => {
         editor.playhead.pause();
-        editor.setTime(time);
+        editor.playhead.moveTo(time);
       }}
     >
       <span class="grow">{words}</span>

@@ -15,11 +15,13 @@ import {
   speedText,
   toUnit,
 } from '../../model/base/units';
-import type { Field, HandleName, Part } from '../../edit/editor';
-import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
-import { setKind } from '../../edit/several';
-import { laneWords } from '../../edit/snap';
-import { leaveGiven } from '../../edit/ways-out';
+import type { Field } from '../../edit/session/editor';
+import type { HandlePart } from '../../edit/session/drag';
+import type { HandleName } from '../../edit/session/drag';
+import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves/moves';
+import { setKind } from '../../edit/moves/several';
+import { laneWords } from '../../edit/moves/snap';
+import { leaveGiven } from '../../edit/moves/ways-out';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
@@ -50,7 +52,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const place = useComputed(() => {
     const a = agent.value;
-    const drag = editor.calm.read(() => editor.drag.value);
+    const drag = editor.reading.throttle.read(() => editor.drag.info.value);
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
     if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asRecordedNote;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
@@ -58,7 +60,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   });
   const run = (time: number, live = false) => {
     const rounded = Math.round(goalTime(editor.scene.peek(), time) * 100) / 100;
-    editor.run(withField(agent.peek(), 'goal', { time: rounded }, live));
+    editor.commits.run(withField(agent.peek(), 'goal', { time: rounded }, live));
   };
   const time = { value: () => agent.value.goal.time, step: 0.1, set: run, range: () => timeRange(editor.scene.value) };
   return (
@@ -78,7 +80,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
           unit={() => 's'}
           quantity={() => 'time'}
           field="goal-time"
-          live={() => editor.drag.value?.grip.handle === 'time'}
+          live={() => editor.drag.info.value?.grip.handle === 'time'}
           text={() => num(agent.value.goal.time, 1)}
         />
       </Row>
@@ -95,7 +97,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   return (
     <p class="leave">
       {leave.words}
-      <button type="button" aria-label={TEXTS.undo(leave.words)} onClick={() => editor.run(leave.command)}>
+      <button type="button" aria-label={TEXTS.undo(leave.words)} onClick={() => editor.commits.run(leave.command)}>
         <Icon name="x" size={12} />
       </button>
     </p>
@@ -125,7 +127,7 @@ function Row({ label, children, end, scrub }: RowProps) {
 
 interface PartProps {
   agent: LiveAgent;
-  part: Part;
+  part: HandlePart;
 }
 
 const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
@@ -138,9 +140,9 @@ function usePart({ agent, part }: PartProps) {
     word: WORD[part],
     spec: () => agent.value[part],
     shown: () => shownPose(editor, agent.value, part),
-    run: (patch: Partial<GoalSpec>, live = false) => editor.run(withField(agent.peek(), part, patch, live)),
+    run: (patch: Partial<GoalSpec>, live = false) => editor.commits.run(withField(agent.peek(), part, patch, live)),
     dragged: (handle: HandleName) => {
-      const grip = editor.drag.value?.grip;
+      const grip = editor.drag.info.value?.grip;
       return grip?.part === part && grip.handle === handle;
     },
     focused: (field: Field) => () => {
@@ -172,7 +174,7 @@ function FixedPill({ agent, part, field, label }: PartProps & { field: Field; la
   const fixed = useComputed(() => agent.value[part][field] !== null).value;
   const toggle = () => {
     const command = toggleField(editor, agent.peek(), part, field);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   };
   return (
     <button
@@ -228,7 +230,7 @@ function HeadingRow(props: PartProps) {
       return p ? degrees(p.heading) : null;
     },
     set: (v: number, live?: boolean) => {
-      editor.setHeadingFollows(props.part, props.agent.peek(), false);
+      editor.drag.setHeadingFollows(props.part, props.agent.peek(), false);
       run({ heading: wrapAngle(rad(v)) }, live);
     },
   };
@@ -253,7 +255,7 @@ function SpeedRow(props: PartProps) {
   const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
   const { agent } = props;
   const onFoot = useComputed(() => agent.value.type === 'pedestrian').value;
-  const unit = () => editor.unitOf(agent.value);
+  const unit = () => editor.view.unitOf(agent.value);
   const free = () => spec().speed === null;
   const field = {
     step: onFoot ? 0.1 : 1,
@@ -275,7 +277,7 @@ function SpeedRow(props: PartProps) {
         text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
         free={free}
         live={() => dragged('speed')}
-        onUnit={onFoot ? undefined : () => editor.setUnit(nextSpeedUnit(editor.speedUnit.peek()))}
+        onUnit={onFoot ? undefined : () => editor.view.setUnit(nextSpeedUnit(editor.view.speedUnit.peek()))}
         onFocus={focused('speed')}
       />
     </Row>
@@ -299,7 +301,7 @@ function TypeRow({ agent }: { agent: LiveAgent }) {
     const [kind, i] = value.split(':') as [PlacedKind, string];
     const size = PRESETS[kind]?.[Number(i)];
     const command = size && setKind([agent.peek()], kind, size);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   };
   const own = useComputed(() => (shown.value.endsWith(':own') ? agent.value.kind : null)).value;
   return (
@@ -330,7 +332,7 @@ function SizeField({ agent, name }: { agent: LiveAgent; name: 'length' | 'width'
   const { editor } = useApp();
   const set = (v: number) => {
     const a = agent.peek();
-    editor.run(name === 'length' ? resize(a, v, a.width) : resize(a, a.length, v));
+    editor.commits.run(name === 'length' ? resize(a, v, a.width) : resize(a, a.length, v));
   };
   return (
     <NumberField

@@ -17,7 +17,7 @@ const FIRST_EVENTS = 6;
 export function ScenePanel() {
   const { editor } = useApp();
   // Who comes or goes is counted anew; who is dragged is not.
-  void useComputed(() => editor.resting.value?.roster).value;
+  void useComputed(() => editor.resting.value?.castKey).value;
   const scene = editor.scene.peek();
   return scene ? <About scene={scene} /> : <Nothing />;
 }

@@ -6,7 +6,7 @@ import { meetsGoal } from '../../model/physics/playback';
 import { canChange } from '../../model/document/scene';
 import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
-import type { Editor } from '../../edit/editor';
+import type { Editor } from '../../edit/session/editor';
 import { TEXTS } from '../../texts/panels/inspector';
 
 export function SceneScore() {
@@ -24,14 +24,14 @@ export function SceneScore() {
 }
 
 function figures(e: Editor): (readonly [string, string])[] {
-  const [scene, set] = [e.scene.value, e.motion.value];
+  const [scene, set] = [e.scene.value, e.answers.motion.value];
   if (!scene?.agents.size || !set.score || set.stale) return [];
   const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
-  const hits = counted(e.events.value).filter((ev) => ev.kind === 'collision').length;
+  const hits = counted(e.reading.events.value).filter((ev) => ev.kind === 'collision').length;
   const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
   const reached = goals.filter((a) => meetsGoal(set, a)).length;
   const far = all.flatMap((a) =>
-    set.driving.has(a.id) ? (comparedWithLog(a, e.motionFor(a), scene.duration) ?? []) : [],
+    set.driving.has(a.id) ? (comparedWithLog(a, e.reading.motionFor(a), scene.duration) ?? []) : [],
   );
   const furthest = far.reduce((most, c) => Math.max(most, c.d), 0);
   const { minTtc, pet } = set.score;

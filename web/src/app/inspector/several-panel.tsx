@@ -5,10 +5,10 @@ import { KIND_WORDS, kindsWords, PLACED_KINDS, type AgentType } from '../../mode
 import { doing, hasGoal, touched, type Agent, type Others } from '../../model/document/scene';
 import { metres, seconds, speedLabel } from '../../model/base/units';
 import { perform } from '../../actions/registry';
-import * as several from '../../edit/several';
+import * as several from '../../edit/moves/several';
 import { gapNow, timeToCollision } from '../../model/physics/proximity';
-import { poseShown } from '../../edit/frame';
-import { shownPose } from '../../edit/moves';
+import { poseShown } from '../../edit/overlay/frame';
+import { shownPose } from '../../edit/moves/moves';
 import { OTHERS_DO } from '../parts/others';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
@@ -130,7 +130,7 @@ function FixedOf({ those, part, field }: { those: Live; part: 'start' | 'goal'; 
   const toggle = () => {
     const shown = (a: Agent): number | null => shownPose(editor, a, part)?.[field] ?? null;
     const command = several.fixAll(several.movable(those.peek()), part, field, shown);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   };
   const word = inSentence(field === 'heading' ? TEXTS.heading : TEXTS.speed);
   return (
@@ -215,7 +215,7 @@ function Kinds({ those }: { those: Live }) {
           aria-pressed={those.value.every((a) => a.kind === kind)}
           onClick={() => {
             const command = several.setKind(several.movable(those.peek()), kind);
-            if (command) editor.run(command);
+            if (command) editor.commits.run(command);
           }}
         >
           <Icon name={kind} size={18} />
@@ -273,7 +273,7 @@ function Who({ those }: { those: Live }) {
   const { editor } = c;
   // While a hand moves them nothing is compared.
   const now = useComputed(() => {
-    if (editor.dragging.value) return '';
+    if (editor.drag.active.value) return '';
     const boxes = those.value.flatMap((a) => {
       const pose = poseShown(editor, a);
       return pose ? [{ pose, length: a.length, width: a.width }] : [];
@@ -330,7 +330,7 @@ function SpeedNow({ agent }: { agent: Agent }) {
     // As it is in the document now: what was given may be how it was before a change.
     const a = editor.scene.value?.agents.get(agent.id);
     const p = a && poseShown(editor, a);
-    return p ? speedLabel(p.speed, editor.unitOf(a)) : '';
+    return p ? speedLabel(p.speed, editor.view.unitOf(a)) : '';
   });
   return <span class="mut">{words}</span>;
 }

@@ -21,9 +21,9 @@ import {
   walkingUnit,
 } from '../../model/base/units';
 import type { Command } from '../../model/document/commands';
-import type { Editor } from '../../edit/editor';
-import { goalTime } from '../../edit/moves';
-import * as several from '../../edit/several';
+import type { Editor } from '../../edit/session/editor';
+import { goalTime } from '../../edit/moves/moves';
+import * as several from '../../edit/moves/several';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-field';
@@ -46,7 +46,7 @@ export interface Shared {
 
 /** All on foot read what one reads of those, else all read what one reads of vehicles. */
 const speedUnit = (e: Editor, all: readonly Agent[]) =>
-  all.every((a) => a.type === 'pedestrian') ? walkingUnit(e.speedUnit.value) : e.speedUnit.value;
+  all.every((a) => a.type === 'pedestrian') ? walkingUnit(e.view.speedUnit.value) : e.view.speedUnit.value;
 
 const inAll = (all: readonly Agent[], of: (a: Agent) => readonly [number, number]): readonly [number, number] => [
   Math.max(...all.map((a) => of(a)[0])),
@@ -186,7 +186,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
 
   const run = (to: (now: number) => number, live = false) => {
     const command = shared.command(several.movable(those.peek()), to, live ? 'live' : undefined);
-    if (command) editor.run(command);
+    if (command) editor.commits.run(command);
   };
   /** A value of its own has to be possible for all; a change is kept within what each one can do. */
   const commit = (): boolean => {

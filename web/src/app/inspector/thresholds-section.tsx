@@ -50,7 +50,7 @@ export function ThresholdsSection({ last }: { last: boolean }) {
       ))}
       <p class="note">{TEXTS.whatANearMissIs}</p>
       {changed ? (
-        <button type="button" class="btn line" onClick={() => editor.run(resetThresholds())}>
+        <button type="button" class="btn line" onClick={() => editor.commits.run(resetThresholds())}>
           {TEXTS.resetToDefault}
         </button>
       ) : null}
@@ -77,7 +77,7 @@ function Line({ name }: { name: ThresholdName }) {
         text={() => (name === 'ttc_s' ? num : lengthText)(value.value, 1)}
         set={(v) => {
           const s = editor.scene.peek();
-          if (s) editor.run(setThreshold(s, name, v));
+          if (s) editor.commits.run(setThreshold(s, name, v));
         }}
       />
       <small class={own ? 'own' : ''}>{TEXTS.defaultIs(told(name, usual(name)))}</small>

@@ -10,5 +10,5 @@ export type LiveAgent = ReadonlySignal<Agent>;
 export function useAgent(id: string, of?: () => ReadonlySignal<Scene | null>): LiveAgent {
   const { editor } = useApp();
   const first = editor.scene.peek()!.agents.get(id)!;
-  return useComputed(() => editor.calm.read(() => (of?.() ?? editor.scene).value?.agents.get(id)) ?? first);
+  return useComputed(() => editor.reading.throttle.read(() => (of?.() ?? editor.scene).value?.agents.get(id)) ?? first);
 }

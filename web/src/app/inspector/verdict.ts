@@ -11,10 +11,10 @@ import { goalTimeOf, nameIn, type Agent } from '../../model/document/scene';
 import { stopsOf } from '../../model/physics/speed-profile';
 import { acceleration, metres, seconds, speedLabel } from '../../model/base/units';
 import { headline } from '../../model/words/verdict-words';
-import type { Editor } from '../../edit/editor';
-import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
+import type { Editor } from '../../edit/session/editor';
+import { outOfReach, verdictsHold } from '../../edit/moves/goal-verdict';
 import { TEXTS } from '../../texts/panels/agent';
-import { isGoalOfLog } from '../../edit/moves';
+import { isGoalOfLog } from '../../edit/moves/moves';
 import type { LiveAgent } from './use-agent';
 
 export interface Verdict {
@@ -39,11 +39,11 @@ const NO_LANE_M = 4;
 
 /** As panels say it: in a drag now and then. */
 export const verdictOn = (c: Context, agent: LiveAgent): Verdict | null =>
-  c.editor.calm.read(() => verdictNow(c, agent.value));
+  c.editor.reading.throttle.read(() => verdictNow(c, agent.value));
 
 function verdictNow(c: Context, a: Agent): Verdict | null {
   const { editor: e } = c;
-  if (e.away.value && e.motion.value.stale) return OUTDATED;
+  if (e.answers.away.value && e.answers.motion.value.stale) return OUTDATED;
   const bad = a.goal.pos ? outOfReach(e, a) : null;
   if (bad && !bad.outranked) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
   const judged = onFaults(c, a);
@@ -52,7 +52,7 @@ function verdictNow(c: Context, a: Agent): Verdict | null {
     const log = againstLog(c, a);
     return log ? { ...judged, words: `${judged.words} ${log.words}` } : judged;
   }
-  if (e.dragging.value) return judged ?? onQuickReach(c, a);
+  if (e.drag.active.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
   const log = againstLog(c, a);
   if (log && judged?.title === AS_RECORDED.title) return { ...judged, words: log.words };
@@ -76,10 +76,10 @@ const NO_LANE: Verdict = {
 
 /** `16 m in 9.0 s: 1.8 m/s, a brisk walk.` */
 function paceWords(e: Editor, a: Agent): string {
-  const way = wayUntil(e.motionFor(a), a.goal.time);
+  const way = wayUntil(e.reading.motionFor(a), a.goal.time);
   const v = way / a.goal.time;
   const how = a.type === 'pedestrian' && v > 0.2 ? `, ${WALKS.find(([most]) => v < most)![1]}` : '';
-  return TEXTS.pace(metres(way, 0), seconds(a.goal.time), speedLabel(v, e.unitOf(a)), how);
+  return TEXTS.pace(metres(way, 0), seconds(a.goal.time), speedLabel(v, e.view.unitOf(a)), how);
 }
 
 const WALKS = [
@@ -105,7 +105,7 @@ const AS_RECORDED: Verdict = {
 
 /** During a drag, until the generator has judged it, the quick answer stands even when it is yes. */
 function onQuickReach({ editor: e }: Context, a: Agent): Verdict | null {
-  const local = a.goal.pos ? e.localReach.value : null;
+  const local = a.goal.pos ? e.reading.localReach.value : null;
   return local && { kind: 'plain', icon: 'flag', title: local.title, words: local.words };
 }
 
@@ -119,10 +119,10 @@ const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
 
 /** What the generator says is wrong with the future that is shown. */
 function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
-  const f = e.futures.value;
+  const f = e.reading.futures.value;
   if (!f || !verdictsHold(e)) return null;
   const who = { type: a.type, nameOf: nameIn(e.scene.value!) };
-  const said = headline(f, e.chosen.value, goalTimeOf(a), who);
+  const said = headline(f, e.reading.chosen.value, goalTimeOf(a), who);
   if (!said) return null;
   const { mark, title, words, at } = said;
   if (mark === 'ok' && isGoalOfLog(a)) return AS_RECORDED;
@@ -131,14 +131,14 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
 }
 
 /** Of a speed that was drawn by hand, where nothing is wrong with it: what it does. */
-function onCurve({ editor: e }: Context, a: Agent): Verdict | null {
-  const f = e.futures.value;
-  const mode = f?.modes[e.chosen.value];
-  if (!f || !mode?.about || !e.curve.profile.value || e.chosen.value !== a.chosen) return null;
-  const holds = isSettled(f) && !e.motion.value.stale && verdictsHold(e);
+function onCurve({ editor: e, curve }: Context, a: Agent): Verdict | null {
+  const f = e.reading.futures.value;
+  const mode = f?.modes[e.reading.chosen.value];
+  if (!f || !mode?.about || !curve.profile.value || e.reading.chosen.value !== a.chosen) return null;
+  const holds = isSettled(f) && !e.answers.motion.value.stale && verdictsHold(e);
   if (!holds || markOf(mode.about) !== 'ok' || happening(e, a)) return null;
   const { motion } = mode;
-  const [stop] = stopsOf(motion, e.curve.profile.value.points);
+  const [stop] = stopsOf(motion, curve.profile.value.points);
   const after = stop ? Math.round((stop.from + stop.lasts) / STEP_S) - motion.first : 0;
   const goesOn = motion.speed.slice(after).some((v) => v > CREEPS_MPS);
   const title = !stop
@@ -159,15 +159,15 @@ function offLanes({ editor }: Context, a: Agent): boolean {
 }
 
 function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
-  const log = e.layers.value.log ? comparedWithLog(a, e.motionFor(a), e.scene.value!.duration) : null;
+  const log = e.view.layers.value.log ? comparedWithLog(a, e.reading.motionFor(a), e.scene.value!.duration) : null;
   if (!log) return null;
   const words = TEXTS.largestDistance(log.words, metres(log.d, 1), seconds(log.t));
   return { kind: 'plain', icon: 'eye', title: TEXTS.comparedWith, words };
 }
 
 function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
-  const f = e.futures.value;
-  if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.motion.value.stale || isJudged(f)) return null;
+  const f = e.reading.futures.value;
+  if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.answers.motion.value.stale || isJudged(f)) return null;
   // Nobody has judged them one by one; what is known to happen is said all the same.
   return happening(e, a) ?? goalReached(a, f, a.goal.pos);
 }
@@ -181,7 +181,7 @@ const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
 
 /** The worst that happens to it on the way it is shown on; null where nothing does. */
 function happening(e: Editor, a: Agent): Verdict | null {
-  const own = counted(e.events.value).filter((ev) => ev.a.id === a.id || ev.b?.id === a.id);
+  const own = counted(e.reading.events.value).filter((ev) => ev.a.id === a.id || ev.b?.id === a.id);
   const kind = worstOf(own);
   const worst = own.find((ev) => ev.kind === kind);
   if (!worst || !kind) return null;

@@ -3,9 +3,9 @@ import { useComputed } from '@preact/signals';
 import type { Vec } from '../../model/base/geometry';
 import { lengthText, lengthUnit, lengthUnitWord, metres, num, seconds } from '../../model/base/units';
 import { passed, VIA_TOLERANCE } from '../../model/document/vias';
-import { verdictsHold } from '../../edit/goal-verdict';
-import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/via-times';
-import { changeVia, moveVia, removeVia, viaName, widenVia } from '../../edit/vias';
+import { verdictsHold } from '../../edit/moves/goal-verdict';
+import { heldTime, outOfOrder, swapVias, toggleViaTime, viaTime } from '../../edit/moves/via-times';
+import { changeVia, moveVia, removeVia, viaName, widenVia } from '../../edit/moves/vias';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -40,13 +40,13 @@ export function ViasSection({ agent }: { agent: LiveAgent }) {
 /** The path would pass two of them the other way round: whether they swap is asked. */
 function Order({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const i = useComputed(() => (editor.dragging.value ? null : outOfOrder(editor, agent.value))).value;
+  const i = useComputed(() => (editor.drag.active.value ? null : outOfOrder(editor, agent.value))).value;
   if (i === null) return null;
   const words = TEXTS.liesBefore(viaName(agent.value, i + 1), inSentence(viaName(agent.value, i)));
   return (
     <p class="leave">
       {words}
-      <button type="button" class="words" onClick={() => editor.run(swapVias(agent.peek(), i))}>
+      <button type="button" class="words" onClick={() => editor.commits.run(swapVias(agent.peek(), i))}>
         {TEXTS.swap}
       </button>
     </p>
@@ -57,13 +57,13 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
   const { editor } = useApp();
   const via = () => agent.value.goal.via[i];
   const run = (c: Command | null): void => {
-    if (c) editor.run(c);
+    if (c) editor.commits.run(c);
   };
   const name = useComputed(() => viaName(agent.value, i)).value;
   const held = useComputed(() => editor.viaInHand.value === i).value;
   const said = useComputed(() => {
-    const f = editor.toldFutures.value;
-    const m = f?.modes[editor.toldChosen.value]?.motion;
+    const f = editor.reading.toldFutures.value;
+    const m = f?.modes[editor.reading.toldChosen.value]?.motion;
     const at = m && verdictsHold(editor) ? passed(agent.value.goal.via, m)[i] : null;
     if (!at) return '';
     return at.ok ? TEXTS.passedAt(seconds(at.time)) : TEXTS.awayAt(metres(at.away, 1), seconds(at.time));
@@ -71,7 +71,7 @@ function ViaRows({ agent, i }: { agent: LiveAgent; i: number }) {
   const fixed = useComputed(() => via()?.time != null).value;
   const take = () => editor.takeVia(i);
   const live = (handle: 'via' | 'ring') => () => {
-    const grip = editor.drag.value?.grip;
+    const grip = editor.drag.info.value?.grip;
     return grip?.handle === handle && grip.index === i;
   };
   const coordinate = (axis: 0 | 1) => (

@@ -7,7 +7,7 @@ import { messageText } from '../../model/words/message-text';
 import { SENTENCES } from '../../texts/messages/map-messages';
 import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
-import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
+import { FEWEST_ARMS, MOST_ARMS } from '../../edit/tools/layouts/layouts';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -63,8 +63,7 @@ const DRAGGED: ReadonlySet<string> = new Set(['kerb_radius_m', 'lane_width_m']);
 const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
 
 export default function LayoutPanel() {
-  const { editor, maker } = useApp();
-  const { layouts } = editor;
+  const { maker, layouts } = useApp();
   const wish = layouts.wish.value;
   const parameters = layouts.parameters.value;
   if (!wish) return null;
@@ -123,7 +122,8 @@ interface NumberRowProps {
 }
 
 function NumberRow({ place, name, value, set }: NumberRowProps) {
-  const { layouts, speedUnit } = useApp().editor;
+  const { editor, layouts } = useApp();
+  const { speedUnit } = editor.view;
   const { label, unit, step } = LINES[name];
   const template = layouts.wish.value!.template;
   const whole = Number.isInteger(step) && !unit;
@@ -171,7 +171,7 @@ function NumberRow({ place, name, value, set }: NumberRowProps) {
 }
 
 function ArmSection({ arms }: { arms: readonly Arm[] }) {
-  const { layouts } = useApp().editor;
+  const { layouts } = useApp();
   const index = Math.min(layouts.arm.value, arms.length - 1);
   const arm = arms[index];
   const set = (change: Partial<Arm>) => layouts.setArm(index, change);
@@ -280,7 +280,7 @@ const SIGNS = { left: '↰', straight: '↑', right: '↱' } as const;
 
 /** Where each lane leads; a click on a sign adds or takes it. */
 function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
-  const { layouts } = useApp().editor;
+  const { layouts } = useApp();
   // What turn lanes say, and what is there with single connections.
   const said = arm.turns ?? layouts.made.value?.arms[index]?.turns ?? [];
   if (!said.length) return null;
@@ -320,7 +320,7 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
 
 /** Single ways of the arm in hand: picked, taken away, added; the same as on the picture. */
 function Connections({ arm }: { arm: number }) {
-  const { layouts } = useApp().editor;
+  const { layouts } = useApp();
   const [lane, setLane] = useState(0);
   const [open, setOpen] = useState(false);
   const places = layouts.made.value?.arms ?? [];
@@ -446,7 +446,7 @@ function Choice<T extends string>({
 }
 
 function Whole({ parameters }: { parameters: Parameters }) {
-  const { layouts } = useApp().editor;
+  const { layouts } = useApp();
   const keys = Object.keys(LINES).filter((k) => k in parameters);
   const now = (key: string): number =>
     ((layouts.parameters.value as Record<string, unknown> | null)?.[key] as number | undefined) ?? 0;
@@ -485,7 +485,7 @@ function Whole({ parameters }: { parameters: Parameters }) {
 
 /** A corner that is drawn with a smaller radius than asked. */
 function Tightest({ asked_m }: { asked_m: number }) {
-  const made = useApp().editor.layouts.made.value;
+  const made = useApp().layouts.made.value;
   const [least] = [...(made?.corners ?? [])].sort((a, b) => a.radius_m - b.radius_m);
   if (!made || !least || least.radius_m > asked_m - 0.05) return null;
   const [a, b] = least.arms.map((arm) => armTitle(made.arms[arm].name));
@@ -493,9 +493,9 @@ function Tightest({ asked_m }: { asked_m: number }) {
 }
 
 function Checks() {
-  const { editor, stage } = useApp();
-  const made = editor.layouts.made.value;
-  const fault = editor.layouts.fault.value;
+  const { stage, layouts } = useApp();
+  const made = layouts.made.value;
+  const fault = layouts.fault.value;
   const failed = made?.checks.filter((c) => !c.passed) ?? [];
   return (
     <section class="sect last" aria-label={TEXTS.checks}>

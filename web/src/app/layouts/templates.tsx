@@ -3,9 +3,9 @@ import { useEffect, useRef } from 'preact/hooks';
 import { readScene } from '../../model/document/scene-reader';
 import { TEMPLATES, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { MapPicture } from '../../draw/paint-map';
-import { paintOn } from '../../draw/replay';
+import { paintOn } from '../../draw/recording/replay';
 import { View } from '../../draw/view';
-import type { LayoutMaker } from '../../edit/layout-maker';
+import type { LayoutMaker } from '../../edit/tools/layouts/layout-maker';
 import type { TemplateName } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
@@ -62,8 +62,7 @@ function Small({ template }: { template: TemplateName }) {
 }
 
 export default function Templates() {
-  const { editor, maker } = useApp();
-  const { layouts } = editor;
+  const { maker, layouts } = useApp();
   const now = layouts.wish.value?.template;
   return (
     <section class="card templates" aria-label={TEXTS.startFrom}>

@@ -2,11 +2,11 @@
 import { num } from '../../model/base/units';
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
-import { saveAll, whyNot, type ExportedFile } from '../../edit/download';
-import { found, meant } from '../../edit/outward/finding';
-import { WISHES } from '../../edit/outward/formats';
-import { stays, type Loss } from '../../edit/outward/losses';
-import type { Scope } from '../../edit/variants/variants';
+import { saveAll, whyNot, type ExportedFile } from '../../edit/tools/outward/download';
+import { found, meant } from '../../edit/tools/outward/finding';
+import { WISHES } from '../../edit/tools/outward/formats';
+import { stays, type Loss } from '../../edit/tools/outward/losses';
+import type { Scope } from '../../edit/tools/variants/variants';
 import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -109,7 +109,7 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const shown = found(kinds, sought.value);
   const kind = kinds.find((k) => k.id === chosen.value)!;
   const { editor } = useApp();
-  const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.motion.peek()));
+  const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.answers.motion.peek()));
   // What earlier letters have chosen is not meant any more.
   const ready = shown.length ? made.value.get(kind.id) : TEXTS.noFormatOfThat;
   const choose = (step: number) => {

@@ -2,16 +2,16 @@
 import { deg } from '../../model/base/geometry';
 import { num, seconds } from '../../model/base/units';
 import type { Context } from '../../actions/context';
-import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
-import { eventsTable } from '../../edit/outward/events-table';
-import type { Findable } from '../../edit/outward/finding';
-import { film, filmEnding, filmKind } from '../../edit/outward/film';
-import { movingPicture } from '../../edit/outward/moving-picture';
-import { outFormats, type Wish } from '../../edit/outward/formats';
-import { reportPage } from '../../edit/outward/report-page';
-import type { WholeCard } from '../../edit/variants/cards';
+import { exported, exportedJson, slug, type ExportedFile } from '../../edit/tools/outward/download';
+import { eventsTable } from '../../edit/tools/outward/events-table';
+import type { Findable } from '../../edit/tools/outward/finding';
+import { film, filmEnding, filmKind } from '../../edit/tools/outward/film';
+import { movingPicture } from '../../edit/tools/outward/moving-picture';
+import { outFormats, type Wish } from '../../edit/tools/outward/formats';
+import { reportPage } from '../../edit/tools/outward/report-page';
+import type { WholeCard } from '../../edit/tools/variants/cards';
 import { paintLegend } from '../../draw/legend';
-import { opaquePen, paintOn } from '../../draw/replay';
+import { opaquePen, paintOn } from '../../draw/recording/replay';
 import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
 import { TEXTS } from '../../texts/files/export';
@@ -41,14 +41,14 @@ function pictureOf({ editor, stage }: Context): HTMLCanvasElement {
   stage.paintOn(canvas, ['map', 'agents', 'overlay'], FINE);
   const g = opaquePen(canvas);
   g.setTransform(FINE, 0, 0, FINE, 0, 0);
-  paintOn(g, (pen) => paintLegend(pen, stage.view, editor.time.peek()));
+  paintOn(g, (pen) => paintLegend(pen, stage.view, editor.playhead.time.peek()));
   return canvas;
 }
 
 /** What is made here: events, pictures and a report of what is on screen. */
 export function ofScreen(c: Context): Kind[] {
   const { editor, stage } = c;
-  const time = editor.time.peek();
+  const time = editor.playhead.time.peek();
   const scene = editor.scene.peek()!;
   const view = TEXTS.thisViewAtS(num(time, 1));
   const moving = filmKind();
@@ -61,9 +61,9 @@ export function ofScreen(c: Context): Kind[] {
       ending: '.csv',
       icon: 'warn',
       name: TEXTS.eventsTableNames,
-      tag: TEXTS.eventsInIt(editor.events.peek().length),
+      tag: TEXTS.eventsInIt(editor.reading.events.peek().length),
       make: () => {
-        const rows = eventsTable(editor.events.peek());
+        const rows = eventsTable(editor.reading.events.peek());
         return Promise.resolve(named(c, new Blob([rows], { type: 'text/csv' }), 'csv', TEXTS.eventsName));
       },
     },
@@ -79,10 +79,10 @@ export function ofScreen(c: Context): Kind[] {
         const picture = pictureOf(c).toDataURL('image/png');
         const page = reportPage({
           scene,
-          motion: editor.motion.peek(),
-          events: editor.events.peek(),
+          motion: editor.answers.motion.peek(),
+          events: editor.reading.events.peek(),
           variant: c.variants.card(c.variants.shown.peek())?.name ?? null,
-          unit: editor.speedUnit.peek(),
+          unit: editor.view.speedUnit.peek(),
           picture,
           time,
           origin: originOf(c),

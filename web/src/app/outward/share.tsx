@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import type { Link, Parts } from '../../edit/document/sharing';
 import { MOST_LINK_BYTES } from '../../edit/document/share-link';
-import { download } from '../../edit/download';
+import { download } from '../../edit/tools/outward/download';
 import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -21,7 +21,7 @@ export default function Share() {
   const parts = useSignal<Parts>(ALL);
   const link = useSignal<Link | null>(null);
   const copied = useSignal(false);
-  const time = editor.time.value;
+  const time = editor.playhead.time.value;
   useEffect(() => {
     let newest = true;
     void sharing.link(parts.value, { time, camera: stage.view.camera }).then((made) => {

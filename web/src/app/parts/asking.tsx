@@ -12,7 +12,7 @@ import { TEXTS as CODE } from '../../texts/files/result-code';
 
 export function Controls() {
   const { editor } = useApp();
-  const away = useComputed(() => editor.away.value !== null).value;
+  const away = useComputed(() => editor.answers.away.value !== null).value;
   return (
     <>
       <span class="fieldlab">{TEXTS.seed}</span>
@@ -35,7 +35,7 @@ function ResultCode() {
   const { editor } = useApp();
   const code = useComputed(() => {
     const scene = editor.resting.value;
-    return scene ? resultCode(scene, editor.motion.value) : '';
+    return scene ? resultCode(scene, editor.answers.motion.value) : '';
   });
   const copy = () => {
     void navigator.clipboard?.writeText(code.peek()).catch(() => undefined);
@@ -57,7 +57,7 @@ function ResultCode() {
 function SceneSeed() {
   const { editor } = useApp();
   const seed = useComputed(() => editor.resting.value?.seed ?? DEFAULTS.seed).value;
-  return <SeedField label={TEXTS.seed} seed={seed} set={(v) => editor.run(setSeed(v))} />;
+  return <SeedField label={TEXTS.seed} seed={seed} set={(v) => editor.commits.run(setSeed(v))} />;
 }
 
 interface SeedFieldProps {
@@ -112,7 +112,7 @@ function DiversitySlider() {
         title={TEXTS.howFarTheSix}
         set={(to) => {
           const v = to / 100;
-          if (v !== editor.scene.peek()?.diversity) editor.run(setDiversity(v));
+          if (v !== editor.scene.peek()?.diversity) editor.commits.run(setDiversity(v));
         }}
       />
       <span class="pct">{percent}%</span>

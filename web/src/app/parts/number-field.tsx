@@ -95,7 +95,7 @@ export function NumberField(props: NumberFieldProps) {
   };
 
   useLiveEffect(() => {
-    const text = editor.calm.read(p.text);
+    const text = editor.reading.throttle.read(p.text);
     const el = input.current!;
     if (typed.current || el.value === text) return;
     el.value = text;

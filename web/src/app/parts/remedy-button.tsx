@@ -1,6 +1,6 @@
 // A way out as a button: pointed at it shows what comes of it, pressed it is one step.
-import type { Remedy } from '../../edit/moves';
-import type { Outcome } from '../../edit/weighing';
+import type { Remedy } from '../../edit/moves/moves';
+import type { Outcome } from '../../edit/asking/remedy-outcomes';
 import { useApp } from './app-context';
 import { Icon } from './icons';
 import { useTrying } from './trying';
@@ -16,7 +16,7 @@ export function RemedyButton({ remedy, outcome }: { remedy: Remedy; outcome?: Ou
       data-remedy={label}
       title={outcome?.words}
       {...useTrying(command)}
-      onClick={() => editor.run(command)}
+      onClick={() => editor.commits.run(command)}
     >
       <Icon name={icon} size={15} />
       {label}

@@ -4,22 +4,22 @@ import type { Command } from '../../model/document/commands';
 import { useApp } from './app-context';
 
 export function useTrying(command: Command) {
-  const { trial } = useApp();
+  const { remedyPreview } = useApp();
   const on = useRef(false);
   const begin = () => {
     on.current = true;
-    trial.begin(command);
+    remedyPreview.begin(command);
   };
   const stop = () => {
     on.current = false;
-    trial.stop();
+    remedyPreview.stop();
   };
   // A button that goes from under the pointer hears nothing of its leaving.
   useEffect(
     () => () => {
-      if (on.current) trial.stop();
+      if (on.current) remedyPreview.stop();
     },
-    [trial],
+    [remedyPreview],
   );
   return { onPointerEnter: begin, onPointerLeave: stop, onFocus: begin, onBlur: stop };
 }

@@ -4,8 +4,8 @@ import { useComputed, useSignal } from '@preact/signals';
 import { factWords, reasons, wishKey } from '../../model/words/feedback-words';
 import { LETTERS } from '../../model/document/futures';
 import { nameIn } from '../../model/document/scene';
-import type { Hand } from '../../edit/rounds/deck';
-import type { Pictured } from '../../edit/variants/cards';
+import type { Hand } from '../../edit/tools/rounds/deck';
+import type { Pictured } from '../../edit/tools/variants/cards';
 import { LivePicture, type Album } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -21,8 +21,7 @@ interface Props {
 }
 
 export function CardView({ hand, index, picture, album }: Props) {
-  const { editor, rounds } = useApp();
-  const { deck } = editor;
+  const { editor, rounds, deck } = useApp();
   const said = useComputed(() => rounds.said.value[index] ?? null).value;
   const current = useComputed(() => deck.current.value === index).value;
   const { features } = hand.round.cards[index];

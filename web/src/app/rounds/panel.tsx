@@ -3,8 +3,8 @@ import { earlierAnswers, type Answer } from '../../model/document/feedback';
 import type { Subject } from '../../model/document/feedback-commands';
 import { againstWords, restsOn, wishes, wishKey } from '../../model/words/feedback-words';
 import { nameIn } from '../../model/document/scene';
-import type { Editor } from '../../edit/editor';
-import type { Wished } from '../../edit/rounds/rounds';
+import type { Editor } from '../../edit/session/editor';
+import type { Wished } from '../../edit/tools/rounds/rounds';
 import type { SpeedUnit } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -56,17 +56,17 @@ const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 /** Of everybody speeds are told as those of vehicles. */
 function unitFor(e: Editor, { id }: Subject): SpeedUnit {
   const a = id === null ? undefined : e.scene.value?.agents.get(id);
-  return a ? e.unitOf(a) : e.speedUnit.value;
+  return a ? e.view.unitOf(a) : e.view.speedUnit.value;
 }
 
 const percent = (v: number): string => `${Math.round(v * 100)}%`;
 
 function RoundList({ subject }: Of) {
-  const { editor, rounds } = useApp();
+  const { rounds, deck } = useApp();
   const now = rounds.asked.value?.round ?? 1;
   const answers = subject.feedback?.answers ?? [];
   const done = new Set([...answers.map((x) => x.round), now]);
-  const hand = editor.deck.hand.value;
+  const hand = deck.hand.value;
   const matches = hand?.asked.round === now ? hand.round.cards.flatMap((x) => x.match ?? []) : [];
   return (
     <section class="sect roundlist">
@@ -111,10 +111,10 @@ function Wishes({ subject }: Of) {
 }
 
 function WishRow({ wished, subject }: Of & { wished: Wished }) {
-  const { editor, rounds } = useApp();
+  const { editor, rounds, deck } = useApp();
   const { words, learned } = wished;
   const scene = editor.scene.value!;
-  const hand = editor.deck.hand.value;
+  const hand = deck.hand.value;
   const answers = hand ? earlierAnswers(subject.feedback, hand.asked) : [];
   const rests = learned
     ? restsOn(learned, answers, { nameOf: nameIn(scene), unit: unitFor(editor, subject) })
@@ -137,8 +137,8 @@ function WishRow({ wished, subject }: Of & { wished: Wished }) {
 }
 
 function AddWish() {
-  const { editor, rounds } = useApp();
-  const hand = editor.deck.hand.value;
+  const { editor, rounds, deck } = useApp();
+  const hand = deck.hand.value;
   const scene = editor.scene.value;
   if (!hand || !scene) return null;
   const known = new Set(rounds.wished.value.map((w) => wishKey(w.wish)));
@@ -170,8 +170,8 @@ function AddWish() {
 const MOST_NAMED = 3;
 
 function Apart({ subject }: Of) {
-  const { editor, rounds } = useApp();
-  const hand = editor.deck.hand.value;
+  const { rounds, deck } = useApp();
+  const hand = deck.hand.value;
   if (!hand) return null;
   const answers = earlierAnswers(subject.feedback, hand.asked);
   const torn = rounds.wished.value.flatMap((w) => {

@@ -4,9 +4,9 @@ import { choose } from '../../model/document/commands';
 import type { Scene } from '../../model/document/scene';
 import type { MotionSet } from '../../model/document/futures';
 import { readEvents } from '../../model/words/event-words';
-import type { Hand } from '../../edit/rounds/deck';
+import type { Hand } from '../../edit/tools/rounds/deck';
 import { useAlbum } from '../variants/album';
-import type { Pictured } from '../../edit/variants/cards';
+import type { Pictured } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -26,8 +26,7 @@ const USUAL_ROUNDS = 5;
 
 export default function RoundStrip() {
   const c = useApp();
-  const { editor, rounds } = c;
-  const { deck } = editor;
+  const { rounds, deck } = c;
   const hand = deck.hand.value;
   const problem = deck.problem.value;
   const asking = deck.asking.value;
@@ -67,12 +66,12 @@ export default function RoundStrip() {
 }
 
 function Title() {
-  const { editor, rounds } = useApp();
+  const { rounds, deck } = useApp();
   const round = rounds.asked.value?.round ?? 1;
   const subject = rounds.subject.value;
-  const asking = editor.deck.asking.value;
+  const asking = deck.asking.value;
   const all = Math.max(USUAL_ROUNDS, round);
-  const n = editor.deck.hand.value?.names.length;
+  const n = deck.hand.value?.names.length;
   const many = n === 6 || !n ? TEXTS.six : n;
   const what = subject?.id === null ? TEXTS.futuresOfTheScene(many) : TEXTS.futuresOf(many, subject?.name ?? '');
   return (
@@ -114,7 +113,7 @@ function Keep() {
 
 function Cards({ hand }: { hand: Hand }) {
   const { editor } = useApp();
-  const motion = editor.motion.value;
+  const motion = editor.answers.motion.value;
   const pictures = useMemo(() => picturesOf(editor.scene.peek()!, motion, hand), [hand, motion]);
   const album = useAlbum(pictures);
   return (

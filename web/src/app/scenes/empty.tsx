@@ -46,7 +46,7 @@ export function Empty() {
 
 function Words({ some }: { some: boolean }) {
   const { editor } = useApp();
-  const away = useComputed(() => editor.away.value !== null).value;
+  const away = useComputed(() => editor.answers.away.value !== null).value;
   const none = away ? TEXTS.theServerIsNot : TEXTS.noExamplesFound;
   return <p>{some ? TEXTS.openAnExample : none}</p>;
 }

@@ -7,7 +7,7 @@ import { busyBox } from '../../model/physics/scene-centre';
 import { readScene } from '../../model/document/scene-reader';
 import { isRecorded, startPose, type Scene } from '../../model/document/scene';
 import { MapPicture } from '../../draw/paint-map';
-import { paintOn } from '../../draw/replay';
+import { paintOn } from '../../draw/recording/replay';
 import { stamp } from '../../draw/sprites';
 import { paletteStamp } from '../../draw/theme';
 import { View } from '../../draw/view';

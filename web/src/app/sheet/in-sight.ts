@@ -2,7 +2,7 @@
 import type { Opening } from '../../actions/context';
 import { FLAG_HEIGHT } from '../../draw/handles';
 import type { View } from '../../draw/view';
-import { poseShown } from '../../edit/frame';
+import { poseShown } from '../../edit/overlay/frame';
 import { boxOf, type OnLine, type Vec } from '../../model/base/geometry';
 import type { Agent } from '../../model/document/scene';
 import { endShown, whenItsEndIsKnown } from '../look';
@@ -21,7 +21,7 @@ export function keepInSight(c: Opening): void {
     const seen = shownOf(c, ids).some(([, p]) => before.shows(p.x, p.y));
     // Who is taken along at once by the hand that selected it stays under that hand.
     queueMicrotask(() => {
-      if (!seen || editor.dragging.peek()) return;
+      if (!seen || editor.drag.active.peek()) return;
       panTo(c, ids);
       whenItsEndIsKnown(c, ids, () => panTo(c, ids));
     });

@@ -25,7 +25,7 @@ export function Sheet() {
   const inHand = useSignal<number | null>(null);
   const px = useComputed(() => {
     const wanted = inHand.value ?? form.pixels(form.height.value);
-    return editor.dragging.value ? Math.min(wanted, form.whileDragging) : wanted;
+    return editor.drag.active.value ? Math.min(wanted, form.whileDragging) : wanted;
   });
   const opened = useRef<string | null>(null);
   /** Is a list over the picture that has no room beside an open sheet? */

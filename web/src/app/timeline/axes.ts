@@ -37,7 +37,11 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
   const several = severalShown(c);
   const agent = several.length ? null : editor.agent.peek();
   const onFoot = several.length > 0 && several.every((l) => l.agent.type === 'pedestrian');
-  const unit = agent ? editor.unitOf(agent) : onFoot ? walkingUnit(editor.speedUnit.peek()) : editor.speedUnit.peek();
+  const unit = agent
+    ? editor.view.unitOf(agent)
+    : onFoot
+      ? walkingUnit(editor.view.speedUnit.peek())
+      : editor.view.speedUnit.peek();
   const duration = editor.scene.peek()?.duration ?? 9;
   const x1 = w - RIGHT;
   const y0 = LANE + 6;
@@ -71,9 +75,9 @@ export const eventShown = ({ editor }: Context): TrafficEvent | null =>
 
 /** What happens in the plot: of two variants in both, each told by its number. */
 export function eventsShown(c: Context): readonly TrafficEvent[] {
-  if (c.editor.layouts.isNew.peek()) return [];
+  if (c.layouts.isNew.peek()) return [];
   const both = c.variants.compared.peek();
-  if (!both) return c.editor.shownEvents.peek();
+  if (!both) return c.editor.reading.shownEvents.peek();
   const who = c.variants.followed.peek()?.agent.id;
   return [both.left, both.right]
     .flatMap(({ id, events }) =>
@@ -92,17 +96,17 @@ export function severalShown(c: Context): Line[] {
   const { editor } = c;
   const both = c.variants.followed.peek();
   if (both) return [both.left, both.right].map((motion) => ({ agent: both.agent, motion }));
-  const b = editor.beside.peek();
+  const b = editor.view.beside.peek();
   const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);
   if (b && inCase) return inCase.map((agent) => ({ agent, motion: motionOf(b.scene, b.set, agent) }));
   const event = eventShown(c);
   if (event) {
     const who = [event.a, event.b].flatMap((a) => editor.scene.peek()?.agents.get(a?.id ?? '') ?? []);
-    return untracked(() => who.map((agent) => ({ agent, motion: editor.motionFor(agent) })));
+    return untracked(() => who.map((agent) => ({ agent, motion: editor.reading.motionFor(agent) })));
   }
-  return editor.selected.peek().length > 1 && !editor.dragging.peek()
+  return editor.selected.peek().length > 1 && !editor.drag.active.peek()
     ? untracked(() =>
-        editor.chosenOnes.slice(0, MOST_LINES).map((agent) => ({ agent, motion: editor.motionFor(agent) })),
+        editor.chosenOnes.slice(0, MOST_LINES).map((agent) => ({ agent, motion: editor.reading.motionFor(agent) })),
       )
     : [];
 }
@@ -115,7 +119,7 @@ function topSpeedShown(c: Context, unit: SpeedUnit): number {
   const motions: Motion[] = [
     ...several,
     ...(log ? [log] : []),
-    ...(editor.futures.peek()?.modes.map((m) => m.motion) ?? []),
+    ...(editor.reading.futures.peek()?.modes.map((m) => m.motion) ?? []),
   ];
   let max = 0;
   for (const m of motions) for (const v of m.speed) max = Math.max(max, toUnit(Math.abs(v), unit));

@@ -10,8 +10,7 @@ import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/panels/point-fields';
 
 export function CurveMisfit() {
-  const { editor } = useApp();
-  const { curve } = editor;
+  const { editor, curve } = useApp();
   // What is shown goes with its buttons.
   useEffect(() => () => curve.try(null), [curve]);
   const a = editor.agent.value;
@@ -21,7 +20,7 @@ export function CurveMisfit() {
   const goal = a.goal.pos && { at: a.goal.pos, time: a.goal.time };
   const misfit = misfitOf({ profile, limits: limitsOf(a), duration, top: topSpeed(a), goal });
   if (!misfit) return null;
-  const unit = editor.unitOf(a);
+  const unit = editor.view.unitOf(a);
   return (
     <div class="misfit" role="group" aria-label={TEXTS.whyTheCurveCannot}>
       <p role="status">

@@ -6,7 +6,7 @@ import { isSettled, type Future, type Futures } from '../../model/document/futur
 import { startPose, touched, type Agent } from '../../model/document/scene';
 import { toUnit } from '../../model/base/units';
 import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
-import type { Editor } from '../../edit/editor';
+import type { Context } from '../../actions/context';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
 import { eventShown, severalShown, X0, type Axes, type Line } from './axes';
@@ -14,14 +14,14 @@ import { TEXTS } from '../../texts/panels/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
   const c = useApp();
-  const { editor } = c;
+  const { editor, curve } = c;
   const several = severalShown(c);
-  const meeting = editor.beside.peek()?.meeting;
+  const meeting = editor.view.beside.peek()?.meeting;
   const both = c.variants.followed.peek() && c.variants.compared.peek();
   const event = eventShown(c);
   const few = !!both || !!meeting || !!event;
   const agent = meeting || both ? null : editor.agent.peek();
-  const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
+  const dashed = curve.before.peek() ? TEXTS.before : editor.view.layers.peek().log ? TEXTS.log : null;
   const name = agent
     ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
     : both
@@ -34,7 +34,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
             ? TEXTS.selectedOneLine(several.length, editor.selected.peek().length)
             : '';
   const drawn = agent
-    ? (editor.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
+    ? (editor.reading.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
     : several.map((l) => l.motion);
   return (
     <>
@@ -89,12 +89,12 @@ function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]
 function Hint({ axes: a }: { axes: Axes }) {
   return (
     <text class="big back" x={(X0 + a.x1) / 2} y={(a.y0 + a.y1) / 2 + 4} text-anchor="middle">
-      {whatIsMissing(useApp().editor)}
+      {whatIsMissing(useApp())}
     </text>
   );
 }
 
-function whatIsMissing({ layouts, resting }: Editor): string {
+function whatIsMissing({ layouts, editor: { resting } }: Context): string {
   if (layouts.isNew.peek()) return TEXTS.nobodyOnThisMap;
   const scene = resting.peek();
   if (!scene) return TEXTS.nothingToPlay;
@@ -102,14 +102,14 @@ function whatIsMissing({ layouts, resting }: Editor): string {
 }
 
 function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
-  const { editor } = useApp();
-  const f = editor.futures.peek();
-  const before = f && editor.curve.before.peek();
+  const { editor, curve } = useApp();
+  const f = editor.reading.futures.peek();
+  const before = f && curve.before.peek();
   // What is to be taken hold of is drawn apart; while a handle is dragged nothing is.
-  const taken = editor.curve.points.peek().length > 0 && !editor.dragging.peek();
+  const taken = curve.points.peek().length > 0 && !editor.drag.active.peek();
   // Of two dashed lines one would be taken for the other.
-  const showLog = !before && (editor.layers.peek().log || !f || editor.replays.peek());
-  const inForce = !f || editor.replays.peek();
+  const showLog = !before && (editor.view.layers.peek().log || !f || editor.reading.replays.peek());
+  const inForce = !f || editor.reading.replays.peek();
   return (
     <>
       {before ? <Curve axes={axes} motion={before} colour="var(--ink-2)" width={1.5} opacity={0.9} dash="4 3" /> : null}
@@ -138,13 +138,13 @@ const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 
 /** The one in force last, on top of the others. */
 function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
-  const { editor } = useApp();
-  const chosen = editor.bold.peek();
+  const { editor, curve } = useApp();
+  const chosen = editor.reading.bold.peek();
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';
   // Of a speed drawn by hand the others are no answer.
-  const others = !editor.curve.profile.peek();
+  const others = !curve.profile.peek();
   const inForce: Future | undefined = f.modes[chosen];
   return (
     <>
@@ -224,7 +224,7 @@ function StartPoint({ axes: a, agent }: { axes: Axes; agent: Agent }) {
 
 function GoalPoint({ axes: a, agent }: { axes: Axes; agent: Agent }) {
   const { editor } = useApp();
-  const goal = untracked(() => editor.goalPose(agent));
+  const goal = untracked(() => editor.reading.goalPose(agent));
   if (!goal || !agent.goal.pos) return null;
   const free = agent.goal.speed === null;
   return (

@@ -59,8 +59,8 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const to = events[turn % events.length];
   // What happens in a case or a variant is no event of the scene as it is.
-  const elsewhere = () => c.editor.beside.peek()?.meeting ?? c.variants.compared.peek();
-  const go = () => (elsewhere() ? c.editor.setTime(to.time) : goToEvent(c, to));
+  const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.compared.peek();
+  const go = () => (elsewhere() ? c.editor.playhead.moveTo(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
   const x = p.x - SIGN - (p.words === 'left' ? w : 0);
   const ink = `var(${INK[e.kind]})`;

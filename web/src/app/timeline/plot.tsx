@@ -5,7 +5,7 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { canMove } from '../../model/document/scene';
 import { fromUnit, num } from '../../model/base/units';
-import { addViaAt } from '../../edit/vias';
+import { addViaAt } from '../../edit/moves/vias';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 import { useFrameTick } from '../parts/hooks';
@@ -16,36 +16,36 @@ import { EventTimes, Grid } from './grid';
 import { TEXTS } from '../../texts/panels/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
-const shown = ({ editor, variants }: Context): unknown => [
-  editor.layouts.isNew.value,
+const shown = ({ editor, variants, layouts, curve }: Context): unknown => [
+  layouts.isNew.value,
   variants.compared.value,
   variants.followed.value,
   editor.agent.value,
   editor.selected.value,
   editor.selected.value.length > 1 && editor.hover.value,
-  editor.futures.value,
-  editor.bold.value,
-  editor.replays.value,
-  editor.motion.value,
-  editor.shownEvents.value,
-  editor.beside.value,
-  editor.dragging.value,
-  editor.layers.value.log,
+  editor.reading.futures.value,
+  editor.reading.bold.value,
+  editor.reading.replays.value,
+  editor.answers.motion.value,
+  editor.reading.shownEvents.value,
+  editor.view.beside.value,
+  editor.drag.active.value,
+  editor.view.layers.value.log,
   editor.scene.value,
-  editor.speedUnit.value,
+  editor.view.speedUnit.value,
   editor.selectedEvent.value,
   editor.hoverFuture.value,
-  editor.curve.points.value,
-  editor.curve.before.value,
+  curve.points.value,
+  curve.before.value,
 ];
 
 export function Plot() {
   const c = useApp();
-  const { editor } = c;
+  const { editor, curve } = c;
   const box = useRef<HTMLDivElement>(null);
   const size = useSignal<Size>({ w: 900, h: 110 });
-  const tick = useFrameTick(() => [editor.calm.read(() => shown(c)), size.value]);
-  const now = useComputed(() => editor.time.value.toFixed(1));
+  const tick = useFrameTick(() => [editor.reading.throttle.read(() => shown(c)), size.value]);
+  const now = useComputed(() => editor.playhead.time.value.toFixed(1));
   const end = useComputed(() => String(editor.resting.value?.duration ?? 9));
   useLayoutEffect(() => {
     const el = box.current!;
@@ -59,7 +59,7 @@ export function Plot() {
   /** Worked out once for all that is drawn by them. */
   const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const seek = useSeek(c, size);
-  const pointed = useComputed(() => editor.curve.point.value !== null).value;
+  const pointed = useComputed(() => curve.point.value !== null).value;
   return (
     <div ref={box} class="plot">
       <div
@@ -70,7 +70,7 @@ export function Plot() {
         aria-valuemin={0}
         aria-valuemax={end as never}
         aria-valuenow={now as never}
-        aria-valuetext={useComputed(() => TEXTS.seconds(num(editor.time.value, 1)))}
+        aria-valuetext={useComputed(() => TEXTS.seconds(num(editor.playhead.time.value, 1)))}
         {...seek}
       >
         <svg role="img" aria-label={TEXTS.speedOverTime}>
@@ -118,16 +118,16 @@ function Badges({ tick, axes }: DrawingProps) {
 }
 
 function Points({ tick, axes }: DrawingProps) {
-  const { editor } = useApp();
+  const { editor, curve } = useApp();
   void tick.value;
   // What is shown then is another motion than the one whose points these are.
-  if (editor.beside.peek()?.meeting || editor.dragging.peek()) return null;
-  return editor.curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
+  if (editor.view.beside.peek()?.meeting || editor.drag.active.peek()) return null;
+  return curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
 }
 
 function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
   const c = useApp();
-  const x = useComputed(() => axes.value.x(c.editor.time.value));
+  const x = useComputed(() => axes.value.x(c.editor.playhead.time.value));
   return (
     <g class="head">
       <line x1={x} x2={x} y1={1} y2={useComputed(() => axes.value.y1)} stroke="var(--ink)" stroke-width={1.5} />
@@ -153,7 +153,7 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
     return tenth(((x - X0) / (a.x1 - X0)) * a.duration);
   };
   const seek = (e: PointerEvent & { currentTarget: HTMLElement }) => {
-    c.editor.setTime(timeAt(e));
+    c.editor.playhead.moveTo(timeAt(e));
   };
   return {
     onPointerDown: (e: PointerEvent & { currentTarget: HTMLElement }) => {
@@ -162,13 +162,13 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
       const a = c.editor.agent.peek();
       const added = e.shiftKey && a && canMove(a) ? addViaAt(c.editor, a, timeAt(e)) : null;
       if (added) {
-        c.editor.run(added.command);
+        c.editor.commits.run(added.command);
         c.editor.takeVia(added.index);
         return;
       }
-      c.editor.curve.take(null);
+      c.curve.take(null);
       on.current = true;
-      before.current = [before.current[1], c.editor.time.peek()];
+      before.current = [before.current[1], c.editor.playhead.time.peek()];
       e.currentTarget.setPointerCapture(e.pointerId);
       c.editor.playhead.pause();
       seek(e);
@@ -185,10 +185,10 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
       const r = e.currentTarget.getBoundingClientRect();
       const [x, y] = [e.clientX - r.left, e.clientY - r.top];
       const v = ((a.y1 - y) / (a.y1 - a.y0)) * a.top;
-      const why = c.editor.curve.why;
-      c.editor.setTime(before.current[0]);
+      const why = c.curve.why;
+      c.editor.playhead.moveTo(before.current[0]);
       if (why) c.editor.notices.show({ text: why });
-      else c.editor.curve.add(((x - X0) / (a.x1 - X0)) * a.duration, Math.max(0, fromUnit(v, a.unit)));
+      else c.curve.add(((x - X0) / (a.x1 - X0)) * a.duration, Math.max(0, fromUnit(v, a.unit)));
     },
     onKeyDown: (e: KeyboardEvent) => {
       if (e.key !== 'ArrowLeft' && e.key !== 'ArrowRight') return;
@@ -196,7 +196,7 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
       e.stopPropagation();
       const step = (e.key === 'ArrowLeft' ? -1 : 1) * (e.shiftKey ? 1 : 0.1);
       c.editor.playhead.pause();
-      c.editor.setTime(tenth(c.editor.time.peek() + step));
+      c.editor.playhead.moveTo(tenth(c.editor.playhead.time.peek() + step));
     },
   };
 }

@@ -14,19 +14,19 @@ const HARD_MPS2 = 4;
 const TOO_HARD_MPS2 = 8;
 
 export function PointFields() {
-  const { editor } = useApp();
-  const { curve } = editor;
+  const { editor, curve } = useApp();
   const agent = editor.agent.value;
   const i = curve.point.value;
   const p = i === null ? undefined : curve.points.value[i];
   if (!agent || agent.locked || i === null || !p || !curve.profile.value) return null;
-  const unit = editor.unitOf(agent);
+  const unit = editor.view.unitOf(agent);
   // Which point it is, too, is read anew: the fields stay while another is taken.
   const at = () => curve.point.value ?? i;
   const room = () => roomOf(curve.points.value, at(), editor.scene.value?.duration ?? 9);
   const now = () => curve.points.value[at()] ?? p;
   // Of what is in hand, too.
-  const shown = editor.futures.value?.modes[editor.chosen.value]?.motion ?? editor.motionFor(agent);
+  const shown =
+    editor.reading.futures.value?.modes[editor.reading.chosen.value]?.motion ?? editor.reading.motionFor(agent);
   const braking = hardestBraking(shown);
   return (
     <div

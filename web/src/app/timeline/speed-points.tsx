@@ -26,8 +26,7 @@ interface Grip {
 }
 
 export function SpeedPoints({ axes }: { axes: Axes }) {
-  const { editor, form } = useApp();
-  const { curve } = editor;
+  const { editor, form, curve } = useApp();
   const agent = editor.agent.value;
   const points = curve.points.value;
   const grip = useRef<Grip | null>(null);

@@ -52,7 +52,7 @@ const seconds = (action: string, all: readonly number[]): Items =>
 
 function Clock() {
   const { editor } = useApp();
-  const now = useComputed(() => `${num(editor.time.value, 1)} s `);
+  const now = useComputed(() => `${num(editor.playhead.time.value, 1)} s `);
   const end = useComputed(() => `/ ${num(editor.resting.value?.duration ?? 9, 1)} s`);
   return (
     <span class="tm">
@@ -66,7 +66,7 @@ function Clock() {
 function Scrubber() {
   const { editor } = useApp();
   const end = useComputed(() => editor.resting.value?.duration ?? 9);
-  const now = useComputed(() => editor.time.value.toFixed(1));
+  const now = useComputed(() => editor.playhead.time.value.toFixed(1));
   return (
     <input
       type="range"
@@ -76,10 +76,10 @@ function Scrubber() {
       max={end as never}
       step={0.1}
       value={now}
-      style={useComputed(() => `--fill: ${(100 * editor.time.value) / end.value}%`)}
+      style={useComputed(() => `--fill: ${(100 * editor.playhead.time.value) / end.value}%`)}
       onInput={(e) => {
         editor.playhead.pause();
-        editor.setTime(Number(e.currentTarget.value));
+        editor.playhead.moveTo(Number(e.currentTarget.value));
       }}
     />
   );

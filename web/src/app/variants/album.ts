@@ -9,7 +9,7 @@ import { MapPicture } from '../../draw/paint-map';
 import { View } from '../../draw/view';
 import { turnAtRest } from '../hud/view-tick';
 import { useApp } from '../parts/app-context';
-import type { Pictured } from '../../edit/variants/cards';
+import type { Pictured } from '../../edit/tools/variants/cards';
 import type { Album } from './live-picture';
 
 const CARD_W = 174;

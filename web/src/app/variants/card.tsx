@@ -4,7 +4,7 @@ import { useComputed } from '@preact/signals';
 import { closeInTime, counted, worstOf } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
 import { num, seconds } from '../../model/base/units';
-import type { Card, Pictured } from '../../edit/variants/cards';
+import type { Card, Pictured } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { LivePicture, type Album } from './live-picture';

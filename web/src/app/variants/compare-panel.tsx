@@ -2,7 +2,7 @@
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/base/units';
 import type { Moment } from '../../model/words/comparison';
-import type { Compared, WholeCard } from '../../edit/variants/cards';
+import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -91,7 +91,7 @@ const calledOf = ({ id, variant }: WholeCard): string => [id, variant.called].fi
 
 function MomentRow({ moment: m }: { moment: Moment }) {
   const c = useApp();
-  const here = Math.abs(c.editor.time.value - m.time) < 0.05;
+  const here = Math.abs(c.editor.playhead.time.value - m.time) < 0.05;
   return (
     <button type="button" class="moment" aria-current={here} onClick={() => goToMoment(c, m)}>
       <b>{seconds(m.time)}</b>

@@ -1,13 +1,13 @@
 // Two variants beside each other: the left one is the picture itself, the right one another that looks where it looks.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Compared, WholeCard } from '../../edit/variants/cards';
+import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { motionOf } from '../../model/physics/playback';
 import { poseAt } from '../../model/base/motion';
 import { isRecorded, startPose, type Agent } from '../../model/document/scene';
 import type { Pose } from '../../model/base/geometry';
 import type { Context } from '../../actions/context';
-import { paintBeside } from '../../edit/overlay-beside';
-import { paintEventsAt } from '../../edit/overlay-events';
+import { paintBeside } from '../../edit/overlay/beside';
+import { paintEventsAt } from '../../edit/overlay/events';
 import { Labels } from '../../draw/labels';
 import { MapPicture } from '../../draw/paint-map';
 import type { Pen } from '../../draw/pen';
@@ -84,7 +84,7 @@ function Pane({ now }: { now: Compared }) {
   }, []);
   useEffect(() => stage.current?.invalidate('map', 'agents', 'overlay'), [now]);
   useLiveEffect(() => {
-    void c.editor.time.value;
+    void c.editor.playhead.time.value;
     stage.current?.invalidate('agents', 'overlay');
   });
   useLiveEffect(() => {
@@ -124,14 +124,14 @@ function paintersOf(stage: Stage, { editor }: Context, shown: { readonly current
       const a = of.agents.get(who.id) ?? who;
       return (time < 0.05 ? startPose(a) : null) ?? poseAt(motionOf(of, set, a), time);
     };
-  stage.painter('map', (g, v) => map.paint(g, v, editor.layers.peek().lanes));
+  stage.painter('map', (g, v) => map.paint(g, v, editor.view.layers.peek().lanes));
   stage.painter('agents', (g, v) => {
-    if (editor.layers.peek().signals) paintSignals(g, v, shown.current.right.scene, editor.time.peek());
-    paintAgents(g, v, shown.current.right, editor.time.peek(), poseIn);
+    if (editor.view.layers.peek().signals) paintSignals(g, v, shown.current.right.scene, editor.playhead.time.peek());
+    paintAgents(g, v, shown.current.right, editor.playhead.time.peek(), poseIn);
   });
   stage.painter('overlay', (g, v) => {
     const { left, right, parting } = shown.current;
-    const time = editor.time.peek();
+    const time = editor.playhead.time.peek();
     labels.reset(v.w, v.h, { left: 0, right: 0, top: 44, bottom: 0 });
     paintBeside(g, v, { scene: left.scene, set: left.set, parted: parting.parted.map((p) => p.agent.id) }, time);
     paintSubject(g, v, right);

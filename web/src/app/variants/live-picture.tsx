@@ -1,6 +1,6 @@
 // The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Pictured } from '../../edit/variants/cards';
+import type { Pictured } from '../../edit/tools/variants/cards';
 import { motionOf } from '../../model/physics/playback';
 import { counted } from '../../model/physics/events';
 import { poseAt } from '../../model/base/motion';
@@ -35,11 +35,11 @@ export function LivePicture({ card, album }: { card: Pictured; album: Album }) {
     const s = state.current;
     s.frame = 0;
     if (!canvas.current || !s.seen) return;
-    if (editor.playing.peek() && time - s.at < PAUSE_MS) return ask();
+    if (editor.playhead.playing.peek() && time - s.at < PAUSE_MS) return ask();
     s.at = time;
     const { card: c, album: a } = now.current;
     const g = canvas.current.getContext('2d', { alpha: false })!;
-    a.painter.paint(g, a.view, a.map, (pen) => paintCard(pen, a.view, c, editor.time.peek()));
+    a.painter.paint(g, a.view, a.map, (pen) => paintCard(pen, a.view, c, editor.playhead.time.peek()));
   };
   const ask = () => {
     state.current.frame ||= requestAnimationFrame(draw);
@@ -56,7 +56,7 @@ export function LivePicture({ card, album }: { card: Pictured; album: Album }) {
     };
   }, []);
   useLiveEffect(() => {
-    void [editor.time.value, ui.theme.value];
+    void [editor.playhead.time.value, ui.theme.value];
     ask();
   });
   useEffect(ask, [card, album]);

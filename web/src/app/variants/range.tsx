@@ -44,7 +44,7 @@ export function Range() {
   const subject = variants.subject.value;
   if (!sweep) return null;
   const obstacle = variants.obstacle.value;
-  const unit = sweep.over === 'time' || !subject ? 's' : editor.unitOf(subject);
+  const unit = sweep.over === 'time' || !subject ? 's' : editor.view.unitOf(subject);
   const quantity: Quantity = unit === 's' ? 'time' : unit;
   const decimals = unit === 's' || inTenths(unit) ? 1 : 0;
   const shown = (v: number) => (unit === 's' ? v : toUnit(v, unit));

@@ -2,10 +2,10 @@
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
-import { hasEvents, type Card, type Filter, type Pictured } from '../../edit/variants/cards';
+import { hasEvents, type Card, type Filter, type Pictured } from '../../edit/tools/variants/cards';
 import { leftWords } from '../../model/base/units';
 import { MOST_NEW } from '../../model/document/variants';
-import type { Making } from '../../edit/variants/variants';
+import type { Making } from '../../edit/tools/variants/variants';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -122,7 +122,7 @@ function About() {
   const { editor, variants } = useApp();
   const making = variants.making.value;
   const words = useComputed(() => {
-    if (editor.playing.value) return TEXTS.allRunOnOneClock;
+    if (editor.playhead.playing.value) return TEXTS.allRunOnOneClock;
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
     if (!last) return TEXTS.futuresOfTheScene;
     const who = last.state.subject === null ? null : editor.scene.value?.agents.get(last.state.subject)?.name;

@@ -1,5 +1,5 @@
 // Whose speed the timeline shows, in the one variant and in the other.
-import type { Compared } from '../../edit/variants/cards';
+import type { Compared } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/panels/variants-panel';
 

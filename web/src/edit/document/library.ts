@@ -196,7 +196,7 @@ export class Library {
     keep('last-scene', scene.id);
     this.list.noteOpened(scene.id);
     const answers = generated ? readGenerated({ ...json, generated }, scene) : null;
-    const seen = { who: session.selection.peek(), when: session.time.peek() };
+    const seen = { who: session.selection.peek(), when: session.playhead.time.peek() };
     batch(() => {
       session.open(scene, answers, history);
       if (!mine) this.#lock();
@@ -242,11 +242,11 @@ export class Library {
   #asSeen(who: string | null, when: number): void {
     const { session } = this;
     if (who && session.document.scene.peek()?.agents.has(who)) session.select(who);
-    session.setTime(when);
+    session.playhead.moveTo(when);
   }
 
   #welcomeBack(): void {
-    const action = { label: TEXTS.discard, run: () => this.session.goTo(null) };
+    const action = { label: TEXTS.discard, run: () => this.session.commits.goTo(null) };
     this.session.notices.show({ text: TEXTS.lastSessionRestored, action }, WELCOME_BACK_MS);
   }
 
@@ -291,7 +291,7 @@ export class Library {
       document.afterTrial(() => {
         // The other version may have been replaced meanwhile.
         if (document.scene.peek()?.id !== id || document.lock.peek() || !this.saving.conflict.peek()) return;
-        this.session.adopt(TEXTS.theOtherVersion, plain);
+        this.session.commits.adopt(TEXTS.theOtherVersion, plain);
         this.saving.tookTheirs(etag);
         if (etag) this.journal.synced(document.committed.peek()!, etag);
       });

@@ -91,7 +91,7 @@ export class SceneCare {
     const { session, list } = this;
     const scene = session.document.scene.peek();
     if (scene?.id === id) {
-      if (scene.name !== name) session.run(rename(name));
+      if (scene.name !== name) session.commits.run(rename(name));
       return;
     }
     try {

@@ -2,7 +2,7 @@
 import type { GeneratedJson, MapJson, SceneJson } from '../../model/document/scene-json';
 import type { MotionSet } from '../../model/document/futures';
 import type { Committed } from '../../model/document/history';
-import { rosterOfJson } from '../../model/document/scene-reader';
+import { castKeyOfJson } from '../../model/document/scene-reader';
 import { sceneKey, type Scene } from '../../model/document/scene';
 import { castJson, generatedJson, variantSample, writeScene } from '../../model/document/scene-writer';
 import type { SceneRef } from '../../net/generator';
@@ -36,7 +36,7 @@ export class SceneFile {
   variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
   /** Who is in the version that the server holds. */
-  #roster: string | null = null;
+  #castKey: string | null = null;
 
   constructor(private readonly session: Session) {}
 
@@ -50,12 +50,12 @@ export class SceneFile {
 
   /** Does the server hold a scene of these road users under the id of this one? */
   holds(scene: Scene): boolean {
-    return this.stored && this.#roster === scene.roster;
+    return this.stored && this.#castKey === scene.castKey;
   }
 
   /** The server holds this version: who is in it, and whose conditions it knows: freed ones are sent as free. */
   noteStored(json: SceneJson): void {
-    this.#roster = rosterOfJson(json);
+    this.#castKey = castKeyOfJson(json);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
   }
@@ -91,7 +91,7 @@ export class SceneFile {
   /** The futures that belong to the committed document; null while they are not known, and where there are none. */
   answers(): GeneratedJson | null {
     const scene = this.session.document.scene.peek();
-    const set = this.session.motion.peek();
+    const set = this.session.answers.motion.peek();
     return scene && set.key === sceneKey(scene) ? answersIn(scene, set) : null;
   }
 

@@ -53,7 +53,7 @@ export function onlyPicked({ before, after }: Commit, id: string): boolean {
     a.width === b.width &&
     a.does === b.does &&
     (a.chosen !== b.chosen || a.dealt !== b.dealt) &&
-    before.roster === after.roster &&
+    before.castKey === after.castKey &&
     before.seed === after.seed &&
     before.diversity === after.diversity &&
     before.others === after.others &&

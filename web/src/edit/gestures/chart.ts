@@ -1,15 +1,18 @@
 // The pointer as a state chart: exactly one state is live, and it alone answers what the pointer does. States know
-// nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own.
+// nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own. What states, tools and
+// what lies under the pointer look like stands here too, for each of them speaks of the others.
 import type { Point } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
+import type { PlacedKind } from '../../model/base/kinds';
 import type { Command } from '../../model/document/commands';
-import type { Editor } from '../editor';
-import type { Hit } from '../hit';
+import type { Camera } from '../../model/document/history';
+import type { Pin } from '../../model/document/scene';
+import type { Placement } from '../moves/placement';
+import type { Grip } from '../session/drag';
+import type { Editor } from '../session/editor';
 import { FingerTap } from './finger-tap';
-import { Idle } from './idle';
+import type { Help } from '../../texts/desk/helps';
 import { Pile } from './pile';
-import { twoFingers } from './turning';
-import type { Tool, ToolName } from './tools';
 
 export interface Modifiers {
   readonly alt: boolean;
@@ -60,6 +63,69 @@ export interface State {
   cancel?(): boolean;
 }
 
+/** What lies under the pointer. */
+export type Hit =
+  | { kind: 'grip'; grip: Grip }
+  | { kind: 'future'; index: number }
+  /** A pinned one that is none of the futures. */
+  | { kind: 'pinned'; pin: Pin }
+  | { kind: 'by-road' }
+  | { kind: 'handle'; handle: ToolHandle }
+  /** `beside`: a finger came down near it, and not on it. */
+  | { kind: 'agent'; id: string; pile: string[]; beside?: true }
+  | { kind: 'frame'; handle: FrameHandle }
+  /** The small flag at the goal of somebody who is not selected. */
+  | { kind: 'pennant'; id: string }
+  | { kind: 'none' };
+
+/** What one can do with the frame around several: move them, turn them, spread them. */
+export type FrameHandle = 'move' | 'turn' | 'spread';
+
+/** What a tool painted to be taken hold of. */
+export interface ToolHandle {
+  /** The pointer over it. */
+  readonly cursor: string;
+  /** What a press on it becomes once it moves. */
+  drag(chart: Chart, press: Press): State;
+  /** A press on it that did not move. */
+  click(): void;
+}
+
+export const NOTHING: Hit = { kind: 'none' };
+
+/** A press, as the states after it need it. */
+export interface Press extends Point {
+  readonly touch: boolean;
+  readonly hit: Hit;
+  /** Where the picture looked at the press. */
+  readonly camera: Camera;
+}
+
+/** A button of the rail. Its key, its entry in the palette and its line in the shortcut sheet are made from it too. */
+export interface RailEntry {
+  readonly name: string;
+  readonly label: string;
+  readonly key: string;
+  readonly icon: string;
+  readonly help: Help;
+  /** What is placed by it; the rail keeps these together. */
+  readonly places?: PlacedKind;
+}
+
+/** What the pointer does with a button of the rail chosen. */
+export interface Tool extends RailEntry {
+  /** The pointer over the picture where nothing is under it; empty for the plain one. */
+  readonly cursor: string;
+  /** Does a press take hold of what lies under it? */
+  readonly picks: boolean;
+  /** The pointer moves over the picture with nothing pressed. */
+  hover?(chart: Chart): void;
+  /** What a press becomes once it moves. */
+  drag(chart: Chart, press: Press): State;
+  /** A press that did not move. */
+  click(chart: Chart, press: Press, timeStamp: number): void;
+}
+
 /** Where the picture is, as gestures see it; the stage is one. */
 export interface Surface {
   readonly view: View;
@@ -80,7 +146,11 @@ export interface Previews {
 export interface ChartParts {
   readonly surface: Surface;
   readonly editor: Editor;
+  readonly placement: Placement;
   readonly previews: Previews;
+  /** The state in which nothing is pressed, and that of two fingers. */
+  idle(chart: Chart): State;
+  twoFingers(chart: Chart, p1: Point, p2: Point): State;
   hitAt(p: Point, touch: boolean): Hit;
   agentsAt(p: Point): string[];
   /** Is motion to be kept small? */
@@ -91,7 +161,7 @@ export interface ChartParts {
   tapped(fingers: number): void;
   /** Two short ticks under the finger. */
   ticks(): void;
-  tool(name: ToolName): Tool;
+  tool(name: string): Tool;
 }
 
 /** A hand that tells of itself once a frame is asked about each time, one that does so more often, once a frame. */
@@ -107,6 +177,7 @@ export class Chart {
   readonly pile = new Pile();
   readonly surface: Surface;
   readonly editor: Editor;
+  readonly placement: Placement;
   readonly previews: Previews;
   readonly #fingers = new Map<number, Point>();
   readonly #tap = new FingerTap();
@@ -122,8 +193,9 @@ export class Chart {
   constructor(readonly parts: ChartParts) {
     this.surface = parts.surface;
     this.editor = parts.editor;
+    this.placement = parts.placement;
     this.previews = parts.previews;
-    this.#state = new Idle(this);
+    this.#state = parts.idle(this);
   }
 
   get state(): State {
@@ -146,18 +218,18 @@ export class Chart {
   }
 
   rest(): void {
-    this.go(new Idle(this));
+    this.go(this.parts.idle(this));
   }
 
   /** A drag that changes the document is let go: what it came to is one step. */
   endDrag(command: Command | null): void {
     this.rest();
-    this.editor.endDrag(command);
+    this.editor.drag.end(command);
   }
 
   /** The same is given up: everything as it was. */
   dropDrag(): true {
-    this.editor.cancelDrag();
+    this.editor.drag.cancel();
     this.previews.cancelPreviews();
     this.surface.invalidate('agents', 'overlay');
     return true;
@@ -178,7 +250,7 @@ export class Chart {
     this.cancel();
     if (this.#fingers.size !== 2) return;
     const [p1, p2] = this.#fingers.values();
-    this.go(twoFingers(this, p1, p2));
+    this.go(this.parts.twoFingers(this, p1, p2));
   }
 
   move(id: number, p: Point, modifiers: Modifiers, overPicture: boolean): void {

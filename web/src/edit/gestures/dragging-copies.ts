@@ -2,10 +2,9 @@
 import type { Agent } from '../../model/document/scene';
 import type { Vec } from '../../model/base/geometry';
 import { shifted, type Newcomer } from '../../model/document/newcomer';
-import { ghostsFor, snapNewcomer } from '../placing';
-import { addThem, copiesOf, tooMany, whoWords } from '../several';
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import { ghostsFor, snapNewcomer } from '../moves/placing';
+import { addThem, copiesOf, tooMany, whoWords } from '../moves/several';
+import type { Chart, Press, State } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
 export class DraggingCopies implements State {
@@ -31,7 +30,7 @@ export class DraggingCopies implements State {
 
   leave(): void {
     this.chart.surface.setCursor('');
-    this.chart.editor.placement.show(null);
+    this.chart.placement.show(null);
   }
 
   move(): void {
@@ -41,7 +40,7 @@ export class DraggingCopies implements State {
     const moved = this.#copies.map((n) => shifted(n, x - this.#grab[0], y - this.#grab[1]));
     this.#there = moved.length === 1 ? [this.#snapped(moved[0])] : moved;
     const words = TEXTS.copyOf(whoWords(this.originals));
-    chart.editor.placement.show(ghostsFor(scene, this.#there, words));
+    chart.placement.show(ghostsFor(scene, this.#there, words));
     chart.surface.invalidate('overlay');
   }
 
@@ -61,7 +60,7 @@ export class DraggingCopies implements State {
     const scene = editor.scene.peek()!;
     const full = tooMany(scene, this.#there.length);
     if (full) editor.notices.show({ text: full });
-    else if (this.#there.length) editor.run(addThem(scene, this.#there, 'copied'));
+    else if (this.#there.length) editor.commits.run(addThem(scene, this.#there, 'copied'));
   }
 
   cancel(): boolean {

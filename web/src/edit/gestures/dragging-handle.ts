@@ -3,9 +3,8 @@ import { batch } from '@preact/signals-core';
 import { clamp, type Point } from '../../model/base/geometry';
 import type { Command } from '../../model/document/commands';
 import { startPose, type Agent } from '../../model/document/scene';
-import type { Grip } from '../editor';
-import type { Chart, Modifiers, State } from './chart';
-import type { Press } from './pressed';
+import type { Grip } from '../session/drag';
+import type { Chart, Modifiers, Press, State } from './chart';
 
 /** Within this many pixels of the edge the picture scrolls, up to this many pixels a second. */
 const EDGE_PX = 32;
@@ -53,7 +52,7 @@ export class DraggingHandle implements State {
   enter(): void {
     const { editor, surface } = this.chart;
     const { grip } = this.what;
-    editor.beginDrag(grip);
+    editor.drag.begin(grip);
     surface.setCursor(CURSORS[grip.handle]);
     surface.invalidate('agents');
   }
@@ -69,7 +68,7 @@ export class DraggingHandle implements State {
     const wasHeld = this.what.held;
     batch(() => {
       this.#command = this.what.to(chart.at, chart.modifiers, this.press);
-      chart.editor.previewDrag(this.#command);
+      chart.editor.drag.preview(this.#command);
       if (asks) chart.previews.preview(this.what.agent.id);
     });
     if (this.press.touch) chart.surface.magnify(this.#inHand());
@@ -82,7 +81,7 @@ export class DraggingHandle implements State {
     const { editor, surface, at } = this.chart;
     const { grip } = this.what;
     const a = editor.agent.peek();
-    const pose = a && (grip.part === 'goal' ? editor.goalPose(a) : startPose(a));
+    const pose = a && (grip.part === 'goal' ? editor.reading.goalPose(a) : startPose(a));
     if (!pose || grip.handle !== 'body') return at;
     const [x, y] = surface.view.to(pose.x, pose.y);
     return { x, y };

@@ -4,11 +4,9 @@ import { clamp, deg, rad, type Vec } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
 import type { Command } from '../../model/document/commands';
 import { startPose, type Agent } from '../../model/document/scene';
-import { sayLocked } from '../copying';
-import type { FrameHandle } from '../hit';
-import { middleOf, moveAll, spreadAll, turnAll } from '../several';
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import { sayLocked } from '../moves/copying';
+import { middleOf, moveAll, spreadAll, turnAll } from '../moves/several';
+import type { Chart, FrameHandle, Press, State } from './chart';
 
 const TURN_STEP_DEG = 15;
 /** Nobody is spread to nothing, nor out of the world. */
@@ -55,7 +53,7 @@ export class DraggingSeveral implements State {
 
   enter(): void {
     const { editor, surface } = this.chart;
-    editor.beginDrag({ part: 'start', handle: this.what === 'turn' ? 'heading' : 'body' });
+    editor.drag.begin({ part: 'start', handle: this.what === 'turn' ? 'heading' : 'body' });
     sayLocked(editor);
     surface.setCursor({ move: 'grabbing', turn: 'crosshair', spread: 'resize' }[this.what]);
     surface.invalidate('agents');
@@ -70,7 +68,7 @@ export class DraggingSeveral implements State {
     const command = this.#to(chart.surface.view.from(chart.at.x, chart.at.y));
     if (!command) return;
     this.#command = command;
-    batch(() => chart.editor.previewDrag(command));
+    batch(() => chart.editor.drag.preview(command));
     chart.surface.invalidate('overlay');
   }
 

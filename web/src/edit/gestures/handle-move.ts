@@ -6,13 +6,13 @@ import { topSpeed } from '../../model/base/domain';
 import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/document/scene';
 import { speedForTip } from '../../draw/handles';
 import type { View } from '../../draw/view';
-import type { Editor, Grip } from '../editor';
-import { goalTime } from '../moves';
-import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
-import { edgesInTheWay } from '../ways-out';
-import type { Modifiers } from './chart';
+import type { Editor } from '../session/editor';
+import type { Grip } from '../session/drag';
+import { goalTime } from '../moves/moves';
+import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../moves/snap';
+import { edgesInTheWay } from '../moves/ways-out';
+import type { Modifiers, Press } from './chart';
 import type { Move } from './dragging-handle';
-import type { Press } from './pressed';
 import { Resistance } from './resistance';
 import { TEXTS } from '../../texts/desk/gestures';
 
@@ -61,7 +61,7 @@ export class HandleMove implements Move {
     this.#goal = goal;
     this.#grab = view.from(press.x, press.y);
     const free = (grip.part === 'goal' ? agent.goal : agent.start).heading === null;
-    this.#laneSetsHeading = free || editor.headingFollows(grip.part, agent) || this.#startsOnLane();
+    this.#laneSetsHeading = free || editor.drag.headingFollows(grip.part, agent) || this.#startsOnLane();
   }
 
   #startsOnLane(): boolean {
@@ -133,16 +133,16 @@ export class HandleMove implements Move {
     // The hand holds the flag, not its foot.
     const from: Vec = [wx + at.x - wanted[0], wy + at.y - wanted[1]];
     const lag = this.held ? { from, to: [wx, wy] as const, touch: this.#touch } : null;
-    editor.dragOver({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
+    editor.drag.over({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
 
     const pos = Object.freeze([at.x, at.y] as const);
     const leave = this.#leave([at.x, at.y], mods);
     if (this.#laneSetsHeading && at.laneHeading !== null) {
-      editor.setHeadingFollows(grip.part, a, true);
+      editor.drag.setHeadingFollows(grip.part, a, true);
       return { pos, heading: wrapAngle(at.laneHeading), ...leave };
     }
     if (this.#laneSetsHeading && grip.part === 'goal') {
-      editor.setHeadingFollows(grip.part, a, false);
+      editor.drag.setHeadingFollows(grip.part, a, false);
       return { pos, heading: null, ...leave };
     }
     return { pos, ...leave };
@@ -186,7 +186,7 @@ export class HandleMove implements Move {
   #heading(wx: number, wy: number, mods: Modifiers): number {
     const { editor, agent: a, grip } = this;
     const { x, y } = this.#pose;
-    editor.setHeadingFollows(grip.part, a, false);
+    editor.drag.setHeadingFollows(grip.part, a, false);
     const mode = mods.alt ? 'fine' : mods.shift ? 'steps' : 'lane';
     return snapHeading(editor.scene.peek()!.map, a, x, y, Math.atan2(y - wy, x - wx), mode);
   }

@@ -1,9 +1,7 @@
 // Nothing is pressed: what the pointer is over lights up.
-import { NOTHING, type Hit } from '../hit';
-import type { Chart, PointerDown, State } from './chart';
-import { ASK } from './asking';
+import { NOTHING, type Chart, type Hit, type PointerDown, type State, type Tool } from './chart';
+import { ASK } from './menu';
 import { Pressed } from './pressed';
-import type { Tool } from './tools';
 
 const CURSORS = {
   body: 'grab',
@@ -27,7 +25,7 @@ export class Idle implements State {
 
   outside(): void {
     this.#hover(NOTHING);
-    this.chart.editor.placement.show(null);
+    this.chart.placement.show(null);
   }
 
   down(p: PointerDown): void {
@@ -60,12 +58,10 @@ export class Idle implements State {
     switch (hit.kind) {
       case 'grip':
         return editor.agent.peek()?.locked ? 'pointer' : CURSORS[hit.grip.handle];
-      case 'stop':
-        return 'grab';
-      case 'hold':
-        return 'resize';
+      case 'handle':
+        return hit.handle.cursor;
       case 'agent':
-        return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
+        return editor.playhead.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':
       case 'pinned':
       case 'by-road':

@@ -1,7 +1,6 @@
 // A line drawn round road users selects them.
 import type { Vec } from '../../model/base/geometry';
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import type { Chart, Press, State, Tool } from './chart';
 import { click } from './select';
 import { Sweeping } from './sweeping';
 import { TEXTS } from '../../texts/desk/gestures';
@@ -17,12 +16,12 @@ function longer(from: Vec, to: Vec, before: readonly Vec[]): readonly Vec[] {
   return [...before, to];
 }
 
-export const LASSO = {
-  name: 'lasso' as const,
+export const LASSO: Tool = {
+  name: 'lasso',
   label: TEXTS.lasso,
   key: 'L',
   icon: 'lasso',
-  help: 'drawALineRound' as const,
+  help: 'drawALineRound',
   cursor: 'crosshair',
   picks: true,
   drag: (chart: Chart, press: Press): State => new Sweeping('lasso', chart, press, longer),

@@ -1,6 +1,5 @@
 // A line is drawn and its length shown.
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import type { Chart, Press, State, Tool } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
 class Measuring implements State {
@@ -22,12 +21,12 @@ class Measuring implements State {
   }
 }
 
-export const MEASURE = {
-  name: 'measure' as const,
+export const MEASURE: Tool = {
+  name: 'measure',
   label: TEXTS.measure,
   key: 'M',
   icon: 'ruler',
-  help: 'dragALineTo' as const,
+  help: 'dragALineTo',
   cursor: 'crosshair',
   picks: false,
   drag: (chart: Chart, press: Press): State => new Measuring(chart, press),

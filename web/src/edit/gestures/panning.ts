@@ -1,6 +1,5 @@
 // The picture moves with the pointer.
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import type { Chart, Press, State, Tool } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
 export class Panning implements State {
@@ -32,12 +31,12 @@ export class Panning implements State {
   }
 }
 
-export const PAN = {
-  name: 'pan' as const,
+export const PAN: Tool = {
+  name: 'pan',
   label: TEXTS.moveThePicture,
   key: 'H',
   icon: 'hand',
-  help: 'draggingMoves' as const,
+  help: 'draggingMoves',
   cursor: 'grab',
   picks: false,
   drag: (chart: Chart, press: Press): State => new Panning(chart, press),

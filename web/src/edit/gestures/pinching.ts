@@ -1,7 +1,6 @@
 // Two fingers pan, zoom and turn at once; the one that stays goes on moving the picture.
 import { rad, wrapAngle, type Point } from '../../model/base/geometry';
-import { NOTHING } from '../hit';
-import type { Chart, State } from './chart';
+import { NOTHING, type Chart, type State } from './chart';
 import { Panning } from './panning';
 
 /** Less than this is a pinch that is not quite straight. */

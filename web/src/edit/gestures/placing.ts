@@ -4,24 +4,24 @@ import { KIND_WORDS, countWords, type PlacedKind } from '../../model/base/kinds'
 import type { Newcomer } from '../../model/document/newcomer';
 import { startPose } from '../../model/document/scene';
 import { metres } from '../../model/base/units';
-import { alongLine, ghostsFor, overArea, snapNewcomer } from '../placing';
-import { freeShift, inTheWay, standing } from '../room';
-import type { Editor } from '../editor';
-import { addThem, tooMany } from '../several';
+import { alongLine, ghostsFor, overArea, snapNewcomer } from '../moves/placing';
+import { freeShift, inTheWay, standing } from '../moves/room';
+import type { Editor } from '../session/editor';
+import type { Placement } from '../moves/placement';
+import { addThem, tooMany } from '../moves/several';
 import { shifted } from '../../model/document/newcomer';
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import type { Chart, Press, State, Tool } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
 /** The ghost of somebody of a kind under the pointer. */
 export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading?: number): void => {
-  const { editor, surface } = chart;
+  const { editor, placement, surface } = chart;
   const scene = editor.scene.peek();
   if (!scene) return;
   const { view } = surface;
   const place = view.from(at.x, at.y);
-  if (heading === undefined && isOnSelected(editor, place)) editor.placement.show(null);
-  else editor.placement.pointAt(scene, kind, place, view.z, chart.modifiers.alt, heading);
+  if (heading === undefined && isOnSelected(editor, place)) placement.show(null);
+  else placement.pointAt(scene, kind, place, view.z, chart.modifiers.alt, heading);
   surface.invalidate('overlay');
 };
 
@@ -33,12 +33,12 @@ function isOnSelected(editor: Editor, [x, y]: Vec): boolean {
 }
 
 /** Puts the ghost into the scene. Where somebody stands it asks first, and names the nearest free place. */
-export function placeGhost(editor: Editor): void {
+export function placeGhost(editor: Editor, placement: Placement): void {
   const scene = editor.scene.peek();
-  const ghost = editor.placement.ghosts.peek()?.all[0];
+  const ghost = placement.ghosts.peek()?.all[0];
   if (!scene || !ghost) return;
   editor.playhead.pause();
-  editor.setTime(0);
+  editor.playhead.moveTo(0);
   const full = tooMany(scene, 1);
   if (full) {
     editor.notices.show({ text: full });
@@ -46,9 +46,9 @@ export function placeGhost(editor: Editor): void {
   }
   const put = (who: Newcomer): void => {
     const now = editor.scene.peek();
-    if (now) editor.run(addThem(now, [who], 'placed'));
+    if (now) editor.commits.run(addThem(now, [who], 'placed'));
     // Until the pointer moves on, a ghost would only cover the new one.
-    editor.placement.show(null);
+    placement.show(null);
   };
   if (ghost.fits) {
     put(ghost.who);
@@ -111,13 +111,13 @@ class TurningGhost implements State {
   up(): void {
     const { chart } = this;
     this.move();
-    placeGhost(chart.editor);
+    placeGhost(chart.editor, chart.placement);
     chart.rest();
-    chart.editor.placement.show(null);
+    chart.placement.show(null);
   }
 
   cancel(): boolean {
-    this.chart.editor.placement.show(null);
+    this.chart.placement.show(null);
     return true;
   }
 }
@@ -137,15 +137,15 @@ class Spreading implements State {
   }
 
   leave(): void {
-    this.chart.editor.placement.show(null);
+    this.chart.placement.show(null);
     this.chart.editor.sweepOver(null);
   }
 
   move(): void {
     const { chart, kind } = this;
-    const { editor, surface } = chart;
+    const { editor, placement, surface } = chart;
     const scene = editor.scene.peek()!;
-    const choice = editor.placement.choice(kind);
+    const choice = placement.choice(kind);
     const to = surface.view.from(chart.at.x, chart.at.y);
     const { view: v } = surface;
     const inLine = choice.spread === 'line';
@@ -156,18 +156,18 @@ class Spreading implements State {
     const ghosts = ghostsFor(scene, all, '');
     const n = ghosts.all.filter((g) => g.fits).length;
     const words = n < choice.count ? TEXTS.ofFit(n, countWords(kind, choice.count)) : countWords(kind, n);
-    editor.placement.show({ ...ghosts, words });
+    placement.show({ ...ghosts, words });
     editor.sweepOver({ outline: area, ids: [] });
     surface.invalidate('overlay');
   }
 
   up(): void {
     const { chart, kind } = this;
-    const { editor } = chart;
+    const { editor, placement } = chart;
     this.move();
     const scene = editor.scene.peek()!;
-    const wanted = editor.placement.choice(kind).count;
-    const all = editor.placement.ghosts.peek()!.all.flatMap((g) => (g.fits ? [g.who] : []));
+    const wanted = placement.choice(kind).count;
+    const all = placement.ghosts.peek()!.all.flatMap((g) => (g.fits ? [g.who] : []));
     chart.rest();
     const full = tooMany(scene, all.length);
     if (full || !all.length) {
@@ -175,7 +175,7 @@ class Spreading implements State {
       return;
     }
     const short = all.length < wanted ? TEXTS.ofPlacedNoRoom(all.length, countWords(kind, wanted)) : null;
-    editor.run(addThem(scene, all, 'placed', short));
+    editor.commits.run(addThem(scene, all, 'placed', short));
   }
 
   cancel(): boolean {
@@ -183,23 +183,23 @@ class Spreading implements State {
   }
 }
 
-const place = <K extends PlacedKind>(kind: K, key: string) => ({
-  name: `place-${kind}` as const,
+const place = (kind: PlacedKind, key: string): Tool => ({
+  name: `place-${kind}`,
   label: TEXTS.placeA(KIND_WORDS[kind]),
   key,
   icon: kind,
-  help: `place-${kind}` as const,
+  help: `place-${kind}`,
   cursor: 'crosshair',
   picks: false,
   places: kind,
   hover: (chart: Chart): void => ghostHere(chart, kind),
   drag: (chart: Chart, press: Press): State => {
-    const { spread } = chart.editor.placement.choice(kind);
+    const { spread } = chart.placement.choice(kind);
     return spread === 'one' ? new TurningGhost(chart, press, kind) : new Spreading(chart, press, kind);
   },
   click: (chart: Chart, press: Press): void => {
     ghostHere(chart, kind, press);
-    placeGhost(chart.editor);
+    placeGhost(chart.editor, chart.placement);
   },
 });
 
@@ -210,4 +210,4 @@ export const PLACE = [
   place('motorcycle', '4'),
   place('cyclist', '5'),
   place('pedestrian', '6'),
-] as const;
+];

@@ -1,12 +1,15 @@
 // The page's pointer and keys, handed to the state chart. Moves are gathered and worked off once a frame.
 import type { Point } from '../../model/base/geometry';
 import type { Stage } from '../../draw/stage';
-import type { Editor } from '../editor';
-import { agentsAt, hitTest, type HitContext } from '../hit';
-import type { Overlay } from '../overlay';
-import type { Picture } from '../picture';
-import { Chart, type MenuOn, type Modifiers, type Previews } from './chart';
-import { toolOf, type Tool, type ToolName } from './tools';
+import type { Placement } from '../moves/placement';
+import type { Editor } from '../session/editor';
+import { agentsAt, hitTest, type HitContext } from './hit';
+import type { Overlay } from '../overlay/overlay';
+import { PAN } from './panning';
+import type { Picture } from '../overlay/picture';
+import { Chart, type MenuOn, type Modifiers, type Previews, type Tool, type ToolHandle } from './chart';
+import { Idle } from './idle';
+import { twoFingers } from './turning';
 
 const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
 /** Zoom a pixel of wheel; pinching on a trackpad arrives as a wheel with Ctrl. */
@@ -22,6 +25,24 @@ const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
   shift: e.shiftKey,
   ctrl: e.ctrlKey || e.metaKey,
 });
+
+/** What a feature has for the pointer. */
+export interface PointerTools {
+  /** With its buttons of the rail. */
+  readonly tools?: readonly Tool[];
+  /** What the pointer does whatever is chosen in the rail; null while that holds. */
+  takesOver?(): Tool | null;
+  /** What it has painted at a place, in pixels, to be taken hold of. */
+  handleAt?(x: number, y: number, touch: boolean): ToolHandle | null;
+}
+
+function firstOf<T, R>(all: readonly T[], of: (each: T) => R | null | undefined): R | null {
+  for (const each of all) {
+    const found = of(each);
+    if (found) return found;
+  }
+  return null;
+}
 
 export class Gestures {
   readonly chart: Chart;
@@ -39,15 +60,20 @@ export class Gestures {
   constructor(
     private readonly stage: Stage,
     private readonly editor: Editor,
+    placement: Placement,
     private readonly picture: Picture,
     private readonly overlay: Overlay,
     previews: Previews,
+    private readonly tools: readonly PointerTools[],
   ) {
     const calm = matchMedia('(prefers-reduced-motion: reduce)');
     this.chart = new Chart({
       surface: stage,
       editor,
+      placement,
       previews,
+      idle: (chart) => new Idle(chart),
+      twoFingers,
       hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
       agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
       calm: () => calm.matches,
@@ -65,11 +91,14 @@ export class Gestures {
     this.#listen(stage.element);
   }
 
-  /** On a map that is being made its own, whatever is chosen in the rail. */
-  #tool(name: ToolName): Tool {
-    const { layouts } = this.editor;
-    if (!layouts.isOpen.peek() || name === 'pan') return toolOf(name);
-    return layouts.hands.peek()?.MAKE ?? toolOf('pan');
+  #tool(name: string): Tool {
+    const chosen = this.tools.flatMap((t) => t.tools ?? []).find((t) => t.name === name)!;
+    return (chosen !== PAN && this.#takenOver()) || chosen;
+  }
+
+  /** What the pointer does whatever is chosen in the rail. */
+  #takenOver(): Tool | null {
+    return firstOf(this.tools, (t) => t.takesOver?.());
   }
 
   #listen(el: HTMLElement): void {
@@ -153,8 +182,10 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign, stops } = this.overlay;
-    return { editor, view: stage.view, chips, timeTag, roadSign, stops, pennants: picture.pennants, touch };
+    const { chips, timeTag, roadSign } = this.overlay;
+    const toolHandleAt = (x: number, y: number): ToolHandle | null =>
+      firstOf(this.tools, (t) => t.handleAt?.(x, y, touch));
+    return { editor, view: stage.view, chips, timeTag, roadSign, toolHandleAt, pennants: picture.pennants, touch };
   }
 
   #down(e: PointerEvent): void {
@@ -196,7 +227,7 @@ export class Gestures {
 
   #doubleClick(e: MouseEvent): void {
     // Whoever places or measures clicks fast; on a map that is being made it adds an arm.
-    if (this.editor.layouts.isOpen.peek()) return;
+    if (this.#takenOver()) return;
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
     if (hitTest(this.#context(false), x, y).kind !== 'none') return;

@@ -1,18 +1,6 @@
 // Pressed and not yet moved: the release is a click, a movement becomes what the tool makes of it.
-import type { Point } from '../../model/base/geometry';
-import type { Camera } from '../../model/document/history';
-import type { Hit } from '../hit';
-import { ask } from './asking';
-import type { Chart, State } from './chart';
-import type { Tool } from './tools';
-
-/** A press, as the states after it need it. */
-export interface Press extends Point {
-  readonly touch: boolean;
-  readonly hit: Hit;
-  /** Where the picture looked at the press. */
-  readonly camera: Camera;
-}
+import { ask } from './menu';
+import type { Chart, Press, State, Tool } from './chart';
 
 /** A movement shorter than this is a click's. A finger is less steady than a mouse. */
 const START_PX = 3;

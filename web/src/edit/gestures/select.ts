@@ -1,21 +1,18 @@
 // The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
 import { takePin } from '../../model/document/pins';
 import { canChange, startPose, type Agent } from '../../model/document/scene';
-import { freeOnes, lockedWords } from '../copying';
-import type { Grip } from '../editor';
-import type { FrameHandle } from '../hit';
-import { takeFuture } from '../moves';
-import { addVia, roomForVia } from '../vias';
-import { roadWay } from '../ways-out';
-import type { Chart, State } from './chart';
+import { freeOnes, lockedWords } from '../moves/copying';
+import type { Grip } from '../session/drag';
+import { takeFuture } from '../moves/moves';
+import { addVia, roomForVia } from '../moves/vias';
+import { roadWay } from '../moves/ways-out';
+import type { Chart, FrameHandle, Press, State, Tool } from './chart';
 import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
-import { DraggingHold, DraggingStop } from './dragging-stop';
 import { HandleMove } from './handle-move';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
-import type { Press } from './pressed';
 import { rectangle, Sweeping } from './sweeping';
 import { TEXTS } from '../../texts/desk/gestures';
 import { ViaMove } from './via-move';
@@ -23,12 +20,12 @@ import { ViaMove } from './via-move';
 /** How far ahead of a road user without futures its goal is taken to be, in metres. */
 const GOAL_AHEAD_M = 20;
 
-export const SELECT = {
-  name: 'select' as const,
+export const SELECT: Tool = {
+  name: 'select',
   label: TEXTS.selectAndDrag,
   key: 'V',
   icon: 'select',
-  help: 'clickARoad' as const,
+  help: 'clickARoad',
   cursor: '',
   picks: true,
   hover,
@@ -38,8 +35,8 @@ export const SELECT = {
 
 /** On a map with nobody on it a car is offered wherever there is a lane. */
 function hover(chart: Chart): void {
-  const { placement, scene } = chart.editor;
-  if (scene.peek()?.agents.size !== 0) {
+  const { editor, placement } = chart;
+  if (editor.scene.peek()?.agents.size !== 0) {
     if (placement.ghosts.peek()) placement.show(null);
     return;
   }
@@ -53,8 +50,7 @@ function drag(chart: Chart, press: Press): State {
   const scene = editor.scene.peek();
   if (!scene) return new Panning(chart, press);
   if (hit.kind === 'frame') return several(chart, press, hit.handle);
-  if (hit.kind === 'stop') return new DraggingStop(chart, hit.point);
-  if (hit.kind === 'hold') return new DraggingHold(chart, hit.point, press.x);
+  if (hit.kind === 'handle') return hit.handle.drag(chart, press);
   const body = bodyUnder(chart, press);
   if (body !== null) {
     const among = editor.selected.peek().includes(body);
@@ -81,7 +77,7 @@ function several(chart: Chart, press: Press, what: FrameHandle): State {
  * is always somebody near.
  */
 function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
-  if (editor.time.peek() >= 0.05) return null;
+  if (editor.playhead.time.peek() >= 0.05) return null;
   if (hit.kind === 'agent') return hit.beside ? null : hit.id;
   const start = hit.kind === 'grip' && hit.grip.part === 'start' && hit.grip.handle === 'body';
   return start ? editor.selection.peek() : null;
@@ -112,7 +108,7 @@ function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): Move 
   const start = agent && startPose(agent);
   if (!agent || !start || !canChange(agent)) return null;
   if (grip.index !== undefined) return new ViaMove(editor, surface.view, grip, agent, press);
-  const goal = editor.goalPose(agent) ?? {
+  const goal = editor.reading.goalPose(agent) ?? {
     ...start,
     x: start.x + Math.cos(start.heading) * GOAL_AHEAD_M,
     y: start.y + Math.sin(start.heading) * GOAL_AHEAD_M,
@@ -126,7 +122,7 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
   const room = roomForVia(a);
   if (room !== true) editor.notices.show({ text: room });
   if (!added) return;
-  editor.run(added.command);
+  editor.commits.run(added.command);
   editor.takeVia(added.index);
 }
 
@@ -153,15 +149,14 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       if (adds) editor.toggleSelected(hit.id);
       else editor.select(hit.id);
       break;
-    case 'stop':
-    case 'hold':
-      editor.curve.take(hit.point);
+    case 'handle':
+      hit.handle.click();
       break;
     case 'frame':
       break;
     case 'future': {
-      if (a && editor.deck.ofAgent(a.id)) {
-        editor.deck.point(hit.index);
+      if (a && editor.reading.cards.ofAgent(a.id)) {
+        editor.reading.cards.point(hit.index);
         break;
       }
       if (adds && a && !a.locked) {
@@ -172,11 +167,11 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'pinned':
-      if (a && !a.locked) editor.run(takePin(a, hit.pin));
+      if (a && !a.locked) editor.commits.run(takePin(a, hit.pin));
       break;
     case 'by-road': {
       const way = a && !a.locked && roadWay(editor, a);
-      if (way) editor.run(way.command);
+      if (way) editor.commits.run(way.command);
       break;
     }
     case 'grip': {
@@ -192,7 +187,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'none':
-      if (editor.placement.ghosts.peek()) placeGhost(editor);
+      if (chart.placement.ghosts.peek()) placeGhost(editor, chart.placement);
       else if (!adds) editor.select(null);
   }
 }

@@ -2,9 +2,8 @@
 import { insidePolygon, type Vec } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
 import { kindsWords } from '../../model/base/kinds';
-import { poseShown } from '../frame';
-import type { Chart, State } from './chart';
-import type { Press } from './pressed';
+import { poseShown } from '../overlay/frame';
+import type { Chart, Press, State } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
 /** Makes the outline longer, or anew, for the newest place. */

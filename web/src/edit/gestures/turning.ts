@@ -3,7 +3,7 @@
 import { wrapAngle, type Point } from '../../model/base/geometry';
 import { setGoal, setStart, type Command } from '../../model/document/commands';
 import { canMove, startPose, type Agent } from '../../model/document/scene';
-import type { Part } from '../editor';
+import type { HandlePart } from '../session/drag';
 import type { Chart, State } from './chart';
 import { Pinching, turnOf } from './pinching';
 import { TEXTS } from '../../texts/desk/gestures';
@@ -17,7 +17,7 @@ const MOVES_PX = 28;
 
 interface Turned {
   readonly agent: Agent;
-  readonly part: Part;
+  readonly part: HandlePart;
   readonly heading: number;
 }
 
@@ -26,8 +26,11 @@ function between({ editor, surface }: Chart, p: Point, q: Point): Turned | null 
   const agent = editor.agent.peek();
   if (!agent || !canMove(agent)) return null;
   const [x, y] = [(p.x + q.x) / 2, (p.y + q.y) / 2];
-  const start = editor.time.peek() < 0.05 ? startPose(agent) : null;
-  for (const [part, pose] of [['start', start] as const, ['goal', agent.goal.pos && editor.goalPose(agent)] as const]) {
+  const start = editor.playhead.time.peek() < 0.05 ? startPose(agent) : null;
+  for (const [part, pose] of [
+    ['start', start] as const,
+    ['goal', agent.goal.pos && editor.reading.goalPose(agent)] as const,
+  ]) {
     if (!pose) continue;
     const [px, py] = surface.view.to(pose.x, pose.y);
     if (Math.hypot(px - x, py - y) <= NEAR_PX) return { agent, part, heading: pose.heading };
@@ -71,15 +74,15 @@ class Turning implements State {
     const { chart, what } = this;
     const { agent: a, part } = what;
     const { editor, previews, surface } = chart;
-    if (!this.#begun) editor.beginDrag({ part, handle: 'heading' });
+    if (!this.#begun) editor.drag.begin({ part, handle: 'heading' });
     this.#begun = true;
     const heading = wrapAngle(what.heading + this.#turned);
-    editor.setHeadingFollows(part, a, false);
+    editor.drag.setHeadingFollows(part, a, false);
     this.#command =
       part === 'goal'
         ? setGoal(a, { ...a.goal, heading }, TEXTS.goalHeading)
         : setStart(a, { ...a.start, heading }, TEXTS.heading);
-    editor.previewDrag(this.#command);
+    editor.drag.preview(this.#command);
     previews.preview(a.id);
     surface.invalidate('overlay');
   }

@@ -3,13 +3,13 @@ import type { Point, Vec } from '../../model/base/geometry';
 import type { Command } from '../../model/document/commands';
 import type { Agent } from '../../model/document/scene';
 import type { View } from '../../draw/view';
-import type { Editor, Grip } from '../editor';
-import { laneWords, snapToLane } from '../snap';
-import { moveVia, widenVia } from '../vias';
+import type { Editor } from '../session/editor';
+import type { Grip } from '../session/drag';
+import { laneWords, snapToLane } from '../moves/snap';
+import { moveVia, widenVia } from '../moves/vias';
 import { inHalves } from '../../model/base/units';
-import type { Modifiers } from './chart';
+import type { Modifiers, Press } from './chart';
 import type { Move } from './dragging-handle';
-import type { Press } from './pressed';
 
 export class ViaMove implements Move {
   /** Kerbs hold back goals alone: a via point is there to lead over something, too. */
@@ -54,7 +54,7 @@ export class ViaMove implements Move {
     const [px, py] = s ? [s.x, s.y] : [x, y];
     const lane = s?.lane ?? null;
     const laneName = laneWords(map, agent, px, py, s?.laneHeading ?? null);
-    editor.dragOver({ laneId: lane?.id ?? null, laneName, stop: null, lag: null });
+    editor.drag.over({ laneId: lane?.id ?? null, laneName, stop: null, lag: null });
     const round = (v: number): number => Math.round(v * 100) / 100;
     return [round(px), round(py)];
   }

@@ -16,7 +16,7 @@ import {
   type Replan,
   type Scene,
   type StartSpec,
-  withRoster,
+  withCast,
 } from './scene';
 import type { Profile } from './profile';
 import { TEXTS } from '../../texts/scene/steps';
@@ -66,7 +66,7 @@ export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatc
       if (!changed.length) return scene;
       const next = withAgents(scene, changed);
       const recast = [...patches.values()].some((p) => 'type' in p || 'kind' in p || 'subtype' in p);
-      return recast ? withRoster(next, next.agents) : next;
+      return recast ? withCast(next, next.agents) : next;
     },
     invert(scene) {
       const back = new Map<string, AgentPatch>();
@@ -180,7 +180,7 @@ function recast(name: string, { put, drop, order, issued }: Recast): Command {
       const rest = new Set(agents.keys());
       const first = (order ?? []).filter((id) => rest.delete(id));
       const sorted = order ? new Map([...first, ...rest].map((id) => [id, agents.get(id)!])) : agents;
-      return withRoster(scene, sorted, issued);
+      return withCast(scene, sorted, issued);
     },
     invert(scene) {
       const back = [...drop, ...put.map((a) => a.id)].flatMap((id) => scene.agents.get(id) ?? []);

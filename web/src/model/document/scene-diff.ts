@@ -1,6 +1,6 @@
 // What differs between two versions of a document, there and back. Plain data: a browser can store it, whatever
 // command it came from.
-import type { Agent, Scene } from './scene';
+import { withCast, type Agent, type Scene } from './scene';
 
 /** What of a road user changes; all of it where it comes or goes; null where it is not there. */
 type Side = Partial<Agent> | null;
@@ -12,7 +12,7 @@ interface AgentDiff {
   readonly forth: Side;
 }
 
-type Fields = Partial<Omit<Scene, 'agents' | 'map' | 'signals' | 'id'>>;
+type Fields = Partial<Omit<Scene, 'agents' | 'castKey' | 'map' | 'signals' | 'id'>>;
 
 export interface SceneDiff {
   readonly agents: readonly AgentDiff[];
@@ -22,8 +22,8 @@ export interface SceneDiff {
   readonly order?: Readonly<Record<Way, readonly string[]>>;
 }
 
-/** Never part of a step: another map is another scene. */
-const FIXED: readonly string[] = ['agents', 'map', 'signals', 'id'];
+/** Never part of a step: another map is another scene, and the key of the cast follows from the agents. */
+const FIXED: readonly string[] = ['agents', 'castKey', 'map', 'signals', 'id'];
 
 /** Values are frozen; equal ones may be two where one of them was stored. */
 const same = (a: unknown, b: unknown): boolean =>
@@ -72,7 +72,7 @@ export function applyDiff(scene: Scene, diff: SceneDiff, way: Way): Scene {
     else if (a || isWhole(side)) agents.set(d.id, Object.freeze({ ...a, ...side } as Agent));
   }
   const order = diff.order?.[way];
-  return Object.freeze({ ...scene, ...diff[way], agents: order ? inOrder(agents, order) : agents });
+  return withCast({ ...scene, ...diff[way] }, order ? inOrder(agents, order) : agents);
 }
 
 const isWhole = (side: Partial<Agent>): boolean => side.log !== undefined;
@@ -106,7 +106,7 @@ export function withState(file: Scene, state: SceneState): Scene {
   const agents = new Map(
     state.agents.map((s) => [s.id, Object.freeze({ ...file.agents.get(s.id), ...s } as Agent)] as const),
   );
-  return Object.freeze({ ...file, ...state.fields, agents });
+  return withCast({ ...file, ...state.fields }, agents);
 }
 
 /** Has everybody a recording, as a document must? */

@@ -26,7 +26,7 @@ import {
   numberIn,
   readLength,
   readReplan,
-  rosterOf,
+  castKeyOf,
   sceneKey,
   startPose,
   type Agent,
@@ -78,7 +78,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
       states: s.states,
     })),
     agents,
-    roster: rosterOf(agents.values()),
+    castKey: castKeyOf(agents.values()),
     issued: Math.max(0, ...Array.from(agents.keys(), (id) => Number(numberIn(id) ?? 0))),
     seed: ed.seed ?? DEFAULTS.seed,
     diversity: ed.diversity ?? DEFAULTS.diversity,
@@ -90,8 +90,8 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   });
 }
 
-/** The roster of a document, as `Scene.roster` has it. */
-export const rosterOfJson = (json: SceneJson): string =>
+/** The key of the cast of a document, as `Scene.castKey` has it. */
+export const castKeyOfJson = (json: SceneJson): string =>
   json.agents
     .map((a) => {
       const type = typeOf(a.conditions?.type ?? a.type);

@@ -107,7 +107,7 @@ export interface VariantState {
   readonly drawn: number;
   /** Whose futures the variants made with it were; null where everybody was worked out anew. */
   readonly subject: string | null;
-  /** Who was in the scene, as `Scene.roster` has it. */
+  /** Who was in the scene, as `Scene.castKey` has it. */
   readonly roster: string;
   /** What is asked of whom; of everybody else nothing is. */
   readonly asked: Readonly<Record<string, Asked>>;
@@ -134,7 +134,7 @@ export interface Scene {
   readonly signals: readonly Signal[];
   readonly agents: ReadonlyMap<string, Agent>;
   /** Who is in the scene and of which kind, as text: equal for equal casts. */
-  readonly roster: string;
+  readonly castKey: string;
   /** The largest number that an id has ever had here: who comes new gets a larger one, also after somebody went. */
   readonly issued: number;
   readonly seed: number;
@@ -226,12 +226,12 @@ export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
 }
 
 const subtypeOf = (a: Pick<Agent, 'subtype' | 'kind'>): string => a.subtype ?? a.kind;
-export const rosterOf = (agents: Iterable<Agent>): string =>
+export const castKeyOf = (agents: Iterable<Agent>): string =>
   Array.from(agents, (a) => `${a.id}:${a.type}:${subtypeOf(a)}`).join(' ');
 
 /** Another cast; the road users in the order they are given. */
-export function withRoster(scene: Scene, agents: ReadonlyMap<string, Agent>, issued = scene.issued): Scene {
-  return Object.freeze({ ...scene, agents, roster: rosterOf(agents.values()), issued });
+export function withCast(scene: Scene, agents: ReadonlyMap<string, Agent>, issued = scene.issued): Scene {
+  return Object.freeze({ ...scene, agents, castKey: castKeyOf(agents.values()), issued });
 }
 
 /** The number at the end of an id, where it is short enough to be read. */
@@ -266,7 +266,7 @@ function keyOf(scene: Scene): string {
     scene.replan,
     scene.drawn,
   ];
-  parts.push(scene.roster);
+  parts.push(scene.castKey);
   if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);

@@ -19,7 +19,7 @@ export const MOST_VARIANTS = 30;
 
 /** The document as it is now, as a variant of it. */
 export function stateOfVariant(scene: Scene, subject: string | null): VariantState {
-  const { seed, diversity, others, length, replan, drawn, roster } = scene;
+  const { seed, diversity, others, length, replan, drawn, castKey: roster } = scene;
   const asked = [...scene.agents.values()].filter((a) => touched(a) || a.does !== null);
   return Object.freeze({
     seed,
@@ -49,7 +49,7 @@ export const askedOf = ({
 }: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
 
 /** Are the road users of a variant those that are here? */
-export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.roster;
+export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.castKey;
 
 const NOTHING = { does: null } as const;
 

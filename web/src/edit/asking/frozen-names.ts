@@ -1,0 +1,55 @@
+// Names of futures while a hand moves: an idea keeps its name until rest, unless what the name rests on is no longer
+// so and another relation has held for a while.
+import { ideas, type Future, type Futures } from '../../model/document/futures';
+import { nameAll, nameRest, type Named, type Naming } from '../../model/words/future-names';
+
+/** So long must a new relation hold before it is named, in milliseconds. */
+const HOLDS_MS = 400;
+
+interface Pending {
+  readonly basis: string;
+  readonly since: number;
+}
+
+export class FrozenNames {
+  readonly #pending = new Map<string, Pending>();
+
+  /** The next futures with the names of those on screen, as far as these still hold. `now` in milliseconds. */
+  keep(shown: Futures, next: Futures, who: Naming, now: number): Futures {
+    const was = new Map(ideas(shown.modes).map((k, i) => [k, shown.modes[i]]));
+    const fresh = nameAll(next.modes, who);
+    const keys = ideas(next.modes);
+    const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], now));
+    // New ones are told apart from those that stay.
+    const names = nameRest(
+      next.modes,
+      who,
+      kept.map((m) => m && { name: m.name, basis: m.basis! }),
+    );
+    return { ...next, modes: next.modes.map((m, i) => ({ ...m, ...names[i] })) };
+  }
+
+  /** At rest everything is named anew. */
+  rest(): void {
+    this.#pending.clear();
+  }
+
+  /** The future on screen, when its name stays. */
+  #kept(key: string, old: Future | undefined, next: Future, fresh: Named, now: number): Future | null {
+    if (!old?.basis) return null;
+    if (fresh.basis === old.basis || stillHolds(old.basis, next)) {
+      this.#pending.delete(key);
+      return old;
+    }
+    const known = this.#pending.get(key);
+    const pending = known?.basis === fresh.basis ? known : { basis: fresh.basis, since: now };
+    this.#pending.set(key, pending);
+    if (now - pending.since < HOLDS_MS) return old;
+    this.#pending.delete(key);
+    return null;
+  }
+}
+
+/** Is the relation that a name rests on still there? */
+const stillHolds = (basis: string, f: Future): boolean =>
+  f.about?.relations.some((r) => `${r.kind}:${r.with}` === basis) ?? false;

@@ -1,0 +1,162 @@
+// What everybody does once an answer is there: what was known before, and what the answer says in its place.
+import { DEFAULTS } from '../../model/base/domain';
+import { asIfNotAsked, toBeGivenUp } from '../../model/document/reaction-records';
+import type { AgentFuturesJson } from '../../model/document/scene-json';
+import type { Answering, Futures, KeepOrder, MotionSet, Score } from '../../model/document/futures';
+import { motionOf } from '../../model/physics/playback';
+import { readFutures, withNames } from '../../model/words/named-futures';
+import type { Naming } from '../../model/words/future-names';
+import { firstPose } from '../../model/document/scene-reader';
+import { metAnew, withMeetingsOf, type Changed } from '../../model/physics/verdict-updates';
+import {
+  doing,
+  isRecorded,
+  nameIn,
+  sceneKey,
+  touched,
+  touchedIn,
+  type Agent,
+  type Scene,
+} from '../../model/document/scene';
+import type { FinalEvent } from '../../net/types';
+import type { Wanted } from './request-builder';
+import { readReach, readScore, readWarnings } from './read-answer';
+import { judgedCurves, withCurves } from './drawn-speeds';
+
+/** Which letters the futures of a road user get. */
+export type Keep = (a: Agent) => KeepOrder;
+
+export const naming = (scene: Scene, a: Agent): Naming => ({
+  onFoot: a.type === 'pedestrian',
+  nameOf: nameIn(scene),
+  // What an example comes with was not recorded of anybody.
+  log: isRecorded(scene.source) && !a.placed ? a.log : null,
+});
+
+export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
+  const before = asIfNotAsked(last, w.anew);
+  const answers = futuresOf(before, scene, e, keep);
+  const mine = touchedIn(scene);
+  // A look at somebody's futures from before the change is no longer true.
+  const stillTrue = (id: string) => {
+    const a = scene.agents.get(id);
+    return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
+  };
+  const known = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+  const futures = new Map(withCurves(scene, known));
+  const score = readScore(e.scores?.[0]);
+  const drives = (id: string) => {
+    const a = scene.agents.get(id);
+    return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
+  };
+  const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
+  for (const id of mine) if (futures.has(id)) driving.add(id);
+  // What they were judged against has changed with those that are answered.
+  const now: MotionSet = { ...before, futures, driving };
+  const since = changedSince(last, now, scene);
+  const picked = (w.pinned ?? []).filter((id) => !since.some((c) => c.agent.id === id));
+  const changed = [...since, ...doingNow(scene, now, picked)];
+  // Of whom another future is picked all six are judged by what the others do when they are: that stands.
+  const stands = new Set([...answers.keys(), ...(w.pinned ?? [])]);
+  const own = mine.filter((id) => !answers.has(id));
+  const met = metAgain(scene, futures, changed, stands, score, own);
+  const judged = score ? judgedCurves(scene, met, score) : met;
+  const reach = new Map(before.reach);
+  for (const [id, resolved] of Object.entries(e.resolved)) {
+    const verdict = readReach(resolved);
+    if (verdict) reach.set(id, verdict);
+    else reach.delete(id);
+  }
+  return {
+    key: sceneKey(scene),
+    futures: judged,
+    driving,
+    score,
+    reach,
+    stale: false,
+    head: e.generated,
+    answering: answeringAfter(before, e, w.pinned),
+    warnings: readWarnings(e),
+  };
+}
+
+/** The same, where another future is picked and nobody is asked anything: the score tells who meets whom. */
+export const rejudged = (scene: Scene, set: MotionSet, score: Score, picked: readonly string[]): Map<string, Futures> =>
+  metAgain(scene, set.futures, doingNow(scene, set, picked), new Set(picked), score, touchedIn(scene));
+
+/**
+ * Futures with whom they meet now that the `changed` do something else; the verdicts of those who are in `stands` are
+ * known already. What each of `own` does is judged by the score, where there is one.
+ */
+function metAgain(
+  scene: Scene,
+  futures: MotionSet['futures'],
+  changed: readonly Changed[],
+  stands: ReadonlySet<string>,
+  score: Score | null,
+  own: readonly string[],
+): Map<string, Futures> {
+  const out = new Map<string, Futures>();
+  for (const [id, known] of futures) {
+    const a = scene.agents.get(id);
+    if (!a) continue;
+    const f = stands.has(id) ? known : metAnew(a, known, changed);
+    const shown = a.chosen ?? f.chosen;
+    const met = score && own.includes(id) && f.modes[shown] ? withMeetingsOf(score, id, f.modes[shown]) : null;
+    out.set(id, met && met !== f.modes[shown] ? { ...f, modes: f.modes.map((m, i) => (i === shown ? met : m)) } : f);
+  }
+  return out;
+}
+
+/** What these do, for others that are to be judged against it. */
+const doingNow = (scene: Scene, set: MotionSet, ids: readonly string[]): Changed[] =>
+  ids.flatMap((id) => {
+    const agent = scene.agents.get(id);
+    return agent ? [{ agent, motion: motionOf(scene, set, agent) }] : [];
+  });
+
+/** Everybody who does something else. */
+function changedSince(before: MotionSet, now: MotionSet, scene: Scene): Changed[] {
+  return [...scene.agents.values()].flatMap((agent) => {
+    const motion = motionOf(scene, now, agent);
+    return motion === motionOf(scene, before, agent) ? [] : [{ agent, motion }];
+  });
+}
+
+export function futuresOf(before: MotionSet, scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
+  const out = new Map<string, Futures>();
+  for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
+    const a = scene.agents.get(id);
+    const f = a && futuresFrom(before, scene, a, json, keep);
+    if (f) out.set(id, f);
+  }
+  return out;
+}
+
+function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
+  const start = firstPose(a, json);
+  if (!start || !json.modes?.length) return null;
+  const known = before.futures.get(a.id);
+  const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
+  if (!known || !picked) {
+    const { steps } = DEFAULTS;
+    const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+    return withNames(f, naming(scene, a));
+  }
+  // A picked future comes back longer than it was, and judged to its end; the other five stand as they are.
+  const [read] = readFutures(json, start, 1, 1, a.type === 'pedestrian').modes;
+  const longer = { ...picked, motion: read.motion, about: read.about ?? picked.about, sent: read.sent };
+  return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
+}
+
+/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
+function answeringAfter(before: MotionSet, e: FinalEvent, pinned: readonly string[] = []): Map<string, Answering> {
+  const out = new Map(before.answering);
+  for (const id of pinned) out.delete(id);
+  const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
+  for (const [id, { reaction }] of Object.entries(agents)) {
+    if (reaction) out.set(id, { said: reaction, gaveUp: toBeGivenUp(before, id) });
+    else out.delete(id);
+  }
+  return out;
+}

@@ -1,0 +1,183 @@
+// What the others would do if one let go now: asked beside the drag's own question, on a line of its own, so that it
+// neither overtakes nor holds up the six futures. The last answer is the one that a release takes over.
+import { sceneKey, type Scene } from '../../model/document/scene';
+import type { Generator, Handlers, Question } from '../../net/generator';
+import type { FinalEvent } from '../../net/types';
+import { RestTimer } from './rest-timer';
+
+/** Time between two questions. */
+const GAP_MS = 150;
+const LONGEST_GAP_MS = 250;
+/** A hand that is still for so long rests: a question about an older pose is dropped for the one it rests at. */
+const REST_MS = 120;
+/** How old a question may get while the hand moves on. */
+const OLDEST_MS = 500;
+
+export interface Asking {
+  /** The question that a release would ask of a document; null when none would be asked. */
+  question(scene: Scene, on: Handlers): Question | null;
+  /** An answer came. */
+  preview(scene: Scene, e: FinalEvent): void;
+  /** Something is open until what this gives back is called. */
+  begin(): () => void;
+}
+
+/** An answer to exactly this document. */
+export interface Known {
+  readonly key: string;
+  readonly final: FinalEvent;
+  readonly ms: number;
+}
+
+interface Running {
+  readonly scene: Scene;
+  readonly key: string;
+  readonly old: ReturnType<typeof setTimeout>;
+  readonly end: () => void;
+  /** The release waits for it. */
+  awaited: ((known: Known | null) => void) | null;
+}
+
+export class ReactionPreview {
+  /** The newest pose, until it has been asked about. */
+  #wanted: Scene | null = null;
+  #endWait: (() => void) | null = null;
+  /** Has a question of the drag's own shown something since the last one of these? The hand's own futures go first. */
+  #free = false;
+  #running: Running | null = null;
+  #gap: ReturnType<typeof setTimeout> | undefined;
+  readonly #rest = new RestTimer(REST_MS);
+  #known: Known | null = null;
+
+  constructor(
+    private readonly generator: Generator,
+    private readonly asking: Asking,
+  ) {}
+
+  /** The hand is at another pose. */
+  moved(scene: Scene): void {
+    this.#wanted = scene;
+    this.#rest.begin(() => this.#drop());
+    this.#endWait ??= this.asking.begin();
+  }
+
+  /** A question of the drag's own has shown something. The one that waits behind it is put before this one. */
+  yielded(): void {
+    this.#free = true;
+    if (this.#wanted) queueMicrotask(() => this.#next());
+  }
+
+  /** Nobody wants to know any more. */
+  drop(): void {
+    this.#forget();
+    this.#known = null;
+    this.#stop();
+  }
+
+  /**
+   * The release: `take` gets the answer to exactly this document, at once or as soon as it is there, or null when it
+   * does not come. False when there is none: it is to be asked for as any other.
+   */
+  release(scene: Scene, take: (known: Known | null) => void): boolean {
+    const key = sceneKey(scene);
+    const known = this.#known?.key === key ? this.#known : null;
+    this.#forget();
+    this.#known = null;
+    if (known) {
+      this.#stop();
+      take(known);
+      return true;
+    }
+    if (this.#running?.key !== key) {
+      this.#stop();
+      return false;
+    }
+    this.#running.awaited = take;
+    return true;
+  }
+
+  #forget(): void {
+    this.#rest.stop();
+    this.#wanted = null;
+    this.#endWait?.();
+    this.#endWait = null;
+  }
+
+  #stop(): void {
+    const was = this.#running;
+    if (!was) return;
+    this.#free = true;
+    this.#over(was);
+    this.generator.cancel();
+    was.awaited?.(null);
+  }
+
+  #next(): void {
+    const scene = this.#wanted;
+    if (!scene || !this.#free || this.#running || this.#gap !== undefined) return;
+    const key = sceneKey(scene);
+    this.#wanted = null;
+    if (this.#known?.key !== key) this.#ask(scene, key);
+    this.#endWait?.();
+    this.#endWait = null;
+  }
+
+  #ask(scene: Scene, key: string): void {
+    const question = this.asking.question(scene, {
+      draft: () => undefined,
+      final: (final, ms) => this.#answered(running, { key, final, ms }),
+      refused: () => this.#failed(running),
+      away: () => this.#failed(running),
+      dropped: () => this.#failed(running),
+    });
+    if (!question) return;
+    const old = setTimeout(() => this.#drop(), OLDEST_MS);
+    const running: Running = { scene, key, old, end: this.asking.begin(), awaited: null };
+    this.#running = running;
+    this.#free = false;
+    this.#pause(GAP_MS);
+    this.generator.ask(question);
+  }
+
+  #pause(ms: number): void {
+    clearTimeout(this.#gap);
+    this.#gap = setTimeout(() => {
+      this.#gap = undefined;
+      this.#next();
+    }, ms);
+  }
+
+  #answered(running: Running, known: Known): void {
+    if (this.#running !== running) return;
+    this.#over(running);
+    // Where these take long, at least half of the time is the hand's own.
+    if (known.ms > GAP_MS / 2) this.#pause(Math.min(known.ms, LONGEST_GAP_MS));
+    if (running.awaited) {
+      running.awaited(known);
+      return;
+    }
+    this.#known = known;
+    this.asking.preview(running.scene, known.final);
+    this.#next();
+  }
+
+  #failed(running: Running): void {
+    if (this.#running !== running) return;
+    this.#over(running);
+    running.awaited?.(null);
+    this.#next();
+  }
+
+  /** What is under way makes place for a newer pose, where there is one. */
+  #drop(): void {
+    if (!this.#wanted) return;
+    this.#stop();
+    this.#next();
+  }
+
+  #over(running: Running): void {
+    clearTimeout(running.old);
+    running.end();
+    if (this.#running === running) this.#running = null;
+  }
+}

@@ -1,0 +1,89 @@
+// Verdicts, scores and warnings of an answer, in the editor's own terms.
+import type { FinalEvent, Resolved, ScoreReply } from '../../net/types';
+import type { Message } from '../../model/document/message';
+import type { Reach, Score, Stretch } from '../../model/document/futures';
+
+export function readReach(r: Resolved | undefined): Reach | null {
+  if (!r) return null;
+  const j = r.reach;
+  const { by_road: road } = r;
+  const byRoad = road ? { x: road.x_m, y: road.y_m, heading: road.heading_rad, distance: road.distance_m } : null;
+  if (j.status === 'reached')
+    return { status: 'reached', nearest: null, limiting: null, needs: null, message: null, byRoad };
+  const { x_m, y_m, heading_rad, speed_mps } = j.nearest;
+  return {
+    status: 'unreachable',
+    nearest: { x: x_m, y: y_m, heading: heading_rad, speed: speed_mps },
+    limiting: j.limiting,
+    needs: j.needs,
+    message: j.message,
+    with: (j as { readonly with?: string | null }).with ?? null,
+    byRoad,
+  };
+}
+
+/** Warnings by road user. The verdict on its goal has its own place. */
+export function readWarnings(e: FinalEvent): Map<string, Message[]> {
+  const out = new Map<string, Message[]>();
+  for (const w of e.warnings)
+    if (w.agent && w.code !== 'goal-unreachable') out.set(w.agent, [...(out.get(w.agent) ?? []), w.message]);
+  return out;
+}
+
+/** The score of the scene as a whole; null when none was asked for. */
+export function readScore(reply: ScoreReply | null | undefined): Score | null {
+  if (!reply) return null;
+  const s = reply.scene;
+  return {
+    collisions: s.collisions.map((c) => ({
+      a: c.a,
+      b: c.b,
+      time: c.time_s,
+      closing: c.closing_speed_mps,
+      inLog: c.in_log,
+    })),
+    nearMisses: s.near_misses.map((c) => ({
+      a: c.a,
+      b: c.b,
+      time: c.time_s,
+      distance: c.distance_m,
+      ttc: c.ttc_s,
+      inLog: c.in_log,
+    })),
+    stretches: [
+      ...stretches('off_road', s.off_road),
+      ...stretches('over_median', s.over_median),
+      ...stretches('wrong_way', s.wrong_way),
+      ...stretches('harsh_braking', s.harsh_braking),
+      ...stretches('harsh_steering', s.harsh_steering),
+      ...(s.red_lights ?? []).map((r) => ({
+        what: 'red_light' as const,
+        agent: r.agent,
+        time: r.time_s,
+        until: r.time_s,
+        extent: r.speed_mps,
+        inLog: r.in_log,
+      })),
+    ],
+    minTtc: s.min_ttc_s,
+    pet: s.pet_s,
+    petOf: petsOf(reply),
+    offroadShare: s.offroad_share,
+  };
+}
+
+/** Who is part of a pair that comes to one place one after the other. */
+const petsOf = ({ agents }: Partial<ScoreReply>): ReadonlyMap<string, number> =>
+  new Map(Object.entries(agents ?? {}).flatMap(([id, a]) => (a.pet_s == null ? [] : [[id, a.pet_s]])));
+
+type SentStretch = ScoreReply['scene']['off_road'][number];
+
+const stretches = (what: Stretch['what'], sent: readonly SentStretch[] | undefined): Stretch[] =>
+  (sent ?? []).map((s) => ({
+    what,
+    agent: s.agent,
+    time: s.time_s,
+    until: s.until_s,
+    extent: s.worst,
+    inLog: s.in_log,
+  }));

@@ -1,0 +1,257 @@
+// Changes of start and goal, said once and used by handles, keys and typed values alike.
+import { deg, rad, wrapAngle, type Pose, type Vec } from '../../model/base/geometry';
+import { nearestLanes } from '../../model/document/lanemap';
+import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
+import { LETTERS } from '../../model/document/futures';
+import { limitsOf, topSpeed } from '../../model/base/domain';
+import { poseAt } from '../../model/base/motion';
+import { shortfall } from '../../model/physics/reach';
+import { localReach } from '../../model/words/reach-words';
+import {
+  GOAL_TIME,
+  startPose,
+  type Agent,
+  type GoalSpec,
+  type Scene,
+  type StartSpec,
+} from '../../model/document/scene';
+import { inTenths, metres, seconds, speedLabel, toUnit } from '../../model/base/units';
+import type { Editor, Field } from '../session/editor';
+import type { HandlePart } from '../session/drag';
+import { knownReach } from './goal-verdict';
+import { lanesFor } from './snap';
+import { TEXTS } from '../../texts/editing/moves';
+
+/** The goal where it was recorded at the goal time; null where it was not there, or did not go anywhere. */
+export function goalFromLog(a: Agent): Command | null {
+  const p = logEnd(a);
+  return (
+    p && {
+      ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]), heading: p.heading }),
+      name: TEXTS.goalAsInLog(a.name),
+    }
+  );
+}
+
+/** Is its goal where it was recorded? */
+export function isGoalOfLog(a: Agent): boolean {
+  const p = a.goal.pos && logEnd(a);
+  return !!p && Math.hypot(p.x - a.goal.pos![0], p.y - a.goal.pos![1]) < 0.05;
+}
+
+function logEnd(a: Agent): Pose | null {
+  const start = startPose(a);
+  const p = a.placed ? null : poseAt(a.log, a.goal.time);
+  return start && p && Math.hypot(p.x - start.x, p.y - start.y) > 1 ? p : null;
+}
+
+/** Seconds at which a goal may be due: up to the end of what is worked out. */
+export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
+export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
+const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.headingWithin, speed: TEXTS.speedWithin } as const;
+
+/** That a field of somebody, or of several, is fixed now, or free. */
+export function fixedWords(part: HandlePart, field: Field, who: string, fixed: boolean): string {
+  const word = FIELD_WORDS[field];
+  if (part === 'goal') return fixed ? TEXTS.goalOfFixed(word, who) : TEXTS.goalOfFree(word, who);
+  return fixed ? TEXTS.startOfFixed(word, who) : TEXTS.startOfFree(word, who);
+}
+
+const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
+
+/** The pose of a part as shown: fixed values, and for free ones what the generator chose. */
+export const shownPose = (e: Editor, a: Agent, part: HandlePart): Pose | null =>
+  part === 'start' ? startPose(a) : e.reading.goalPose(a);
+
+export function withField(a: Agent, part: HandlePart, patch: Partial<GoalSpec>, fold = false): Command {
+  const words =
+    'pos' in patch
+      ? part === 'goal'
+        ? TEXTS.goal
+        : TEXTS.start
+      : 'heading' in patch
+        ? `${part === 'goal' ? TEXTS.goalHeading : TEXTS.heading}`
+        : 'speed' in patch
+          ? `${part === 'goal' ? TEXTS.goalSpeed : TEXTS.speed}`
+          : TEXTS.goalTime;
+  const done = 'pos' in patch ? TEXTS.movedWord : TEXTS.changed;
+  const c =
+    part === 'goal'
+      ? setGoal(a, { ...a.goal, ...patch })
+      : setStart(a, { pos: a.start.pos, heading: a.start.heading, speed: a.start.speed, ...patch } as StartSpec);
+  const field = Object.keys(patch)[0];
+  return { ...c, name: TEXTS.of(words, a.name, done), fold: fold ? `${part}:${field}:${a.id}` : undefined };
+}
+
+/** Switches one field between Fixed, at the value shown, and Free. */
+export function toggleField(e: Editor, a: Agent, part: HandlePart, field: Field): Command | null {
+  const spec = part === 'goal' ? a.goal : a.start;
+  const shown = shownPose(e, a, part);
+  e.touchField(part, field);
+  const free = spec[field] !== null;
+  // Nobody but the user knows where somebody is who was put here.
+  if (free && a.placed && part === 'start' && field === 'pos') return null;
+  const value = free || !shown ? null : field === 'pos' ? freeze([shown.x, shown.y]) : shown[field];
+  if (!free && value === null) return null;
+  const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);
+  return {
+    ...c,
+    name: fixedWords(part, field, a.name, !free),
+  };
+}
+
+/** A goal where the chosen future ends: the keyboard's way to take the flag. */
+export function goalHere(e: Editor, a: Agent): Command | null {
+  const p = e.reading.goalPose(a);
+  return p ? { ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]) }), name: TEXTS.goalOfSet(a.name) } : null;
+}
+
+export function nudge(e: Editor, a: Agent, part: HandlePart, dx: number, dy: number): Command | null {
+  const p = shownPose(e, a, part);
+  return p ? withField(a, part, { pos: freeze([p.x + dx, p.y + dy]) }, true) : null;
+}
+
+export function nudgeAlong(e: Editor, a: Agent, part: HandlePart, metres: number): Command | null {
+  const p = shownPose(e, a, part);
+  const fits = lanesFor(a);
+  const map = e.scene.peek()!.map;
+  if (!p) return null;
+  const hit = fits ? nearestLanes(map, p.x, p.y, p.heading, 4, fits)[0] : undefined;
+  const h = hit?.heading ?? p.heading;
+  const x = p.x + Math.cos(h) * metres,
+    y = p.y + Math.sin(h) * metres;
+  const on =
+    hit &&
+    nearestLanes(
+      map,
+      x,
+      y,
+      h,
+      4,
+      (l) => l === hit.lane || hit.lane.next.includes(l.id) || hit.lane.prev.includes(l.id),
+    )[0];
+  return withField(a, part, on ? { pos: freeze([on.x, on.y]), heading: on.heading } : { pos: freeze([x, y]) }, true);
+}
+
+/** To the lane beside this one, on the left or on the right. */
+export function toNextLane(e: Editor, a: Agent, part: HandlePart, side: 1 | -1): Command | null {
+  const p = shownPose(e, a, part),
+    fits = lanesFor(a);
+  if (!p || !fits) return null;
+  const hits = nearestLanes(e.scene.peek()!.map, p.x, p.y, p.heading, 7, fits)
+    .map((h) => ({ h, left: -(h.x - p.x) * Math.sin(p.heading) + (h.y - p.y) * Math.cos(p.heading) }))
+    .filter((c) => c.left * side > 1.2 && Math.abs(wrapAngle(c.h.heading - p.heading)) < 0.8)
+    .sort((m, n) => Math.abs(m.left) - Math.abs(n.left));
+  const to = hits[0]?.h;
+  return to ? withField(a, part, { pos: freeze([to.x, to.y]), heading: to.heading }) : null;
+}
+
+export function turn(e: Editor, a: Agent, part: HandlePart, degrees: number): Command | null {
+  const p = shownPose(e, a, part);
+  return p ? withField(a, part, { heading: wrapAngle(rad(Math.round(deg(p.heading) + degrees))) }, true) : null;
+}
+
+export function snapToNearest(e: Editor, a: Agent, part: HandlePart): Command | null {
+  const p = shownPose(e, a, part),
+    fits = lanesFor(a);
+  const hit = p && fits ? nearestLanes(e.scene.peek()!.map, p.x, p.y, p.heading, 25, fits)[0] : undefined;
+  return hit ? withField(a, part, { pos: freeze([hit.x, hit.y]), heading: hit.heading }) : null;
+}
+
+export function faster(e: Editor, a: Agent, part: HandlePart, steps: number): Command | null {
+  const p = shownPose(e, a, part);
+  if (!p) return null;
+  const step = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
+  const v = Math.min(topSpeed(a), Math.max(0, (Math.round(p.speed / step) + steps) * step));
+  return withField(a, part, { speed: v }, true);
+}
+
+export function later(e: Editor, a: Agent, by: number): Command {
+  const t = Math.round(goalTime(e.scene.peek(), a.goal.time + by) * 10) / 10;
+  return withField(a, 'goal', { time: t }, true);
+}
+
+export function pickFuture(e: Editor, a: Agent, index: number | null): Command | null {
+  const f = e.reading.futures.peek();
+  // Cards are taken, not picked: they are nobody's futures yet.
+  if (!f || f.sketch || a.locked || e.reading.cards.hand.peek() || (index !== null && index >= f.modes.length))
+    return null;
+  return choose(a, index, LETTERS[index ?? 0]);
+}
+
+/** Another future is taken, where it is another; of who is locked it is said why not. */
+export function takeFuture(e: Editor, a: Agent, index: number): void {
+  const command = a.chosen === index ? null : pickFuture(e, a, index);
+  if (command) e.commits.run(command);
+  else if (a.locked) e.notices.show({ text: TEXTS.allAreLocked(1) });
+}
+
+export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
+
+/** The three ways out of a goal that cannot be reached. */
+export interface Remedy {
+  readonly label: string;
+  readonly note: string;
+  readonly icon: string;
+  readonly primary: boolean;
+  readonly command: Command;
+}
+
+export function remedies(e: Editor, a: Agent): Remedy[] {
+  const scene = e.scene.value,
+    start = startPose(a);
+  if (!scene || !start || !a.goal.pos) return [];
+  const unit = e.view.unitOf(a);
+  const local = localReach(scene.map, a, start, a.goal, unit, scene.length);
+  const verdict = knownReach(e, a);
+  const out: Remedy[] = [];
+  const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
+  if (nearest) {
+    const gets =
+      shortfall(start, a.goal.pos, nearest, local)?.gets ?? Math.hypot(nearest.x - start.x, nearest.y - start.y);
+    const heading = a.goal.heading === null ? null : nearest.heading;
+    const speed = a.goal.speed === null ? null : nearest.speed;
+    out.push({
+      label: TEXTS.useNearestReachable,
+      // A speed that was fixed goes with it: that is said.
+      note: [TEXTS.afterWay(metres(gets, 0)), ...(speed === null ? [] : [speedLabel(speed, unit)])].join(', '),
+      icon: 'flag',
+      primary: true,
+      command: goalStep(
+        a,
+        { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed },
+        TEXTS.goalOfMovedTo(a.name),
+      ),
+    });
+  }
+  const bend = verdict?.limiting === 'lateral' || verdict?.limiting === 'curvature' || local?.kind === 'sharp';
+  if (bend && a.goal.heading !== null)
+    out.push({
+      label: TEXTS.leaveTheHeading,
+      note: TEXTS.widerGoal,
+      icon: 'lock',
+      primary: false,
+      command: withField(a, 'goal', { heading: null }),
+    });
+  if (local?.time && local.time > a.goal.time)
+    out.push({
+      label: TEXTS.allowMoreTime,
+      note: seconds(local.time),
+      icon: 'clock',
+      primary: false,
+      command: withField(a, 'goal', { time: local.time }),
+    });
+  if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
+    const faster = local.kind === 'far';
+    const v = Math.min(limitsOf(a).speed_mps, local.speed);
+    const note = inTenths(unit) ? speedLabel(v, unit) : `${Math.ceil(toUnit(v, unit))} ${unit}`;
+    out.push({
+      label: faster ? TEXTS.startFaster : TEXTS.startSlower,
+      note,
+      icon: 'play',
+      primary: false,
+      command: withField(a, 'start', { speed: faster && !inTenths(unit) ? Math.ceil(v * 3.6) / 3.6 : v }),
+    });
+  }
+  return out;
+}

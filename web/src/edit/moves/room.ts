@@ -1,0 +1,40 @@
+// Room for road users: who stands where somebody is to be put, and where there is place instead.
+import { touching, type Footprint } from '../../model/physics/boxes';
+import type { Vec } from '../../model/base/geometry';
+import type { Newcomer } from '../../model/document/newcomer';
+import { startPose, type Agent, type Scene } from '../../model/document/scene';
+
+/** Everybody who is there at the start of a scene, as boxes. */
+export function standing(scene: Scene): (Footprint & { readonly agent: Agent })[] {
+  return [...scene.agents.values()].flatMap((agent) => {
+    const pose = startPose(agent);
+    return pose ? [{ agent, pose, length: agent.length, width: agent.width }] : [];
+  });
+}
+
+/** Who stands in the way of a box. */
+export const inTheWay = (f: Footprint, taken: readonly Footprint[]): Footprint | undefined =>
+  taken.find((o) => touching(f, o));
+
+/** How far one looks for a free place, metres. */
+const LOOK_M = 60;
+
+/**
+ * How far all of them are to be moved so that they touch nobody: the nearest such place behind the first of them,
+ * before it, or beside it. Null where all is full.
+ */
+export function freeShift(all: readonly Newcomer[], taken: readonly Footprint[], step = 2): Vec | null {
+  const first = all[0];
+  if (!first) return null;
+  const h = first.pose.heading;
+  const fits = (dx: number, dy: number): boolean =>
+    all.every((n) => !inTheWay({ ...n, pose: { ...n.pose, x: n.pose.x + dx, y: n.pose.y + dy } }, taken));
+  if (fits(0, 0)) return [0, 0];
+  for (let d = step; d <= LOOK_M; d += step)
+    for (const turn of [Math.PI, 0, -Math.PI / 2, Math.PI / 2, (-3 * Math.PI) / 4, (3 * Math.PI) / 4]) {
+      const dx = Math.cos(h + turn) * d,
+        dy = Math.sin(h + turn) * d;
+      if (fits(dx, dy)) return [dx, dy];
+    }
+  return null;
+}

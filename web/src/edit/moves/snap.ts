@@ -1,0 +1,188 @@
+// Snapping to lanes and angles. It shows itself and lets go with Alt.
+import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../../model/base/geometry';
+import { armWords } from '../../model/words/arm-names';
+import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
+import { startPose, type Agent, type Scene } from '../../model/document/scene';
+import { TEXTS } from '../../texts/editing/picture';
+
+export interface Snapped {
+  x: number;
+  y: number;
+  laneHeading: number | null;
+  lane: Lane | null;
+}
+
+const RADIUS_M = 1.8;
+const RADIUS_PX = 14;
+const AGAINST = 2.1;
+/** The lane one is on already is preferred by this much, so that the box does not flicker between two. */
+const STAY_BONUS_M = 0.6;
+
+export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null {
+  if (a.type === 'vehicle') return (l) => l.kind === 'road';
+  if (a.type === 'cyclist') return (l) => l.kind === 'bike' || l.kind === 'road';
+  return null;
+}
+
+/**
+ * The best lane under a point. `travel` is the line from the start to a goal: lanes that lead back against it are
+ * left alone, or a goal a little beyond the middle line would turn the car round. Alt puts it anywhere.
+ */
+export function snapToLane(
+  map: LaneMap,
+  a: Agent,
+  x: number,
+  y: number,
+  heading: number | null,
+  zoom: number,
+  stay: string | null,
+  travel: number | null = null,
+): Snapped {
+  const fits = lanesFor(a);
+  const free: Snapped = { x, y, laneHeading: null, lane: null };
+  if (!fits) return free;
+  const radius = Math.max(RADIUS_M, RADIUS_PX / zoom);
+  const hits = nearestLanes(map, x, y, heading, radius, fits);
+  let best: LaneHit | null = null,
+    score = Infinity;
+  for (const h of hits) {
+    const bike = a.type === 'cyclist' && h.lane.kind === 'bike' ? 0.8 : 0;
+    if (travel !== null && Math.abs(wrapAngle(h.heading - travel)) > AGAINST) continue;
+    const s = h.score - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
+    if (s < score) {
+      score = s;
+      best = h;
+    }
+  }
+  return best ? { x: best.x, y: best.y, laneHeading: best.heading, lane: best.lane } : free;
+}
+
+/** Where traffic stops on a lane: at a stop line with the nose on it, and 2 m behind the last of a queue. */
+export interface SoftStop {
+  readonly s: number;
+  readonly x: number;
+  readonly y: number;
+  readonly heading: number;
+}
+
+const CAPTURE_PX = 8;
+const QUEUE_GAP_M = 2;
+
+export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom: number): SoftStop | null {
+  const places: number[] = [];
+  const stops =
+    scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) ||
+    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
+  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
+  for (const b of scene.agents.values()) {
+    if (b.id === a.id || b.type !== 'vehicle' || Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > 0.5) continue;
+    const p = startPose(b);
+    if (!p) continue;
+    const on = project(lane.line, p.x, p.y);
+    if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
+  }
+  const s = places
+    .filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX)
+    .sort((p, q) => Math.abs(p - along) - Math.abs(q - along))[0];
+  return s === undefined ? null : { s, ...pointAt(lane.line, s) };
+}
+
+/** Along one lane only: the nearest point of it, however far the pointer strays. */
+export function alongLane(map: LaneMap, laneId: string | null, x: number, y: number): Snapped | null {
+  const lane = laneId ? map.lanes.get(laneId) : undefined;
+  if (!lane) return null;
+  const hit = nearestLanes(
+    map,
+    x,
+    y,
+    null,
+    60,
+    (l) => l === lane || lane.next.includes(l.id) || lane.prev.includes(l.id),
+  ).sort((p, q) => p.d - q.d)[0];
+  return hit ? { x: hit.x, y: hit.y, laneHeading: hit.heading, lane: hit.lane } : null;
+}
+
+/** Heading under the tiller: lane tangent and normal within 4 degrees, else whole degrees; Shift gives 15. */
+export function snapHeading(
+  map: LaneMap,
+  a: Agent,
+  x: number,
+  y: number,
+  heading: number,
+  mode: 'fine' | 'steps' | 'lane',
+): number {
+  if (mode === 'fine') return rad(Math.round(deg(heading) * 10) / 10);
+  if (mode === 'steps') return wrapAngle(rad(Math.round(deg(heading) / 15) * 15));
+  const fits = lanesFor(a);
+  const lane = fits ? nearestLanes(map, x, y, heading, 3, fits)[0] : undefined;
+  if (lane) {
+    for (const turn of [0, Math.PI / 2, -Math.PI / 2, Math.PI]) {
+      const target = wrapAngle(lane.heading + turn);
+      if (Math.abs(wrapAngle(heading - target)) < rad(4)) return target;
+    }
+  }
+  return wrapAngle(rad(Math.round(deg(heading))));
+}
+
+/** What was said of places of a map last: several parts of the page say it of the same few. */
+const said = new WeakMap<LaneMap, Map<string, string>>();
+const MOST_SAID = 64;
+
+/** Words for the lane under a point. */
+export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+  let known = said.get(map);
+  if (!known || known.size >= MOST_SAID) said.set(map, (known = new Map()));
+  const key = `${a.type} ${x} ${y} ${heading}`;
+  let words = known.get(key);
+  if (words === undefined) known.set(key, (words = wordsAt(map, a, x, y, heading)));
+  return words;
+}
+
+function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+  if (a.type === 'pedestrian') return onFoot(map, x, y);
+  const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
+  const fits = lanesFor(a);
+  const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
+  if (!hit) return TEXTS.offTheLanes;
+  const arm = hit.lane.kind === 'walk' ? null : armWords(map, hit.lane);
+  if (arm) return arm;
+  const way = compass(hit.heading);
+  const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
+  const what =
+    hit.lane.kind === 'bike'
+      ? TEXTS.bikeLane
+      : hit.lane.kind === 'walk'
+        ? TEXTS.pavement
+        : junction
+          ? TEXTS.insideTheJunction
+          : hit.lane.type === 'freeway'
+            ? TEXTS.motorwayLane
+            : hit.lane.type === 'bus_lane'
+              ? TEXTS.busLane
+              : TEXTS.lane;
+  return junction ? TEXTS.bound(what, way) : TEXTS.wayBound(way, what);
+}
+
+function onFoot(map: LaneMap, x: number, y: number): string {
+  if (map.crosswalks.some((p) => insidePolygon(x, y, p))) return TEXTS.onACrosswalk;
+  const lane = nearestLanes(map, x, y, null, 1.9, () => true)[0];
+  return !lane || lane.lane.kind === 'walk'
+    ? TEXTS.besideTheRoad
+    : lane.lane.kind === 'bike'
+      ? TEXTS.onABikeLane
+      : TEXTS.onTheRoad;
+}
+
+function compass(heading: number): string {
+  const names = [
+    TEXTS.east,
+    TEXTS.northEast,
+    TEXTS.north,
+    TEXTS.northWest,
+    TEXTS.west,
+    TEXTS.southWest,
+    TEXTS.south,
+    TEXTS.southEast,
+  ];
+  return names[((Math.round(deg(heading) / 45) % 8) + 8) % 8];
+}

@@ -1,0 +1,103 @@
+// What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
+import type { Pen } from '../../draw/pen';
+import type { Change } from '../../model/words/change-words';
+import type { Pose } from '../../model/base/geometry';
+import { STEP_S } from '../../model/base/motion';
+import type { Agent } from '../../model/document/scene';
+import { Fades, type Faded } from '../../draw/fades';
+import { paintWaiting, paintWay, type GhostStyle } from '../../draw/ghosts';
+import { pill, tag, type Labels } from '../../draw/labels';
+import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../../draw/sprites';
+import { colours } from '../../draw/theme';
+import type { View } from '../../draw/view';
+import type { Editor } from '../session/editor';
+import { LABELS } from './changes';
+
+/** Nearer to its own box than this share of its length, a ghost is an outline only. */
+const OVER_ITSELF = 0.6;
+
+export class GhostOverlay {
+  private readonly fades = new Fades<Change>();
+  private readonly calm =
+    typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
+  private shown: Faded<Change>[] = [];
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+    private readonly poseNow: (a: Agent) => Pose | null,
+  ) {}
+
+  get fading(): boolean {
+    return this.fades.fading;
+  }
+
+  private agentOf(c: Change): Agent | undefined {
+    return this.editor.scene.value?.agents.get(c.id);
+  }
+
+  /** Ways, real boxes and ghosts, those most affected on top. */
+  paint(g: Pen, v: View): void {
+    const { editor: e } = this;
+    const foreseen = e.view.showPreviewed.value ? (e.answers.previewed.value ?? []) : [];
+    this.shown = this.fades.next(foreseen, performance.now(), this.calm.matches);
+    const t = e.playhead.time.value;
+    for (const { ghost: c, alpha, here } of [...this.shown].reverse()) {
+      const a = this.agentOf(c);
+      if (!a) continue;
+      const now = this.poseNow(a);
+      const away = now ? Math.hypot(now.x - c.place.x, now.y - c.place.y) : Infinity;
+      const style: GhostStyle = {
+        colour: colours()[colourKey({ ...a, parked: false })],
+        alpha,
+        brakes: c.reaction?.kind === 'waits' || c.reaction?.kind === 'slows',
+        filled: away > OVER_ITSELF * a.length,
+      };
+      // Who comes in later goes from where it is first seen.
+      paintWay(g, v, c.after, Math.max(t, (c.after.valid[0]?.[0] ?? 0) * STEP_S), c.at, style);
+      if (now && here) {
+        // The real box stays where it is, at full strength.
+        stamp(g, v, a, now);
+        g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+        this.block(v, a, now);
+      }
+      paintWaiting(g, v, a, c.place, style);
+      if (here) this.block(v, a, c.place);
+    }
+  }
+
+  private block(v: View, a: Agent, p: Pose): void {
+    const { x, y, w, h } = boxOnScreen(v, a, p);
+    this.labels.block(x - 2, y - 2, w + 4, h + 4);
+  }
+
+  /** One small cause for each of those most affected, and their names at their own boxes. */
+  paintLabels(g: Pen, v: View): void {
+    const first = this.shown.filter((s) => s.here).slice(0, LABELS);
+    for (const { ghost: c, alpha } of first) {
+      const at = v.to(c.place.x, c.place.y);
+      g.globalAlpha = alpha;
+      tag(g, this.labels, at, c.words, { leader: colours().ink, radii: [38, 52, 70, 92, 120] });
+      g.globalAlpha = 1;
+    }
+    for (const { ghost: c } of first) this.name(g, v, c);
+  }
+
+  private name(g: Pen, v: View, c: Change): void {
+    const a = this.agentOf(c);
+    const p = a && (this.poseNow(a) ?? c.place);
+    if (!a || !p) return;
+    const [l] = sizeOnScreen(a, v.z);
+    const half = boxOnScreen(v, a, p).h / 2;
+    pill(g, this.labels, ...v.to(p.x, p.y), c.name, {
+      weight: 500,
+      must: false,
+      tries: [
+        [-24, -half - 26],
+        [-24, half + 6],
+        [l / 2 + 8, -10],
+        [-l / 2 - 60, -10],
+      ],
+    });
+  }
+}

@@ -1,0 +1,219 @@
+// The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
+import type { Pen } from '../../draw/pen';
+import type { Pose } from '../../model/base/geometry';
+import { reachableWays, reachBetween, shortfall } from '../../model/physics/reach';
+import { canChange, startPose, type Agent } from '../../model/document/scene';
+import { metres, seconds, speedLabel } from '../../model/base/units';
+import { pill, tag, type Labels } from '../../draw/labels';
+import { paintFlag, paintGhost, paintHandles, paintString } from '../../draw/handles';
+import { paintRing, paintWays } from '../../draw/ground';
+import { polyline } from '../../draw/strokes';
+import { colours } from '../../draw/theme';
+import type { View } from '../../draw/view';
+import type { Editor } from '../session/editor';
+import type { Lag } from '../session/drag';
+import { outOfReach, type OutOfReach } from '../moves/goal-verdict';
+import { TEXTS } from '../../texts/editing/picture';
+
+export class GoalOverlay {
+  /** Where the time tag was painted, for the pointer. */
+  timeTag: { x: number; y: number; w: number; h: number } | null = null;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+    /** Is the future in force the only answer? */
+    private readonly isDecided: () => boolean,
+  ) {}
+
+  paintLaneGlow(g: Pen, v: View): void {
+    const d = this.editor.drag.info.value;
+    const lane = d?.laneId ? this.editor.scene.value!.map.lanes.get(d.laneId) : null;
+    if (lane)
+      polyline(
+        g,
+        v,
+        lane.line.pts,
+        d!.grip.part === 'goal' ? colours().goal : colours().vehicle,
+        Math.min(3.2, lane.width) * v.z,
+        0.22,
+      );
+    const bar = d?.stop;
+    if (bar) {
+      const half = 1.5,
+        at = (k: number): [number, number] => [
+          bar.x + Math.cos(bar.heading) * 2.6 - Math.sin(bar.heading) * k,
+          bar.y + Math.sin(bar.heading) * 2.6 + Math.cos(bar.heading) * k,
+        ];
+      polyline(g, v, [at(-half), at(half)], colours().goal, 3, 1, [], 'round');
+    }
+  }
+
+  /** Where it can be at the goal time, whatever its goal is. */
+  paintAllReach(g: Pen, v: View, a: Agent): void {
+    const { map } = this.editor.scene.value!;
+    const start = startPose(a);
+    if (!start || !canChange(a)) return;
+    const t = a.goal.time;
+    if (a.type === 'pedestrian') paintRing(g, v, [start.x, start.y], ...reachBetween(a, start, t));
+    else paintWays(g, v, reachableWays(map, a, start, t));
+  }
+
+  /** How far it gets, and what lies beyond. */
+  paintReach(g: Pen, v: View, a: Agent): void {
+    const { editor: e } = this;
+    const r = e.reading.localReach.value;
+    if (!r || r.kind === 'ok' || !a.goal.pos || !outOfReach(this.editor, a)) return;
+    const c = colours();
+    const w = Math.max(4, a.width * 1.5 * v.z);
+    const cut = r.kind === 'far' ? r.max : r.along;
+    const pts = r.path.pts;
+    const inside = pts.filter((_, i) => r.path.s[i] <= cut),
+      beyond = pts.filter((_, i) => r.path.s[i] >= cut - 3);
+    polyline(g, v, inside, c.goal, w, 0.2);
+    if (r.kind === 'far') {
+      polyline(g, v, beyond, c.near, w, 0.45);
+      polyline(g, v, beyond, c['near-edge'], 2.5, 1, [2, 6], 'round');
+    }
+  }
+
+  paintGoal(g: Pen, v: View, a: Agent, goal: Pose & { set: boolean }): void {
+    const { editor: e } = this;
+    const c = colours();
+    const [x, y] = v.to(goal.x, goal.y);
+    const bad = outOfReach(this.editor, a);
+    const colour = bad ? c['near-text'] : c.goal;
+    paintGhost(g, v, a, goal, colour, bad ? c['near-soft'] : c['goal-soft'], goal.set && !bad ? [] : [4, 3]);
+    const drag = e.drag.info.value?.grip;
+    const unit = e.view.unitOf(a);
+    if (goal.set && !a.locked) {
+      const h = paintHandles(g, this.labels, v, a, goal, {
+        colour,
+        freeHeading: a.goal.heading === null,
+        freeSpeed: a.goal.speed === null,
+        tick: a.type === 'pedestrian' ? 1 : 10 / 3.6,
+      });
+      if (a.goal.speed !== null || (drag?.part === 'goal' && drag.handle === 'speed'))
+        tag(g, this.labels, h.tip, speedLabel(goal.speed, unit), {
+          tries: [
+            [14, -10],
+            [-22, 14],
+            [-22, -32],
+          ],
+          bg: colour,
+          fg: c.surface,
+        });
+    }
+    paintFlag(g, this.labels, [x, y], colour, !goal.set, v.grip);
+    if (bad) this.paintNearest(g, v, a, bad.nearest);
+    const said = bad && !bad.outranked;
+    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(a.goal.time)) : TEXTS.goalFree;
+    if (drag?.part === 'goal' && drag.handle === 'body') return;
+    // Beside the words of a stop there is no room for what nobody asked for.
+    if (!goal.set && this.isDecided()) return;
+    const r = pill(
+      g,
+      this.labels,
+      x,
+      y,
+      text,
+      said
+        ? {
+            tries: [
+              [32, -44],
+              [-150, -44],
+            ],
+            bg: c.near,
+            fg: c['on-near'],
+            icon: 'triangle',
+          }
+        : {
+            fg: c['goal-text'],
+            tries: [
+              [30, -42],
+              [30, -20],
+              [-100, -42],
+              [-100, 6],
+              [30, 6],
+            ],
+          },
+    );
+    if (goal.set && r) this.timeTag = r;
+  }
+
+  private paintNearest(g: Pen, v: View, a: Agent, nearest: OutOfReach['nearest']): void {
+    if (!nearest) return;
+    const c = colours();
+    paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
+    paintFlag(g, this.labels, v.to(nearest.x, nearest.y), c.goal, true, v.grip);
+  }
+
+  /** After the handles, which would cover it. */
+  labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
+    const c = colours();
+    const [x, y] = v.to(nearest.x, nearest.y);
+    const start = startPose(a);
+    const far =
+      start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.reading.localReach.value) : null;
+    tag(g, this.labels, [x, y], far ? TEXTS.nearestReachable(metres(far.gets, 0)) : TEXTS.nearestReachableOnly, {
+      tries: [
+        [34, -26],
+        [-170, -26],
+        [34, 8],
+        [-170, 8],
+      ],
+      bg: c.goal,
+      fg: c.surface,
+    });
+    if (far && far.beyond > 1 && a.goal.pos)
+      tag(
+        g,
+        this.labels,
+        v.to((nearest.x + a.goal.pos[0]) / 2, (nearest.y + a.goal.pos[1]) / 2),
+        TEXTS.beyondReach(metres(far.beyond, 0)),
+        { weight: 500, must: false },
+      );
+  }
+
+  /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
+  private paintLag(g: Pen, v: View, { from, to, touch }: Lag): void {
+    const hand = v.to(to[0], to[1]);
+    paintString(g, v.to(from[0], from[1]), hand);
+    const tries = [
+      [20, -10],
+      [20, 12],
+      [-100, -10],
+    ] as const;
+    tag(g, this.labels, hand, touch ? TEXTS.holdToCross : TEXTS.altToCross, { tries });
+  }
+
+  dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null): void {
+    const d = this.editor.drag.info.value;
+    if (!d || d.grip.handle !== 'body') return;
+    const c = colours();
+    if (d.lag) this.paintLag(g, v, d.lag);
+    const p = d.grip.part === 'goal' ? goal : startPose(a);
+    if (!p) return;
+    const [x, y] = v.to(p.x, p.y);
+    const r = this.editor.reading.localReach.value;
+    if (d.laneName)
+      tag(g, this.labels, [x, y], TEXTS.on(d.laneName), {
+        tries: [
+          [34, -46],
+          [-150, -46],
+          [34, 12],
+        ],
+        bg: d.grip.part === 'goal' ? c.goal : c.select,
+        fg: d.grip.part === 'goal' ? c.surface : c.halo,
+      });
+    if (d.grip.part === 'goal' && r)
+      tag(g, this.labels, [x, y], TEXTS.atAhead(seconds(a.goal.time), metres(r.along, 0)), {
+        weight: 500,
+        tries: [
+          [34, -22],
+          [-170, -22],
+          [34, 36],
+        ],
+      });
+  }
+}

@@ -1,0 +1,255 @@
+// The editing session: what is selected and pointed at, and the parts that everybody shares. What a panel shows is a
+// signal, to be read; it changes by named methods alone.
+import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
+import type { KeptHistory } from '../../model/document/history';
+import type { Agent, Scene } from '../../model/document/scene';
+import type { MotionSet } from '../../model/document/futures';
+import type { Vec } from '../../model/base/geometry';
+import type { TrafficEvent } from '../../model/words/event-words';
+import { Document, type Lock } from '../document/document';
+import { TEXTS } from '../../texts/editing/generation';
+import { Answers } from './answers';
+import { Commits } from './commits';
+import { Drag, type Grip, type HandlePart } from './drag';
+import { Notices } from './notices';
+import type { Part } from './part';
+import { Playhead } from './playhead';
+import { Reading } from './reading';
+import { ViewSettings } from './view-settings';
+
+/** A handle of the selected road user: of its start, of its goal, or a via point by its index. */
+export interface Keyed {
+  readonly part: HandlePart;
+  readonly via: number | null;
+}
+
+export type Field = 'pos' | 'heading' | 'speed';
+
+/** What the pointer is over: one of the three, or nothing. */
+export interface Pointed {
+  readonly agent?: string | null;
+  readonly future?: number | null;
+  readonly grip?: Grip | null;
+}
+
+export interface MeasuredLine {
+  readonly a: Vec;
+  readonly b: Vec;
+}
+
+/** What a marquee or a lasso goes round, in metres, and whom it takes. */
+export interface Sweep {
+  readonly outline: readonly Vec[];
+  readonly ids: readonly string[];
+}
+
+const NOBODY: readonly string[] = Object.freeze([]);
+
+export class Editor {
+  readonly #selected = signal<readonly string[]>(NOBODY);
+  readonly #hover = signal<string | null>(null);
+  readonly #hoverFuture = signal<number | null>(null);
+  readonly #hoverGrip = signal<Grip | null>(null);
+  readonly #keyed = signal<Keyed | null>(null);
+  readonly #focusPart = signal<HandlePart>('start');
+  readonly #viaInHand = signal<number | null>(null);
+  readonly #lastField = signal<{ part: HandlePart; field: Field }>({ part: 'goal', field: 'speed' });
+  readonly #tool = signal('select');
+  readonly #measure = signal<MeasuredLine | null>(null);
+  readonly #sweep = signal<Sweep | null>(null);
+  readonly #selectedEvent = signal<TrafficEvent | null>(null);
+
+  readonly document = new Document();
+  readonly scene: ReadonlySignal<Scene | null> = this.document.shown;
+  /** The committed one: while a hand moves it stays as it was, and so does what is worked out from it. */
+  readonly resting: ReadonlySignal<Scene | null> = this.document.scene;
+  /** Is there a scene? It changes less often than the scene does. */
+  readonly isOpen = computed(() => this.resting.value !== null);
+  /** Ids of all that are selected, in the order in which they were taken. */
+  readonly selected: ReadonlySignal<readonly string[]> = this.#selected;
+  /** Id of the selected road user; null where none is selected, or several. */
+  readonly selection = computed(() => (this.selected.value.length === 1 ? this.selected.value[0] : null));
+  readonly agent = computed<Agent | null>(() => {
+    const id = this.selection.value;
+    return (id && this.scene.value?.agents.get(id)) || null;
+  });
+  /** The same as it was before the drag that goes on, for what a drag does not change. */
+  readonly restingAgent = computed<Agent | null>(() => {
+    const id = this.selection.value;
+    return (id && this.resting.value?.agents.get(id)) || null;
+  });
+  readonly hover: ReadonlySignal<string | null> = this.#hover;
+  readonly hoverFuture: ReadonlySignal<number | null> = this.#hoverFuture;
+  readonly hoverGrip: ReadonlySignal<Grip | null> = this.#hoverGrip;
+  /** The handle that keys move now: it has the focus, and one sees where it is. */
+  readonly keyed: ReadonlySignal<Keyed | null> = this.#keyed;
+  /** The part that keys move. */
+  readonly focusPart: ReadonlySignal<HandlePart> = this.#focusPart;
+  /** The via point that keys are about; null where there is none. */
+  readonly viaInHand = computed<number | null>(() => {
+    const i = this.#viaInHand.value;
+    return i !== null && i < (this.agent.value?.goal.via.length ?? 0) ? i : null;
+  });
+  readonly lastField: ReadonlySignal<{ part: HandlePart; field: Field }> = this.#lastField;
+  /** Name of the tool of the rail that is in hand. */
+  readonly tool: ReadonlySignal<string> = this.#tool;
+  /** Ends of the measuring line, in metres. */
+  readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
+  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
+  readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
+
+  readonly answers = new Answers();
+  readonly notices = new Notices();
+  readonly view = new ViewSettings();
+  readonly playhead = new Playhead(() => this.scene.peek()?.duration ?? null);
+  /** Who follows what happens here, in this order. */
+  readonly #parts: Part[] = [{ followed: ({ before, after }) => this.#follow(before, after) }, this.answers];
+  readonly commits = new Commits(this.document, this.notices, this.#parts, () => !this.answers.motion.peek().stale);
+  readonly drag = new Drag(this);
+  readonly reading = new Reading(this);
+
+  /** A part follows what happens here from now on. */
+  join(part: Part): void {
+    this.#parts.push(part);
+  }
+
+  /** Does any part wait for an answer? */
+  readonly asking = (): boolean => this.#parts.some((part) => part.asking?.value);
+
+  open(scene: Scene, saved: MotionSet | null = null, kept: KeptHistory | null = null): void {
+    batch(() => {
+      this.document.open(scene, kept);
+      this.#selected.value = NOBODY;
+      this.#hover.value = null;
+      this.#selectedEvent.value = null;
+      this.#sweep.value = null;
+      this.answers.open(scene, saved);
+      this.playhead.rewind();
+      this.drag.opened();
+      this.view.opened();
+      this.notices.hide();
+      for (const part of this.#parts) part.opened?.(scene);
+    });
+  }
+
+  /** The document is only to be looked at from now on; a drag that goes on is put back. */
+  lockWith(lock: Lock | null): void {
+    if (lock) this.drag.cancel();
+    this.document.lockWith(lock);
+  }
+
+  /** Who has come is selected, who has gone is not. */
+  #follow(before: Scene, after: Scene): void {
+    this.#selectedEvent.value = null;
+    // A scene may have become shorter.
+    this.playhead.moveTo(this.playhead.time.peek());
+    if (before.castKey === after.castKey) return;
+    const came = [...after.agents.keys()].filter((id) => !before.agents.has(id));
+    const stay = this.#selected.peek().filter((id) => after.agents.has(id));
+    if (came.length) this.#selected.value = came;
+    else if (stay.length < this.#selected.peek().length) this.#selected.value = stay.length ? stay : NOBODY;
+    const hovered = this.#hover.peek();
+    if (hovered && !after.agents.has(hovered)) this.#hover.value = null;
+  }
+
+  // -------------------------------------------------------------- what is selected
+
+  select(id: string | null): void {
+    this.selectAll(id === null ? NOBODY : [id]);
+  }
+
+  selectAll(wanted: readonly string[]): void {
+    const now = this.#selected.peek();
+    const here = this.scene.peek()?.agents;
+    const ids = wanted.filter((id) => here?.has(id));
+    if (ids.length === now.length && ids.every((id, i) => id === now[i])) return;
+    batch(() => {
+      this.#selected.value = Object.freeze([...ids]);
+      this.#hoverFuture.value = null;
+      this.#selectedEvent.value = null;
+      this.activate('start');
+      this.#keyed.value = null;
+      this.answers.forgetLook();
+    });
+    const a = this.agent.peek();
+    if (a) this.notices.say(TEXTS.selected(a.name));
+    else if (ids.length) this.notices.say(TEXTS.roadUsersSelected(ids.length));
+    for (const part of this.#parts) part.selected?.(this.selection.peek());
+  }
+
+  /** Adds one to those that are selected, or takes it away. */
+  toggleSelected(id: string): void {
+    const now = this.#selected.peek();
+    this.selectAll(now.includes(id) ? now.filter((o) => o !== id) : [...now, id]);
+  }
+
+  /** The road users that are selected, as the document has them. */
+  get chosenOnes(): Agent[] {
+    return this.#chosenIn(this.scene.value);
+  }
+
+  /** The same as they were before the drag that goes on. */
+  get restingOnes(): Agent[] {
+    return this.#chosenIn(this.resting.value);
+  }
+
+  #chosenIn(scene: Scene | null): Agent[] {
+    return this.selected.value.flatMap((id) => scene?.agents.get(id) ?? []);
+  }
+
+  pickEvent(event: TrafficEvent | null): void {
+    this.#selectedEvent.value = event;
+  }
+
+  // -------------------------------------------------------------- what is pointed at, and what keys move
+
+  pointAt({ agent = null, future = null, grip = null }: Pointed): void {
+    batch(() => {
+      this.#hover.value = agent;
+      this.#hoverFuture.value = future;
+      this.#hoverGrip.value = grip;
+    });
+  }
+
+  /** A handle has the focus of keys; null when none has. */
+  focusHandle(handle: Keyed | null): void {
+    this.#keyed.value = handle;
+  }
+
+  /** Keys move this part from now on. */
+  activate(part: HandlePart): void {
+    this.#focusPart.value = part;
+    this.#viaInHand.value = null;
+  }
+
+  /** Keys are about this via point from now on, or about none. */
+  takeVia(index: number | null): void {
+    this.#viaInHand.value = index;
+  }
+
+  takeGrip({ part, index = null }: Pick<Grip, 'part'> & { index?: number | null }): void {
+    this.activate(part);
+    this.takeVia(index);
+  }
+
+  /** The field that "fixed or free" is about from now on. */
+  touchField(part: HandlePart, field: Field): void {
+    this.#lastField.value = { part, field };
+  }
+
+  chooseTool(tool: string): void {
+    batch(() => {
+      this.#tool.value = tool;
+      this.#measure.value = null;
+      for (const part of this.#parts) part.toolChosen?.(tool);
+    });
+  }
+
+  measureBetween(line: MeasuredLine | null): void {
+    this.#measure.value = line;
+  }
+
+  sweepOver(sweep: Sweep | null): void {
+    this.#sweep.value = sweep;
+  }
+}

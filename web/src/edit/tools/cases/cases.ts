@@ -1,0 +1,386 @@
+// The search for a case: what is looked for, how far it is, and what was found. It is about the scene as it was when it
+// began; the document stays as it is until somebody takes what was found.
+import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
+import { attempt, withAttempt, type MayChange } from '../../../model/physics/attempts';
+import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../../model/physics/cases';
+import { momentWords } from '../../../model/words/case-words';
+import { findChanges } from '../../../model/words/change-words';
+import { choose } from '../../../model/document/commands';
+import { topSpeed } from '../../../model/base/domain';
+import type { MotionSet } from '../../../model/document/futures';
+import type { Motion } from '../../../model/base/motion';
+import { canMove, type Scene } from '../../../model/document/scene';
+import type { Vec } from '../../../model/base/geometry';
+import { stateOfVariant, takeVariant } from '../../../model/document/variants';
+import { Away, Refused } from '../../../net/client';
+import type { Editor } from '../../session/editor';
+import type { Beside, Tries } from '../../session/view-settings';
+import { Stopped, type Maker, type Take } from '../../asking/take-maker';
+import { TEXTS } from '../../../texts/editing/cases';
+
+/** What was found: what everybody does, the moment that it is about, and how many more were like it. */
+export interface Case {
+  /** Counts up in the order in which they were found. */
+  readonly id: number;
+  readonly take: Take;
+  readonly moment: Moment;
+  readonly like: number;
+  readonly starred: boolean;
+}
+
+export interface Progress {
+  readonly tried: number;
+  readonly of: number;
+  readonly collisions: number;
+  readonly found: number;
+  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  readonly left: number | null;
+}
+
+export type State = 'ready' | 'running' | 'paused' | 'done';
+
+/** So many futures are tried at most before somebody says that it should go on, and so many cases are enough. */
+export const MOST_TRIES = 300;
+export const ENOUGH = 6;
+const NOTHING: Progress = { tried: 0, of: MOST_TRIES, collisions: 0, found: 0, left: null };
+const SOONER_MS = 50;
+/** Ways that were tried are drawn with a place every so many steps, and the newest of them. */
+const WAY_STEPS = 4;
+const MOST_WAYS = 360;
+
+export class Cases {
+  readonly #open = signal(false);
+  readonly #sought = signal<Sought | null>(null);
+  readonly #may = signal<MayChange>({ speed: true, time: true, seed: true, place: false });
+  readonly #state = signal<State>('ready');
+  readonly #progress = signal<Progress>(NOTHING);
+  readonly #found = signal<readonly Case[]>([]);
+  readonly #closest = signal<Case | null>(null);
+  readonly #shown = signal<number | null>(null);
+  readonly #problem = signal<string | null>(null);
+  readonly #from = signal<{ readonly scene: Scene; readonly at: Date } | null>(null);
+  /** What is shown of a case; somebody else's is not taken away. */
+  #beside: Beside | null = null;
+  /** Rises with every order to stop. */
+  #turn = 0;
+  /** Attempts that were made of what is looked for, all in all. */
+  #made = 0;
+
+  readonly isOpen: ReadonlySignal<boolean> = this.#open;
+  readonly sought: ReadonlySignal<Sought | null> = this.#sought;
+  readonly may: ReadonlySignal<MayChange> = this.#may;
+  readonly state: ReadonlySignal<State> = this.#state;
+  readonly progress: ReadonlySignal<Progress> = this.#progress;
+  /** The nearest to what is looked for first. */
+  readonly found: ReadonlySignal<readonly Case[]> = this.#found;
+  /** Where nothing was found: what came nearest to it. */
+  readonly closest: ReadonlySignal<Case | null> = this.#closest;
+  /** Id of the case on the picture. */
+  readonly shown: ReadonlySignal<number | null> = this.#shown;
+  readonly problem: ReadonlySignal<string | null> = this.#problem;
+  /** The scene that is searched, and when it was as it is searched. */
+  readonly from: ReadonlySignal<{ readonly scene: Scene; readonly at: Date } | null> = this.#from;
+  /** Has the document changed since the search began? */
+  readonly outdated = computed(() => {
+    const from = this.#from.value;
+    return from !== null && this.editor.scene.value !== from.scene;
+  });
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly maker: Maker,
+    private readonly cancel: () => void,
+  ) {
+    const scene = computed(() => editor.resting.value?.id);
+    effect(() => {
+      void scene.value;
+      this.close();
+    });
+  }
+
+  // -------------------------------------------------------------- what is looked for
+
+  /** Opens the search for those who are selected: the first is tried, the second is whom it is about. */
+  open(what?: What, ids: readonly string[] = this.editor.selected.peek()): void {
+    const scene = this.editor.scene.peek();
+    const [who, other] = ids.filter((id) => scene?.agents.has(id));
+    if (!scene || !who) return;
+    const kind = what ?? (other ? 'near' : scene.agents.get(who)!.goal.pos ? 'goal' : 'braking');
+    batch(() => {
+      this.close();
+      this.#open.value = true;
+      this.seek({ what: kind, who, other: other ?? null, limit: KINDS[kind].limit });
+    });
+  }
+
+  /** Another thing is looked for: what was found so far is not that. */
+  seek(sought: Sought): void {
+    const kind = KINDS[sought.what];
+    const [least, most] = kind.range;
+    batch(() => {
+      this.stop();
+      this.#sought.value = Object.freeze({ ...sought, limit: Math.min(most, Math.max(least, sought.limit)) });
+      this.#forget();
+    });
+  }
+
+  setKind(what: What): void {
+    const s = this.#sought.peek();
+    if (s) this.seek({ ...s, what, limit: KINDS[what].limit });
+  }
+
+  /** The other one is tried in its place. */
+  swap(): void {
+    const s = this.#sought.peek();
+    if (s?.other) this.seek({ ...s, who: s.other, other: s.who });
+  }
+
+  toggleMay(what: keyof MayChange): void {
+    const next = { ...this.#may.peek(), [what]: !this.#may.peek()[what] };
+    const s = this.#sought.peek();
+    if (!Object.values(next).some(Boolean) || !s) return;
+    this.#may.value = Object.freeze(next);
+    this.seek(s);
+  }
+
+  /** Why it cannot begin; null where it can. */
+  readonly obstacle = computed<string | null>(() => {
+    const s = this.#sought.value;
+    const scene = this.editor.scene.value;
+    const who = s && scene?.agents.get(s.who);
+    if (!s || !who) return TEXTS.selectOneOrTwo;
+    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.isNotEditable}.`;
+    if (KINDS[s.what].two && s.other === null) return TEXTS.needsTwo;
+    if (s.what === 'red' && !scene?.signals.length) return TEXTS.noSignalsHere;
+    if (s.what === 'goal' && !who.goal.pos) return TEXTS.hasNoGoalYet(who.name);
+    return null;
+  });
+
+  // -------------------------------------------------------------- the search
+
+  /** Begins, or goes on for as many tries again. */
+  async run(): Promise<void> {
+    const { editor } = this;
+    const sought = this.#sought.peek();
+    const scene = this.#from.peek()?.scene ?? editor.scene.peek();
+    if (!sought || !scene || this.obstacle.peek() || this.#state.peek() === 'running') return;
+    const turn = ++this.#turn;
+    batch(() => {
+      this.#from.value ??= { scene, at: new Date() };
+      this.#problem.value = null;
+      this.#state.value = 'running';
+      const { tried, of } = this.#progress.peek();
+      this.#progress.value = { ...this.#progress.peek(), of: tried >= of ? of + MOST_TRIES : of };
+    });
+    try {
+      await this.#tryAll(scene, sought, turn);
+    } catch (e) {
+      if (!(e instanceof Stopped)) this.#fail(e);
+    }
+    if (turn === this.#turn) this.#end();
+  }
+
+  async #tryAll(scene: Scene, sought: Sought, turn: number): Promise<void> {
+    const who = scene.agents.get(sought.who)!;
+    const began = { ms: performance.now(), tried: this.#progress.peek().tried };
+    const may = this.#may.peek();
+    while (this.#progress.peek().tried < this.#progress.peek().of && this.#found.peek().length < ENOUGH) {
+      await this.#quiet();
+      if (turn !== this.#turn) return;
+      const tried = withAttempt(scene, who.id, attempt(who, scene, may, this.#made++, topSpeed(who)));
+      this.maker.forget();
+      const base = await this.maker.futuresOf(tried, who.id);
+      if (turn !== this.#turn) return;
+      const promising = this.#promising(tried, base, sought);
+      for (const which of promising) {
+        await this.#quiet();
+        const take = await this.maker.workOut(choose(tried.agents.get(who.id)!, which, '').apply(tried), who.id);
+        if (turn !== this.#turn) return;
+        this.#look(take, sought);
+      }
+      const modes = base.futures.get(who.id)?.modes ?? [];
+      this.#draw(modes.map((m) => m.motion));
+      this.#count(modes.length || 1, began);
+    }
+  }
+
+  /** Where one has looked is seen on the picture. */
+  #draw(motions: readonly Motion[]): void {
+    const all: Tries = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
+    this.editor.view.showTries(Object.freeze(all.slice(-MOST_WAYS)));
+  }
+
+  /** Which of the futures would do, were nobody to answer them; without any the nearest, while nothing was found. */
+  #promising(scene: Scene, base: MotionSet, sought: Sought): number[] {
+    const a = scene.agents.get(sought.who)!;
+    const modes = base.futures.get(a.id)?.modes ?? [];
+    const all = modes.flatMap((_, which) => {
+      const m = momentOf(choose(a, which, '').apply(scene), base, sought);
+      return m ? [{ which, m }] : [];
+    });
+    const would = all.filter((x) => x.m.found);
+    const nearest = all.sort((p, q) => p.m.miss - q.m.miss).slice(0, 1);
+    const { miss } = this.#closest.peek()?.moment ?? { miss: Infinity };
+    const worth = this.#found.peek().length === 0 && nearest.length > 0 && nearest[0].m.miss < miss;
+    return (would.length ? would : worth ? nearest : []).map((x) => x.which);
+  }
+
+  #look(take: Take, sought: Sought): void {
+    const moment = momentOf(take.scene, take.set, sought);
+    if (!moment) return;
+    const id = 1 + Math.max(0, ...this.#found.peek().map((c) => c.id));
+    const fresh: Case = { id, take, moment, like: 0, starred: false };
+    if (!moment.found) {
+      if (sought.what !== 'collision' && sought.what !== 'red' && moment.value === 0)
+        this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
+      if (moment.miss < (this.#closest.peek()?.moment.miss ?? Infinity)) this.#closest.value = fresh;
+      return;
+    }
+    const known = this.#found.peek();
+    const same = known.find((c) => alike(c.moment, moment));
+    const next = same
+      ? known.map((c) => (c === same ? { ...c, like: c.like + 1 } : c))
+      : [...known, fresh].sort((p, q) => p.moment.miss - q.moment.miss || p.id - q.id);
+    batch(() => {
+      this.#found.value = Object.freeze(next);
+      this.#progress.value = { ...this.#progress.peek(), found: this.#progress.peek().found + 1 };
+    });
+    if (!same) this.editor.notices.say(TEXTS.caseSaid(id, momentWords(sought, moment)));
+  }
+
+  #count(n: number, began: { ms: number; tried: number }): void {
+    const now = this.#progress.peek();
+    const tried = Math.min(now.of, now.tried + n);
+    const each = (performance.now() - began.ms) / 1000 / Math.max(1, tried - began.tried);
+    this.#progress.value = { ...now, tried, left: (now.of - tried) * each };
+  }
+
+  /** A hand that moves comes first: nothing is asked until it rests. */
+  async #quiet(): Promise<void> {
+    while (this.editor.drag.active.peek()) await new Promise((done) => setTimeout(done, SOONER_MS));
+  }
+
+  #fail(e: unknown): void {
+    if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
+    this.#problem.value = e instanceof Refused ? e.message : TEXTS.theGenerator;
+  }
+
+  #end(): void {
+    const { notices } = this.editor;
+    const found = this.#found.peek().length;
+    const { tried, of } = this.#progress.peek();
+    const through = tried >= of || found >= ENOUGH;
+    this.#state.value = through ? 'done' : 'paused';
+    if (through) notices.say(found ? TEXTS.casesFound(found) : TEXTS.nothingFound(tried));
+  }
+
+  /** What is on its way is dropped; what was found stays, and it can go on. */
+  stop(): void {
+    if (this.#state.peek() !== 'running') return;
+    this.#turn++;
+    this.#state.value = 'paused';
+    this.cancel();
+  }
+
+  #forget(): void {
+    batch(() => {
+      this.#state.value = 'ready';
+      this.#progress.value = NOTHING;
+      this.#found.value = [];
+      this.#closest.value = this.#problem.value = this.#from.value = null;
+      this.#made = 0;
+      this.editor.view.showTries([]);
+      this.show(null);
+    });
+  }
+
+  close(): void {
+    batch(() => {
+      this.stop();
+      this.#open.value = false;
+      this.#sought.value = null;
+      this.#forget();
+    });
+  }
+
+  // -------------------------------------------------------------- what was found
+
+  caseOf(id: number | null): Case | null {
+    return this.#found.peek().find((c) => c.id === id) ?? null;
+  }
+
+  /** Shows a case beside the scene as it is, dashed, at its moment; it runs with the playhead. */
+  show(id: number | null): void {
+    const { editor } = this;
+    const c = this.caseOf(id);
+    this.#shown.value = c?.id ?? null;
+    if (!c) {
+      if (this.#beside && editor.view.beside.peek() === this.#beside) editor.view.showBeside(null);
+      this.#beside = null;
+      return;
+    }
+    const sought = this.#sought.peek()!;
+    this.#beside = { ...c.take, parted: this.#parted(c), meeting: meetingOf(c, sought) };
+    editor.view.showBeside(this.#beside);
+    editor.playhead.pause();
+    editor.playhead.moveTo(c.moment.time);
+  }
+
+  /** The next or the previous one of the list. */
+  walk(step: 1 | -1): void {
+    const all = this.#found.peek();
+    const at = all.findIndex((c) => c.id === this.#shown.peek());
+    const next = all[at < 0 ? 0 : Math.min(all.length - 1, Math.max(0, at + step))];
+    if (next) this.show(next.id);
+  }
+
+  /** Who is in it, and whoever does something else for it. */
+  #parted({ take, moment }: Case): string[] {
+    const sought = this.#sought.peek()!;
+    const now = this.editor.answers.motion.peek();
+    const others = findChanges(take.scene, now, take.set, new Set([sought.who])).map((c) => c.id);
+    return [...new Set([sought.who, ...(moment.other === null ? [] : [moment.other]), ...others])];
+  }
+
+  /** It is what happens from now on: one step, that can be undone. */
+  take(c: Case): void {
+    const { editor } = this;
+    const now = editor.scene.peek();
+    const sought = this.#sought.peek();
+    if (!now || !sought || now.id !== c.take.scene.id) return;
+    if (now.castKey !== c.take.scene.castKey) {
+      editor.notices.show({ text: TEXTS.otherRoadUsers });
+      return;
+    }
+    this.show(null);
+    editor.answers.know(c.take.set);
+    const name = TEXTS.caseUsed(momentWords(sought, c.moment));
+    editor.commits.run({ ...takeVariant(now, stateOfVariant(c.take.scene, sought.who), name), fold: undefined });
+    editor.playhead.moveTo(c.moment.time);
+    editor.notices.show({ text: `${name}.`, undo: true });
+  }
+
+  toggleStar(id: number): void {
+    const all = this.#found.peek();
+    this.#found.value = Object.freeze(all.map((c) => (c.id === id ? { ...c, starred: !c.starred } : c)));
+  }
+
+  /** What was found, to be kept; stars stay with it. */
+  takes(): { readonly subject: string; readonly takes: readonly Take[]; readonly starred: readonly boolean[] } | null {
+    const sought = this.#sought.peek();
+    const found = this.#found.peek();
+    return sought && { subject: sought.who, takes: found.map((c) => c.take), starred: found.map((c) => c.starred) };
+  }
+}
+
+/** A way with fewer places than the motion has steps; at 10 steps a second nobody sees the difference. */
+const wayOf = (m: Motion): Vec[] =>
+  Array.from({ length: Math.ceil(m.x.length / WAY_STEPS) }, (_, i): Vec => [m.x[i * WAY_STEPS], m.y[i * WAY_STEPS]]);
+
+const meetingOf = (c: Case, sought: Sought): NonNullable<Beside['meeting']> => ({
+  words: TEXTS.caseOnTag(c.id, momentWords(sought, c.moment)),
+  at: c.moment.at,
+  time: c.moment.time,
+  who: c.moment.other === null ? [sought.who] : [sought.who, c.moment.other],
+  called: TEXTS.called(c.id),
+});

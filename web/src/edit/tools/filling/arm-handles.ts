@@ -1,0 +1,63 @@
+// Where the handles of arms lie on screen while an area is filled: drawn outward, more vehicles come in.
+import { armTitle } from '../../../model/words/arm-names';
+import type { Vec } from '../../../model/base/geometry';
+import type { View } from '../../../draw/view';
+import type { Arm } from './filling';
+
+/** From none to as many as the arm takes, pixels. */
+const TRAVEL_PX = 110;
+/** The handle of an arm without traffic lies so far inside the map's edge, pixels. */
+const INSIDE_PX = 34;
+/** Handles keep so far from the edge of the picture, pixels. */
+const EDGE_PX = 30;
+/** Vehicles an hour in one step of the hand. */
+export const RATE_STEP = 20;
+
+export interface ArmHandle {
+  readonly arm: Arm;
+  readonly rate: number;
+  /** Where the handle is without traffic, and where it is now, in pixels. */
+  readonly base: Vec;
+  readonly at: Vec;
+  /** Outward, of length one, in pixels. */
+  readonly out: Vec;
+}
+
+/** `North-west 2`. */
+export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(/-(\d+)$/, ' $1'));
+
+/** Handles of the arms that are in the picture. */
+export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {
+  return arms.flatMap((arm) => {
+    if (!v.shows(...arm.at, EDGE_PX)) return [];
+    const [x, y] = v.to(...arm.at);
+    const inward = v.ahead(arm.heading);
+    const out: Vec = [-inward[0], -inward[1]];
+    const rate = rates[arm.id] ?? 0;
+    // Drawn in so far that the longest stem stays in the picture.
+    const { left, right, top, bottom } = v.inset;
+    const over = Math.max(
+      INSIDE_PX,
+      over1(x + out[0] * TRAVEL_PX, left + EDGE_PX, v.w - right - EDGE_PX) / Math.max(0.3, Math.abs(out[0])),
+      over1(y + out[1] * TRAVEL_PX, top + EDGE_PX, v.h - bottom - EDGE_PX) / Math.max(0.3, Math.abs(out[1])),
+    );
+    const base: Vec = [x - out[0] * over, y - out[1] * over];
+    const far = (TRAVEL_PX * rate) / arm.most;
+    return [{ arm, rate, base, at: [base[0] + out[0] * far, base[1] + out[1] * far], out }];
+  });
+}
+
+/** How far a place lies outside a stretch. */
+const over1 = (p: number, least: number, most: number): number => Math.max(0, least - p, p - most);
+
+/** Vehicles an hour when the hand has gone so far outward, pixels. */
+export function rateAfter(before: number, px: number, { most }: Arm): number {
+  const rate = Math.round((before + (px / TRAVEL_PX) * most) / RATE_STEP) * RATE_STEP;
+  return Math.min(Math.floor(most / RATE_STEP) * RATE_STEP, Math.max(0, rate));
+}
+
+/** The handle under a place of the screen; null where there is none. */
+export function armHandleAt(all: readonly ArmHandle[], x: number, y: number, reach: number): ArmHandle | null {
+  const far = (h: ArmHandle): number => Math.hypot(h.at[0] - x, h.at[1] - y);
+  return all.filter((h) => far(h) <= reach).sort((a, b) => far(a) - far(b))[0] ?? null;
+}

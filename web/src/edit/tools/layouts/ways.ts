@@ -1,0 +1,102 @@
+// Ways of a map that is being made: pulled from a stop line to an exit, picked, taken away.
+import { project, type Point, type Vec } from '../../../model/base/geometry';
+import { connectionOf, laneOf, type Connection, type LaneOfArm } from '../../../model/document/layouts';
+import type { View } from '../../../draw/view';
+import type { Knob, Layouts } from './layouts';
+import type { Chart, State } from '../../gestures/chart';
+
+/** Exits catch the pointer from so far, ways are picked from so far, pixels. */
+const CATCH_PX = 20;
+const CATCH_TOUCH_PX = 36;
+const PICK_PX = 6;
+const PICK_TOUCH_PX = 16;
+
+/** Where lanes stop before the junction. */
+export function stops(layouts: Layouts): Extract<Knob, { kind: 'stop' }>[] {
+  if (!layouts.connects) return [];
+  const places = layouts.made.value?.arms ?? [];
+  return places.flatMap(({ ins_m }, arm) =>
+    ins_m.map(([x, y], lane) => ({ kind: 'stop' as const, arm, lane, at: [x, y] as const })),
+  );
+}
+
+/** Where lanes leave it. */
+export function exits(layouts: Layouts): { readonly lane: LaneOfArm; readonly at: Vec }[] {
+  const places = layouts.made.value?.arms ?? [];
+  return places.flatMap(({ outs_m }, arm) =>
+    outs_m.map(([x, y], lane) => ({ lane: [arm, lane] as const, at: [x, y] as const })),
+  );
+}
+
+/** The way under the pointer; those of the arm in hand lie on top. */
+export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): Connection | null {
+  const lanes = layouts.made.peek()?.scene.map.lanes;
+  const [x, y] = v.from(p.x, p.y);
+  const near = layouts.ways.peek().flatMap((way) => {
+    const line = lanes?.get(way.lane)?.line;
+    if (!line) return [];
+    const far = project(line, x, y);
+    const px = Math.hypot(far.x - x, far.y - y) * v.z;
+    const mine = laneOf(way.from)[0] === layouts.arm.peek();
+    return px <= (touch ? PICK_TOUCH_PX : PICK_PX) ? [{ way, rank: px + (mine ? 0 : 1000) }] : [];
+  });
+  near.sort((a, b) => a.rank - b.rank);
+  return near[0] ? { from: near[0].way.from, to: near[0].way.to } : null;
+}
+
+/** A way on its way from a stop line; over an exit the map has it at once. */
+export class Connecting implements State {
+  readonly name = 'connecting lanes';
+  readonly #from: LaneOfArm;
+  readonly #ways: readonly Connection[];
+  #to: LaneOfArm | null = null;
+
+  constructor(
+    private readonly chart: Chart,
+    private readonly layouts: Layouts,
+    knob: Extract<Knob, { kind: 'stop' }>,
+    private readonly touch: boolean,
+  ) {
+    this.#from = [knob.arm, knob.lane];
+    this.#ways = layouts.ways.peek();
+    layouts.take(knob.arm);
+    layouts.pickWay(null);
+    layouts.hold();
+  }
+
+  enter(): void {
+    this.chart.surface.setCursor('crosshair');
+  }
+
+  leave(): void {
+    this.chart.surface.setCursor('');
+    this.layouts.drawWay(null);
+    this.layouts.letGo();
+  }
+
+  move(): void {
+    const { surface, at } = this.chart;
+    const { layouts } = this;
+    const v = surface.view;
+    const far = (e: { at: Vec }): number => v.away(e.at, at);
+    const nearest = exits(layouts).sort((a, b) => far(a) - far(b))[0];
+    const caught = nearest && far(nearest) <= (this.touch ? CATCH_TOUCH_PX : CATCH_PX) ? nearest : null;
+    layouts.drawWay({ from: this.#from, to: caught?.lane ?? null, at: caught?.at ?? v.from(at.x, at.y) });
+    if (String(caught?.lane ?? null) === String(this.#to)) return;
+    this.#to = caught?.lane ?? null;
+    layouts.putBack();
+    if (this.#to) layouts.addWay(connectionOf(this.#from, this.#to), this.#ways);
+  }
+
+  up(): void {
+    this.move();
+    const way = this.#to && connectionOf(this.#from, this.#to);
+    this.chart.rest();
+    this.layouts.pickWay(way);
+  }
+
+  cancel(): boolean {
+    this.layouts.putBack();
+    return true;
+  }
+}

@@ -1,0 +1,12 @@
+// Speeds drawn by hand, with stops to take hold of.
+import type { Feature } from '../feature';
+import { SpeedCurve } from './speed-curve';
+import { StopBars } from './stop-bars';
+
+export const SPEED_CURVE = {
+  make({ editor }) {
+    const curve = new SpeedCurve(editor);
+    const bars = new StopBars(editor, curve);
+    return { named: { curve }, overlay: bars, handleAt: (x, y, touch) => bars.handleAt(x, y, touch) };
+  },
+} satisfies Feature;

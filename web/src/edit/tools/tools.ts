@@ -1,0 +1,27 @@
+// The features of the page, those of the rail in its order. A new one is a folder and a line here: its buttons, keys,
+// entries of the palette and lines of the shortcut sheet, what it paints and what the pointer does follow from that.
+import type { RailEntry } from '../gestures/chart';
+import { CASES } from './cases/feature';
+import type { Made, Supplies } from './feature';
+import { FILLING } from './filling/feature';
+import { LAYOUTS } from './layouts/feature';
+import { PLACING } from './placing/feature';
+import { POINTING } from './pointing/feature';
+import { REMEDIES } from './remedies/feature';
+import { ROUNDS } from './rounds/feature';
+import { SPEED_CURVE } from './speed-curve/feature';
+import { VARIANTS } from './variants/feature';
+
+const FEATURES = [POINTING, PLACING, FILLING, LAYOUTS, SPEED_CURVE, ROUNDS, VARIANTS, CASES, REMEDIES] as const;
+
+export const RAIL: readonly RailEntry[] = FEATURES.flatMap((f): readonly RailEntry[] => ('rail' in f ? f.rail : []));
+
+type Named<F> = F extends { make(...of: never[]): { named: infer N } } ? (named: N) => void : never;
+
+/** All parts of features by their names. */
+export type Tools = Named<(typeof FEATURES)[number]> extends (named: infer All) => void ? All : never;
+
+export function makeTools(of: Supplies): { readonly named: Tools; readonly made: readonly Made[] } {
+  const made: readonly Made[] = FEATURES.map((f) => f.make(of));
+  return { named: Object.assign({}, ...made.map((m) => m.named)) as Tools, made };
+}

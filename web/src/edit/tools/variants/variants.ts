@@ -1,0 +1,628 @@
+// The variants of the open scene: made, shown, kept, named and compared. Which there are stands in the document; what
+// everybody does in each is kept here, and worked out again where it is missing.
+import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
+import { inOneStep } from '../../../model/document/commands';
+import { counted, worstOf } from '../../../model/physics/events';
+import { readEvents } from '../../../model/words/event-words';
+import type { Futures, MotionSet } from '../../../model/document/futures';
+import { sceneKey, touchedIn, type Agent, type Scene, type Variant } from '../../../model/document/scene';
+import {
+  countOf,
+  limitsOfSweep,
+  usualSweep,
+  valueOf,
+  valuesOf,
+  withValue,
+  type Over,
+  type Sweep,
+} from '../../../model/physics/sweep';
+import {
+  keepAsVariant,
+  keepStates,
+  MOST_NEW,
+  MOST_VARIANTS,
+  patchVariant,
+  removeVariant,
+  replaceVariants,
+  sameCast,
+  stateOfVariant,
+  takeVariant,
+} from '../../../model/document/variants';
+import { Away, Refused } from '../../../net/client';
+import type { Editor } from '../../session/editor';
+import type { Diverging } from '../../../model/words/comparison';
+import {
+  cardsOf,
+  comparedOf,
+  filtered,
+  isWhole,
+  type Card,
+  type Compared,
+  type Filter,
+  type Pictured,
+  type WholeCard,
+} from './cards';
+import { Maker, Stopped, subjectOf, type Take } from '../../asking/take-maker';
+import { TEXTS } from '../../../texts/editing/variants';
+
+/** What an export is about: the scene as it is, or several variants. */
+export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
+
+/** How far the making is, and what happens in those that are there. */
+export interface Making {
+  /** Those that are there. */
+  readonly made: readonly Pictured[];
+  readonly of: number;
+  /** So many without anything, with a near miss or a broken rule, and with a collision. */
+  readonly clear: number;
+  readonly near: number;
+  readonly hit: number;
+  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  readonly left: number | null;
+}
+
+const begun = (of: number): Making => ({ made: [], of, clear: 0, near: 0, hit: 0, left: null });
+
+function withOne(m: Making, { scene, set }: Take, subject: string | null, tookS: number): Making {
+  const events = readEvents(scene, set);
+  const worst = worstOf(counted(events));
+  const made = [...m.made, { scene, set, events, state: { subject } }];
+  return {
+    ...m,
+    made,
+    clear: m.clear + Number(worst === null),
+    hit: m.hit + Number(worst === 'collision'),
+    near: m.near + Number(worst !== null && worst !== 'collision'),
+    left: (tookS / made.length) * (m.of - made.length),
+  };
+}
+
+/** How the making of variants ended. */
+interface Made {
+  readonly subject: string | null;
+  readonly why: string | null;
+  readonly wanted: number;
+  readonly stopped: boolean;
+  /** They go through a range of a number. */
+  readonly ranged: boolean;
+}
+
+const USUAL_COUNT = 6;
+/** That so many of them were kept. */
+const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept, present: () => TEXTS.keptAsAVariant } as const;
+const NONE: readonly Card[] = Object.freeze([]);
+
+/** Cards of a round, each as the document in which it is taken. */
+export interface Dealt {
+  readonly id: string;
+  readonly scenes: readonly Scene[];
+  readonly futures: Futures;
+}
+
+export class Variants {
+  readonly #open = signal(false);
+  readonly #count = signal(USUAL_COUNT);
+  readonly #filter = signal<Filter>('all');
+  readonly #current = signal<number | null>(null);
+  readonly #renaming = signal<number | null>(null);
+  readonly #pair = signal<readonly [number, number] | null>(null);
+  readonly #picked = signal<number | null>(null);
+  readonly #scope = signal<Scope>('present');
+  readonly #making = signal<Making | null>(null);
+  readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
+  readonly #sweep = signal<Sweep | null>(null);
+  readonly #paused = signal(false);
+  /** Rises with every order to stop. */
+  #turn = 0;
+  readonly #fetching = signal(false);
+
+  readonly open: ReadonlySignal<boolean> = this.#open;
+  /** How many are made at once. */
+  readonly count: ReadonlySignal<number> = this.#count;
+  readonly filter: ReadonlySignal<Filter> = this.#filter;
+  /** Id of the card that is being given a name. */
+  readonly renaming: ReadonlySignal<number | null> = this.#renaming;
+  /** The two that are compared, the left one first. */
+  readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
+  /** The first of two that are to be compared. */
+  readonly picked: ReadonlySignal<number | null> = this.#picked;
+  readonly scope: ReadonlySignal<Scope> = this.#scope;
+  readonly making: ReadonlySignal<Making | null> = this.#making;
+  /** The range of a number that is gone through; null where new ones differ by chance. */
+  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
+  /** Does the making wait for somebody to go on with it? */
+  readonly paused: ReadonlySignal<boolean> = this.#paused;
+  /** Of whom new ones are made; null where it is everybody. */
+  readonly subject: ReadonlySignal<Agent | null>;
+  /** How many new ones are asked for. */
+  readonly wanted = computed(() => (this.#sweep.value ? countOf(this.#sweep.value) : this.#count.value));
+  /** Why the range cannot be gone through; null where it can. */
+  readonly obstacle: ReadonlySignal<string | null>;
+  /** Is anything being worked out? */
+  readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
+  readonly cards: ReadonlySignal<readonly Card[]>;
+  readonly filtered: ReadonlySignal<readonly Card[]>;
+  /** Id of the variant that is on the picture. */
+  readonly shown: ReadonlySignal<number | null>;
+  /** Id of the card that keys are about: the one with the focus, else the one on the picture. */
+  readonly current: ReadonlySignal<number | null>;
+
+  readonly #followed = signal<string | null>(null);
+  /** Whose speed in the two is looked at: who was picked for it, else who is furthest apart. */
+  readonly followed = computed<Diverging | null>(() => {
+    const parted = this.compared.value?.parting.parted ?? [];
+    return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
+  });
+  /** The two that are compared, and what differs. */
+  readonly compared: ReadonlySignal<Compared | null>;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly maker: Maker,
+    private readonly cancel: () => void,
+  ) {
+    const list = computed(() => editor.resting.value?.variants);
+    const states = computed(() => editor.resting.value?.variantStates);
+    const cast = computed(() => `${editor.resting.value?.id} ${editor.resting.value?.castKey}`);
+    this.cards = computed(() => {
+      void cast.value;
+      const scene = editor.scene.peek();
+      const [all, of] = [list.value, states.value];
+      return scene && all?.length && of
+        ? cardsOf(scene, all, of, this.#sets.value, (a) => editor.view.unitOf(a))
+        : NONE;
+    });
+    this.subject = computed(() => {
+      const id = subjectOf(editor);
+      return id === null ? null : (editor.scene.value?.agents.get(id) ?? null);
+    });
+    this.obstacle = computed(() => this.#obstacleOf(this.#sweep.value));
+    this.filtered = computed(() => filtered(this.cards.value, this.#filter.value));
+    const key = computed(() => {
+      const scene = editor.drag.active.value ? null : editor.resting.value;
+      return scene?.variants.length ? sceneKey(scene) : null;
+    });
+    this.shown = computed(() => {
+      const now = key.value;
+      return now === null ? null : (this.cards.value.find((c) => c.scene && sceneKey(c.scene) === now)?.id ?? null);
+    });
+    this.current = computed(() => {
+      const id = this.#current.value;
+      return id !== null && this.cards.value.some((c) => c.id === id) ? id : this.shown.value;
+    });
+    this.compared = computed(() => comparedOf(this.cards.value, this.#pair.value));
+    effect(() => {
+      const now = this.compared.value;
+      const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
+      editor.view.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
+    });
+    // One leaves the comparison by changing the scene: it is none of the two any more.
+    effect(() => {
+      const left = this.#pair.value?.[0];
+      if (left !== undefined && !editor.drag.active.value && this.shown.value !== left) this.endCompare();
+    });
+    let scene = '';
+    effect(() => {
+      const now = editor.resting.value?.id ?? '';
+      if (now === scene) return;
+      scene = now;
+      this.#forget();
+    });
+    effect(() => {
+      if (this.#open.value && !this.#making.value) void this.#fetchMissing(this.cards.value);
+    });
+  }
+
+  card(id: number | null): Card | null {
+    return this.cards.value.find((c) => c.id === id) ?? null;
+  }
+
+  // -------------------------------------------------------------- the strip
+
+  show(open: boolean): void {
+    batch(() => {
+      this.#open.value = open;
+      this.#renaming.value = this.#picked.value = null;
+      if (!open) this.endCompare();
+    });
+    if (!open) this.stop();
+  }
+
+  follow(agent: string): void {
+    this.#followed.value = agent;
+  }
+
+  setCount(n: number): void {
+    this.#count.value = Math.min(MOST_NEW, Math.max(1, Math.round(n)));
+  }
+
+  /** New ones go through a range of a number; null: they differ by chance. */
+  sweepOver(over: Over | null): void {
+    const scene = this.editor.scene.peek();
+    const a = this.subject.peek();
+    this.#sweep.value = over && scene && a ? usualSweep(a, scene, over, this.editor.view.unitOf(a)) : null;
+  }
+
+  setSweep(patch: Partial<Omit<Sweep, 'over'>>): void {
+    const now = this.#sweep.peek();
+    if (now) this.#sweep.value = Object.freeze({ ...now, ...patch });
+  }
+
+  #obstacleOf(sweep: Sweep | null): string | null {
+    const a = this.subject.value;
+    const scene = this.editor.scene.value;
+    if (!sweep || !scene) return null;
+    if (!a) return TEXTS.selectToVary;
+    if (sweep.over === 'time' && valueOf(a, 'time') === null) return TEXTS.hasNoGoalYet(a.name);
+    const [least, most] = limitsOfSweep(a, scene, sweep.over);
+    const beyond = (v: number): boolean => v < least - 1e-6 || v > most + 1e-6;
+    if (beyond(sweep.from) || beyond(sweep.to)) return TEXTS.exceedsLimits(a.name);
+    const room = MOST_VARIANTS - scene.variants.filter((v) => v.kept || v.starred).length;
+    const n = countOf(sweep);
+    return n > room ? TEXTS.valuesThereIs(n, room) : null;
+  }
+
+  setFilter(filter: Filter): void {
+    this.#filter.value = filter;
+  }
+
+  /** The card that has the focus. */
+  focus(id: number | null): void {
+    this.#current.value = id;
+  }
+
+  // -------------------------------------------------------------- making them
+
+  /** New ones in place of those that nobody kept, as one step; the first of them is shown, but of a range. */
+  async make(): Promise<void> {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || this.#refusedLock()) return;
+    this.stop();
+    const turn = this.#turn;
+    const subject = subjectOf(editor);
+    const sweep = this.#sweep.peek();
+    const obstacle = this.obstacle.peek();
+    if (sweep && obstacle) return editor.notices.show({ text: obstacle });
+    const open = withoutPick(scene, subject);
+    const values =
+      sweep && subject !== null ? valuesOf(sweep).map((v) => withValue(open, subject, sweep.over, v)) : null;
+    const wanted = this.wanted.peek();
+    const source = values
+      ? this.maker.each(values, subject!)
+      : this.maker.make(open, subject, nextSeed(scene, subject), wanted);
+    const { takes, why } = await this.#takesOf(source, subject, wanted, turn);
+    const stopped = turn !== this.#turn;
+    if (editor.scene.peek()?.id === scene.id)
+      this.#put(takes, { subject, why, wanted, stopped, ranged: values !== null });
+  }
+
+  /** Takes one after the other until somebody stops it, and waits while it is paused. */
+  async #takesOf(
+    source: AsyncGenerator<Take>,
+    subject: string | null,
+    of: number,
+    turn: number,
+  ): Promise<{ takes: Take[]; why: string | null }> {
+    const takes: Take[] = [];
+    let why: string | null = null;
+    const from = performance.now();
+    batch(() => {
+      this.endCompare();
+      this.#open.value = true;
+      this.#making.value = begun(of);
+    });
+    try {
+      for await (const take of source) {
+        if (turn !== this.#turn) break;
+        takes.push(take);
+        const tookS = (performance.now() - from) / 1000;
+        this.#making.value = withOne(this.#making.peek() ?? begun(of), take, subject, tookS);
+        await this.#resumed();
+        if (turn !== this.#turn) break;
+      }
+    } catch (e) {
+      why = reasonOf(e);
+    }
+    if (turn === this.#turn) this.#making.value = null;
+    return { takes, why };
+  }
+
+  pause(paused: boolean): void {
+    this.#paused.value = paused && this.#making.peek() !== null;
+  }
+
+  #resumed(): Promise<void> {
+    if (!this.#paused.peek()) return Promise.resolve();
+    return new Promise((go) => {
+      const end = this.#paused.subscribe((paused) => {
+        if (paused) return;
+        queueMicrotask(() => end());
+        go();
+      });
+    });
+  }
+
+  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: Made): void {
+    const { editor } = this;
+    const { notices } = editor;
+    const now = editor.scene.peek()!;
+    const motion = editor.answers.motion.peek();
+    // Work that is none of the variants gives way to the first of them: it can be kept beside them. Values of a range
+    // stand beside the one that the document has.
+    const isWork = !ranged && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
+    const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
+    if (takes.length && takes[0].scene.castKey === now.castKey) {
+      this.#keepSets(takes);
+      const states = takes.map((t) => stateOfVariant(t.scene, subject));
+      const put = replaceVariants(now, states);
+      editor.commits.run(ranged ? put : inOneStep(put, takeVariant(now, states[0], put.name)));
+      this.#current.value = null;
+    }
+    const n = takes.length;
+    if (!n && stopped) return;
+    const made = n ? TEXTS.variantsMade(n) : TEXTS.noVariantMade;
+    const keep = { label: TEXTS.keepPrevious, run: () => this.keepTakes([was], null, 'present') };
+    const text = stopped || n === wanted ? `${made}.` : TEXTS.moreWouldBeAlike(made);
+    if (why) notices.show({ text: why });
+    else notices.show({ text, undo: n > 0, ...(n && isWork ? { action: keep } : {}) });
+    notices.say(`${made}.`);
+  }
+
+  /** Ends the making; what is done so far is taken. */
+  stop(): void {
+    this.#turn++;
+    this.#making.value = null;
+    this.#paused.value = false;
+    this.cancel();
+  }
+
+  #keepSets(takes: readonly Take[]): void {
+    const sets = new Map(this.#sets.peek());
+    for (const { set } of takes) {
+      sets.set(set.key, set);
+      this.editor.answers.know(set);
+    }
+    this.#sets.value = sets;
+  }
+
+  /** Variants of last time, and those that undo brought back. */
+  async #fetchMissing(cards: readonly Card[]): Promise<void> {
+    if (this.#fetching.peek()) return;
+    const next = cards.find((c) => c.scene && !c.set);
+    if (!next) return;
+    this.#fetching.value = true;
+    const turn = this.#turn;
+    let done = false;
+    try {
+      const take = await this.maker.again(next.id, next.scene!, next.state.subject);
+      if (turn === this.#turn) this.#keepSets([take]);
+      done = true;
+    } catch (e) {
+      if (!(e instanceof Stopped)) this.editor.notices.show({ text: reasonOf(e) ?? '' });
+    } finally {
+      this.#fetching.value = false;
+    }
+    if (done && this.#open.peek()) void this.#fetchMissing(this.cards.peek());
+  }
+
+  #forget(): void {
+    batch(() => {
+      this.stop();
+      this.#sets.value = new Map();
+      this.#pair.value = null;
+      this.#picked.value = this.#current.value = this.#renaming.value = null;
+      this.#filter.value = 'all';
+      this.#sweep.value = null;
+    });
+  }
+
+  #refusedLock(): boolean {
+    const lock = this.editor.document.lock.peek();
+    if (lock) this.editor.notices.show({ text: lock.words, action: lock });
+    return lock !== null;
+  }
+
+  // -------------------------------------------------------------- one of them
+
+  /** Puts a variant on the picture. */
+  take(id: number): void {
+    const { editor } = this;
+    const card = this.card(id);
+    const scene = editor.scene.peek();
+    if (!card || !scene || this.shown.peek() === id) return;
+    if (!sameCast(scene, card.state)) {
+      editor.notices.show({ text: TEXTS.otherRoadUsers });
+      return;
+    }
+    if (card.set) editor.answers.know(card.set);
+    editor.commits.run(takeVariant(scene, card.state, TEXTS.shown(card.name)));
+  }
+
+  toggleKept(id: number): void {
+    this.#patch(id, (v, name) => ({
+      patch: { kept: !v.kept },
+      name: `${name} ${v.kept ? TEXTS.notKept : TEXTS.kept}`,
+    }));
+  }
+
+  toggleStar(id: number): void {
+    this.#patch(id, (v, name) => ({
+      patch: { starred: !v.starred },
+      name: v.starred ? TEXTS.unstarred(name) : TEXTS.starred(name),
+    }));
+  }
+
+  rename(id: number, called: string): void {
+    this.#renaming.value = null;
+    const name = called.trim() || null;
+    if (name === this.card(id)?.variant.called) return;
+    this.#patch(id, (_, was) => ({ patch: { called: name }, name: TEXTS.named(was, name ?? TEXTS.automatically) }));
+  }
+
+  /** What goes out, of the variants that everything is known of. */
+  within(scope: Scope): readonly WholeCard[] {
+    const pair = this.#pair.value;
+    return this.cards.value.filter(isWhole).filter((c) => {
+      if (scope === 'kept') return c.variant.kept;
+      if (scope === 'starred') return c.variant.starred;
+      return scope === 'all' || (scope === 'pair' && !!pair?.includes(c.id));
+    });
+  }
+
+  /** The next export is about several: those that are kept, else all. */
+  aimExport(): void {
+    this.setScope(this.within('kept').length ? 'kept' : 'all');
+  }
+
+  setScope(scope: Scope): void {
+    this.#scope.value = scope;
+  }
+
+  startRenaming(id: number | null): void {
+    this.#renaming.value = id;
+  }
+
+  remove(id: number): void {
+    const scene = this.editor.scene.peek();
+    const card = this.card(id);
+    if (scene && card) this.editor.commits.run(removeVariant(scene, id, TEXTS.removed(card.name)));
+  }
+
+  /** The scene as it is on the picture becomes one of the variants. */
+  keepPresent(): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    const command = scene && keepAsVariant(scene, TEXTS.keptAsAVariant);
+    if (!scene || !command) return;
+    const set = editor.answers.motion.peek();
+    if (!set.stale) this.#keepSets([{ scene, set: { ...set, key: sceneKey(scene) } }]);
+    editor.commits.run(command);
+    this.#open.value = true;
+  }
+
+  /** Futures of a round join the variants, kept, each with what the others do about it. */
+  async keepDealt({ id, scenes, futures }: Dealt): Promise<void> {
+    const { editor } = this;
+    if (!scenes.length || this.#refusedLock()) return;
+    this.stop();
+    const turn = this.#turn;
+    const { takes, why } = await this.#takesOf(this.maker.each(scenes, id, futures), id, scenes.length, turn);
+    if (why) editor.notices.show({ text: why });
+    this.#join(takes, id);
+  }
+
+  /** Scenes of a round, or cases that were found of somebody, join the variants, kept. */
+  keepTakes(
+    takes: readonly Take[],
+    subject: string | null = null,
+    what: keyof typeof KEPT = 'card',
+    starred: readonly boolean[] = [],
+  ): void {
+    if (!takes.length || this.#refusedLock()) return;
+    batch(() => {
+      this.stop();
+      this.endCompare();
+      this.#open.value = true;
+    });
+    this.#join(takes, subject, what, starred);
+  }
+
+  #join(
+    takes: readonly Take[],
+    subject: string | null,
+    what: keyof typeof KEPT = 'card',
+    starred: readonly boolean[] = [],
+  ): void {
+    const { editor } = this;
+    const now = editor.scene.peek();
+    if (!takes.length || now?.id !== takes[0].scene.id || now.castKey !== takes[0].scene.castKey) return;
+    const n = takes.length;
+    const states = takes.map((t) => stateOfVariant(t.scene, subject));
+    const command = keepStates(now, states, KEPT[what](n), starred);
+    if (!command) return editor.notices.show({ text: TEXTS.thereIsNoRoom });
+    this.#keepSets(takes);
+    editor.commits.run(command);
+  }
+
+  #patch(id: number, make: (v: Variant, name: string) => { patch: Partial<Variant>; name: string }): void {
+    const scene = this.editor.scene.peek();
+    const card = this.card(id);
+    if (!scene || !card) return;
+    const { patch, name } = make(card.variant, card.name);
+    this.editor.commits.run(patchVariant(scene, id, patch, name));
+  }
+
+  // -------------------------------------------------------------- two of them
+
+  /**
+   * The first time it is remembered, the second time the two stand side by side; one of two that are kept stands
+   * beside the other at once.
+   */
+  compareWith(id: number): void {
+    const first = this.#picked.peek() ?? this.shown.peek();
+    const kept = this.within('kept').map((c) => c.id);
+    if (this.#picked.peek() === null && kept.length === 2 && kept.includes(id)) {
+      this.compare(kept[0], kept[1]);
+      return;
+    }
+    if (first === null || first === id) {
+      const taken = this.#picked.peek() !== id;
+      this.#picked.value = taken ? id : null;
+      if (taken) this.editor.notices.show({ text: TEXTS.selectASecond(id) });
+      return;
+    }
+    this.compare(first, id);
+  }
+
+  compare(left: number, right: number): void {
+    if (left === right || !this.card(left)?.set || !this.card(right)?.set) return;
+    this.take(left);
+    if (this.shown.peek() !== left) return;
+    batch(() => {
+      this.#picked.value = null;
+      this.#pair.value = [left, right];
+    });
+    const moment = this.compared.peek()?.parting.moments[0];
+    this.editor.notices.say(
+      moment ? TEXTS.variantsDiffer(left, right, moment.words) : TEXTS.variantsAreIdentical(left, right),
+    );
+  }
+
+  swapSides(): void {
+    const pair = this.#pair.peek();
+    if (pair) this.compare(pair[1], pair[0]);
+  }
+
+  endCompare(): void {
+    batch(() => {
+      this.#pair.value = null;
+      this.#picked.value = null;
+    });
+  }
+}
+
+/** The one whose futures they are is free again: the variants pick for it. */
+function withoutPick(scene: Scene, subject: string | null): Scene {
+  const a = subject === null ? undefined : scene.agents.get(subject);
+  if (!a || a.chosen === null) return scene;
+  const agents = new Map(scene.agents).set(a.id, Object.freeze({ ...a, chosen: null }));
+  return Object.freeze({ ...scene, agents });
+}
+
+/**
+ * The seed of the first new one. Variants that are there already were drawn with theirs: new ones go on after them.
+ * Of one road user the same futures answer the same question, so it is the document's own seed.
+ */
+function nextSeed(scene: Scene, subject: string | null): number {
+  const used = scene.variants.map((v) => scene.variantStates[v.id]).filter((s) => s.subject === subject);
+  if (!used.some((s) => s.seed === scene.seed)) return scene.seed;
+  return (Math.max(...used.map((s) => s.seed)) + 1) % Number.MAX_SAFE_INTEGER;
+}
+
+function reasonOf(e: unknown): string | null {
+  if (e instanceof Stopped) return null;
+  if (e instanceof Refused) return e.message;
+  if (e instanceof Away) return TEXTS.theGeneratorIs;
+  throw e;
+}

@@ -1,0 +1,112 @@
+// Questions over a connection that stays open: a request of its own costs the browser three times the work, sixty
+// times a second. Where there is no such connection, or none yet, questions go as requests.
+import { askHere, type Head, type Sender } from './http-transport';
+import { problemIn } from './problem';
+import { Multiplexer } from './multiplexer';
+import { eventsOf, type Together } from './stream';
+
+type Ask = ReturnType<typeof askHere>;
+
+/** Longer questions go as requests: a message is bounded more tightly than a body. */
+const MOST_CHARACTERS = 100_000;
+/** More questions at once go as requests: over the line they would wait for each other. */
+const MOST_AT_ONCE = 6;
+/** A connection that could not be had is tried again after so long, milliseconds, then after twice as long. */
+const AGAIN_MS = 500;
+const AGAIN_MOST_MS = 60_000;
+
+/** What the server says of a question, on the first line of a message. */
+interface Told {
+  readonly ask: number;
+  readonly status?: number;
+  readonly retry_after_s?: number;
+  readonly scene?: string;
+  readonly last?: true;
+}
+
+/** The connection ended before anything was heard. */
+class Lost extends Error {}
+
+export class SocketTransport {
+  #socket: WebSocket | null = null;
+  /** When a connection may be tried again, and how long after the next try. */
+  #next = { at: -Infinity, after: AGAIN_MS };
+  readonly #questions = new Multiplexer<Together>();
+  readonly #request: Ask;
+
+  /** The connection is opened at once, before anybody asks. */
+  constructor(
+    sender: Sender,
+    private readonly connect: () => WebSocket | null,
+    private readonly now = () => performance.now(),
+  ) {
+    this.#request = askHere(sender);
+    this.#connected();
+  }
+
+  readonly ask: Ask = async (body, signal) => {
+    const socket = this.#connected();
+    if (!socket || body.length > MOST_CHARACTERS || this.#questions.size >= MOST_AT_ONCE)
+      return this.#request(body, signal);
+    const send = (text: string): void => socket.send(text);
+    const say = {
+      ask: (id: number, body: string) => send(`{"ask":${id},"body":${body}}`),
+      end: (id: number) => send(`{"end":${id}}`),
+    };
+    try {
+      return await this.#questions.put(body, signal, say);
+    } catch (e) {
+      if (e instanceof Lost) return this.#request(body, signal);
+      throw e;
+    }
+  };
+
+  /** The connection, if it is open; else one is begun when it is time. */
+  #connected(): WebSocket | null {
+    if (this.#socket) return this.#socket.readyState === this.#socket.OPEN ? this.#socket : null;
+    const now = this.now();
+    if (now < this.#next.at) return null;
+    const { after } = this.#next;
+    this.#next = { at: now + after, after: Math.min(2 * after, AGAIN_MOST_MS) };
+    const socket = (this.#socket = this.connect());
+    if (!socket) return null;
+    socket.onopen = () => (this.#next.after = AGAIN_MS);
+    socket.onmessage = ({ data }: MessageEvent<string>) => {
+      try {
+        this.#hear(data);
+      } catch {
+        // Whoever this is, it is no line of ours.
+        socket.close();
+      }
+    };
+    socket.onclose = () => {
+      this.#socket = null;
+      this.#questions.lose(new Lost('The connection was lost.'));
+    };
+    return null;
+  }
+
+  #hear(message: string): void {
+    const end = message.indexOf('\n');
+    const told = JSON.parse(message.slice(0, end)) as Told;
+    const rest = message.slice(end + 1);
+    const head = headOf(told, rest);
+    const events = head?.problem ? [] : eventsOf(rest);
+    this.#questions.hear(told.ask, head, events.length ? [events] : [], told.last === true);
+  }
+}
+
+/** A refusal comes whole. */
+function headOf({ status, retry_after_s, scene }: Told, rest: string): Head | null {
+  if (status === undefined) return null;
+  const problem = status >= 400 ? problemIn(rest, status) : null;
+  return { status, retryAfter_s: retry_after_s ?? null, held: scene, problem };
+}
+
+/** A connection with the server that a script came from. */
+export function connection(script: string): WebSocket | null {
+  if (typeof WebSocket === 'undefined') return null;
+  const address = new URL('/v1/generate', script);
+  address.protocol = address.protocol.replace('http', 'ws');
+  return new WebSocket(address);
+}
