@@ -1,4 +1,4 @@
-// What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
+// Handles the generator's answers: streamed drafts, the futures of a selected road user, the motion after a change.
 import { batch, effect } from '@preact/signals-core';
 import type { AgentFuturesJson } from '../../model/document/scene-json';
 import {
@@ -33,23 +33,23 @@ import { figure } from '../../model/base/units';
 import { TEXTS } from '../../texts/editing/generation';
 import { LANGUAGE } from '../../texts/language';
 
-/** What an answer may set off; the generation does it. */
+/** Follow-up work of an answer, done by the generation. */
 export interface Hooks {
   answered(): void;
   away(w: Wanted): void;
   askAgain(w: Wanted): void;
   look(id: string): void;
   score(step: Step): void;
-  /** Draws the speeds of a curve that a change has put out of force anew; false where that cannot be. */
+  /** Draws again the speeds of a curve that a change has put out of force; false where it cannot. */
   takeUpCurve(id: string, joins: boolean): boolean;
-  /** What everybody does in the document on screen is known. */
+  /** The motions of all road users in the shown document are known. */
   known(): void;
 }
 
 /** Refinement steps left behind on screen as trails. */
 const TRAILS = 3;
 
-/** Futures that stand for so long in a drag are named anew. */
+/** Futures are renamed once they have been unchanged for this long in a drag. */
 const RESTS_MS = 450;
 
 export class AnswerHandler {
@@ -59,9 +59,9 @@ export class AnswerHandler {
 
   readonly #stable: StableWords;
   readonly #rest = new RestTimer(RESTS_MS);
-  /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
+  /** The document of the last previewed answer, and the bold future before that answer replaced the drag's own. */
   #previewed: { readonly key: string; readonly bold: string | null } | null = null;
-  /** The road user whose speed curve is off since a change that was answered during a drag. */
+  /** The road user whose speed curve was put out of force by a change answered during a drag. */
   #curveOff: string | null = null;
 
   constructor(
@@ -69,7 +69,7 @@ export class AnswerHandler {
     private readonly hooks: Hooks,
   ) {
     this.#stable = new StableWords((changes) => editor.answers.preview(changes));
-    // What was said of a drag ends with it.
+    // The state of a preview ends with its drag.
     effect(() => {
       if (editor.answers.previewed.value !== null) return;
       this.#stable.forget();
@@ -99,7 +99,7 @@ export class AnswerHandler {
         } else this.#finalOfLook(scene, e, w.agents[0], ms, editor.drag.active.peek() ? keep : atRest);
       },
       refused: (p) => {
-        // Futures matter more than their score: when working out both fails, they are asked for alone.
+        // Futures matter more than their score: when both together fail, the futures are requested without the score.
         if (p.code === 'internal' && w.step && !w.unscored) hooks.askAgain({ ...w, unscored: true });
         else this.#refused(p);
       },
@@ -115,7 +115,10 @@ export class AnswerHandler {
     };
   }
 
-  /** Letters stay with their ideas during a drag and from first guess to answer, and a pick keeps its letter. */
+  /**
+   * Letters stay with their ideas during a drag and from the first draft to the answer; a picked future keeps its
+   * letter.
+   */
   #lettersOf(a: Agent, began: boolean): KeepOrder {
     const { editor } = this;
     const d = editor.answers.draft.peek();
@@ -123,12 +126,12 @@ export class AnswerHandler {
     return { like, always: editor.drag.active.peek() || a.chosen !== null || began };
   }
 
-  /** At rest A is the likeliest; only where somebody picked a letter do they stay. */
+  /** At rest A is the likeliest; letters stay fixed only after a pick. */
   #lettersAtRest(a: Agent): KeepOrder {
     return a.chosen === null ? 'rank' : this.#lettersOf(a, true);
   }
 
-  /** Which idea is bold as the hand lets go; null where no drag left one. */
+  /** The future that is bold when the drag ends; null where no drag left one. */
   #boldOf(id: string): string | null {
     const { editor } = this;
     const d = editor.answers.draft.peek();
@@ -137,7 +140,7 @@ export class AnswerHandler {
     return ideas(d.futures.modes)[d.futures.chosen];
   }
 
-  /** The bold one is another than in the drag, or not the likeliest: one sentence says why. */
+  /** If the bold future differs from the drag's, or is not the likeliest, one sentence gives the reason. */
   #sayWhyAnother(scene: Scene, id: string | null, bold: string | null): void {
     const { editor } = this;
     const f = id !== null && editor.answers.motion.peek().futures.get(id);
@@ -150,7 +153,7 @@ export class AnswerHandler {
 
   // -------------------------------------------------------------- drafts
 
-  /** True when something of it was drawn. */
+  /** True when a part of it was drawn. */
   #draft(
     scene: Scene,
     e: DraftEvent,
@@ -159,7 +162,8 @@ export class AnswerHandler {
     const { editor } = this;
     const { step, steps, ms, subject } = at;
     return batch(() => {
-      // Later windows go on from where the first one led; its six stay on screen until all is worked out.
+      // Later windows continue from where the first one led; its six futures stay on screen until the last window is
+      // done.
       if (e.window) {
         editor.answers.report({ kind: 'refining', step, steps, ms, part: secondsOf(scene, e.window) });
         return false;
@@ -178,7 +182,8 @@ export class AnswerHandler {
     if (!a || !start) return false;
     const shown = editor.answers.draft.peek();
     const last = shown?.id === id && !shown.futures.sketch ? shown : null;
-    // The answer to a release starts rough again; what the drag has settled already stays until it is better.
+    // The answer to a release starts from rough drafts; the refined futures of the drag stay until a better step
+    // arrives.
     if (last && !editor.drag.active.peek() && step < last.futures.step) return false;
     const sent = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
     const read = keepVerdicts(last?.futures ?? null, sent);
@@ -188,7 +193,7 @@ export class AnswerHandler {
     return true;
   }
 
-  /** Draws futures. Where the hand of a drag rests at them they get the names that they have at rest. */
+  /** Draws futures. Once the drag pauses on them they get the names that they have at rest. */
   #show(a: Agent, f: Futures, trails: readonly Futures[] = []): void {
     const { editor } = this;
     this.#rest.stop();
@@ -202,7 +207,7 @@ export class AnswerHandler {
     });
   }
 
-  /** What is on screen keeps its names as far as they hold. */
+  /** The futures on screen keep their names while these still hold. */
   #withFrozenNames(a: Agent, read: Futures): Futures {
     const { editor } = this;
     const d = editor.answers.draft.peek();
@@ -211,9 +216,9 @@ export class AnswerHandler {
     return before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
   }
 
-  // -------------------------------------------------------------- what the others would do
+  // -------------------------------------------------------------- reactions of the others
 
-  /** What a release would be answered, while the hand still moves. */
+  /** Previews the answer to a release during the drag. */
   preview(scene: Scene, e: FinalEvent, w: Wanted): void {
     const { editor } = this;
     if (!editor.drag.active.peek()) return;
@@ -225,7 +230,7 @@ export class AnswerHandler {
     const id = w.step?.agent;
     const f = id && set.futures.get(id);
     if (!f || editor.selection.peek() !== id || sceneKey(editor.scene.peek()!) !== key) return;
-    // The hand rests here: its six are those that the others answer, judged with what these do.
+    // The drag is still at this pose: the six futures judged with the others' reactions replace the drag's own.
     this.#previewed = { key, bold: this.#boldOf(id) };
     const reach = readReach(e.resolved[id]);
     if (reach) editor.answers.judge(id, reach);
@@ -233,18 +238,20 @@ export class AnswerHandler {
     this.#show(a, this.#withFrozenNames(a, f));
   }
 
-  /** Whether somebody stays in the way is known when they have answered, as is all about a goal that they have. */
+  /**
+   * The others' reactions decide whether the goal stays blocked, and replace the verdict of the drag's own question.
+   */
   #isForOthersToSay(scene: Scene, reach: Reach): boolean {
     if (!this.editor.drag.active.peek()) return false;
     return this.#knownBetter(scene) || (scene.others === 'react' && isBlocked(reach));
   }
 
-  /** Is what a drag's own question says of this document known better? */
+  /** Has a reaction preview of this document replaced the answer of the drag's own question? */
   #knownBetter(scene: Scene): boolean {
     return this.#previewed !== null && this.editor.drag.active.peek() && this.#previewed.key === sceneKey(scene);
   }
 
-  /** While the hand moves nobody is told to be hit who would give way. */
+  /** During a drag a collision with a road user that would give way is not shown. */
   #withoutThoseWhoAnswer(f: Futures): Futures {
     const answering = new Set(this.editor.answers.previewed.peek()?.map((c) => c.id));
     const met = (x: Fault): boolean => x.with !== null && answering.has(x.with);
@@ -257,7 +264,7 @@ export class AnswerHandler {
     };
   }
 
-  /** The release is answered by what was foreseen of it. */
+  /** The preview of exactly this document answers the release. */
   takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
     this.hooks.answered();
     const own = this.#previewed?.key === sceneKey(scene) ? this.#previewed.bold : null;
@@ -266,7 +273,7 @@ export class AnswerHandler {
     this.#sayWhyAnother(scene, step.agent, bold);
   }
 
-  /** Those that were asked something are no others, also when only the mode of the others was changed. */
+  /** Conditioned road users do not count as others, also when only the mode of the others was changed. */
   #subjects(scene: Scene, step: Step | null): Set<string> {
     const { editor } = this;
     const subjects = new Set(step?.agent ? [step.agent] : (step?.several ?? touchedIn(scene)));
@@ -315,7 +322,7 @@ export class AnswerHandler {
     if (!set.score) hooks.score(step);
   }
 
-  /** A change is worked out: who changed, in the status line, a toast and a sentence. */
+  /** A change is answered: status line, toast and spoken sentence report the affected road users. */
   settled(step: Step, ms: number): void {
     const { editor } = this;
     const changes = editor.answers.changes.peek();
@@ -323,7 +330,7 @@ export class AnswerHandler {
     if (step.undo) return;
     const { agent } = step;
     const curve = step.curve ?? (agent !== null && agent === this.#curveOff ? 'open' : undefined);
-    // Its own answer says what came of both.
+    // The answer to the redrawn curve reports both.
     if (agent && curve === 'fits' && this.#takeUp(agent)) return;
     if (agent && curve) this.#curveOff = null;
     const scene = editor.scene.peek()!;
@@ -342,8 +349,8 @@ export class AnswerHandler {
   }
 
   /**
-   * Draws the speed curve of a change within its step. During a drag it waits for the end: a drag that is put back
-   * leaves the step as it is, and after a drag that is not, the curve is offered with the answer to that.
+   * Draws the speed curve of a change within its step. During a drag it waits for the end: a cancelled drag leaves the
+   * step unchanged; after a committed one the curve is offered with the new answer.
    */
   #takeUp(agent: string): boolean {
     const { document } = this.editor;
@@ -364,7 +371,7 @@ export class AnswerHandler {
       first?.min !== undefined && first.max !== undefined
         ? TEXTS.aValueIsOutside(figure(first.min), figure(first.max))
         : null;
-    // The server says more, but in English.
+    // The server's text has more detail, but is English only.
     const words = LANGUAGE !== 'en' && range ? range : inWords(p);
     this.editor.answers.preview(null);
     this.editor.answers.report({ kind: 'refused', words });
@@ -372,6 +379,6 @@ export class AnswerHandler {
   }
 }
 
-/** Which seconds a later window is about. */
+/** The seconds of a later planning window. */
 const secondsOf = (s: Scene, window: number): string =>
   TEXTS.toS(window * s.replan, Math.min(s.length, (window + 1) * s.replan));

@@ -1,16 +1,16 @@
-// The generator is away: it is tried again at growing intervals, and the changes that wait for it are counted.
+// The generator is unreachable: retries at growing intervals, and counts the changes that wait for it.
 import type { Editor } from '../session/editor';
 import { TEXTS } from '../../texts/editing/generation';
 
 const RETRY_S = [1, 2, 4, 6];
 
 export class Connection {
-  /** Changes nobody has answered. */
+  /** Number of unanswered changes. */
   #waiting = 0;
   #tries = 0;
   #timer: ReturnType<typeof setInterval> | undefined;
 
-  /** `came` is called when it answers again, with the number of changes that waited. */
+  /** `came` is called once the generator answers again, with the number of changes that waited. */
   constructor(
     private readonly editor: Pick<Editor, 'answers' | 'notices'>,
     private readonly answers: () => Promise<boolean>,
@@ -21,7 +21,7 @@ export class Connection {
     return this.editor.answers.away.peek() !== null;
   }
 
-  /** Nobody answered; `change` when a change of the document was to be worked out. */
+  /** The generator did not answer; `change` when the request was for a change of the document. */
   begin(change: boolean): void {
     const { editor } = this;
     if (change) this.#waiting++;

@@ -1,4 +1,4 @@
-// Futures whose speed was drawn by hand.
+// Futures with a speed profile drawn by the user.
 import { limitsOf } from '../../model/base/domain';
 import type { Futures, Score } from '../../model/document/futures';
 import type { Profile } from '../../model/document/profile';
@@ -7,10 +7,10 @@ import { motionOf } from '../../model/physics/speed-profile';
 import { judgedBy } from '../../model/physics/verdict-updates';
 import { TEXTS } from '../../texts/editing/moves';
 
-/** What a future is called whose speed was drawn by hand. */
+/** Name of a future with a speed profile drawn by the user. */
 const OWN_SPEED = TEXTS.atYourSpeed;
 
-/** Futures of which one goes as it was drawn; what was said about it is not true any more. */
+/** Futures of which the chosen one follows a drawn profile; its verdict no longer holds and is removed. */
 export function withCurve(f: Futures, chosen: number, profile: Profile, a: Agent, duration: number): Futures {
   const motion = motionOf(profile, limitsOf(a), duration);
   const modes = f.modes.map((m, i) =>
@@ -19,7 +19,7 @@ export function withCurve(f: Futures, chosen: number, profile: Profile, a: Agent
   return { ...f, modes };
 }
 
-/** The futures of a scene, those with a speed drawn by hand as they were drawn. */
+/** The futures of a scene, with drawn speed profiles applied. */
 export function withCurves(scene: Scene, futures: ReadonlyMap<string, Futures>): ReadonlyMap<string, Futures> {
   const drawn = [...scene.agents.values()].filter((a) => profileOf(a) && futures.has(a.id));
   if (!drawn.length) return futures;
@@ -28,7 +28,7 @@ export function withCurves(scene: Scene, futures: ReadonlyMap<string, Futures>):
   return out;
 }
 
-/** The same, judged by what the score of the scene says of them. */
+/** The same, judged by the score of the scene. */
 export function judgedCurves(
   scene: Scene,
   futures: ReadonlyMap<string, Futures>,

@@ -1,9 +1,9 @@
-// Names of futures while a hand moves: an idea keeps its name until rest, unless what the name rests on is no longer
-// so and another relation has held for a while.
+// Names of futures during a drag: an idea keeps its name until rest, unless the basis of the name is gone and another
+// relation has held for a while.
 import { ideas, type Future, type Futures } from '../../model/document/futures';
 import { nameAll, nameRest, type Named, type Naming } from '../../model/words/future-names';
 
-/** So long must a new relation hold before it is named, in milliseconds. */
+/** A new relation must hold for this long before it changes a name, in milliseconds. */
 const HOLDS_MS = 400;
 
 interface Pending {
@@ -14,13 +14,13 @@ interface Pending {
 export class FrozenNames {
   readonly #pending = new Map<string, Pending>();
 
-  /** The next futures with the names of those on screen, as far as these still hold. `now` in milliseconds. */
+  /** The next futures with the names of those on screen, where these still hold. `now` in milliseconds. */
   keep(shown: Futures, next: Futures, who: Naming, now: number): Futures {
     const was = new Map(ideas(shown.modes).map((k, i) => [k, shown.modes[i]]));
     const fresh = nameAll(next.modes, who);
     const keys = ideas(next.modes);
     const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], now));
-    // New ones are told apart from those that stay.
+    // Names of new futures must differ from the kept names.
     const names = nameRest(
       next.modes,
       who,
@@ -29,12 +29,12 @@ export class FrozenNames {
     return { ...next, modes: next.modes.map((m, i) => ({ ...m, ...names[i] })) };
   }
 
-  /** At rest everything is named anew. */
+  /** At rest all futures get new names. */
   rest(): void {
     this.#pending.clear();
   }
 
-  /** The future on screen, when its name stays. */
+  /** The future on screen, if its name is kept. */
   #kept(key: string, old: Future | undefined, next: Future, fresh: Named, now: number): Future | null {
     if (!old?.basis) return null;
     if (fresh.basis === old.basis || stillHolds(old.basis, next)) {

@@ -1,5 +1,5 @@
-// What is asked of the generator, and when: six futures of whom one selects, live ones during a drag, everybody's
-// answer after a change. What becomes of the answers is in `answer-handler.ts`.
+// Decides what to request from the generator and when: six futures of the selected road user, live ones during a drag,
+// the motion of all after a change. `answer-handler.ts` handles the answers.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../../model/base/domain';
 import { goesOneWay, thoseWhoAnswer } from '../../model/document/reaction-records';
@@ -25,7 +25,7 @@ import { sketchFutures } from './sketch';
 import { judgedCurves, withCurves } from './drawn-speeds';
 import { TEXTS } from '../../texts/editing/generation';
 
-/** A key held down asks once, when it rests. */
+/** Key repeats send one request, this long after the last one. */
 const REST_MS = 80;
 
 export class Generation implements Part {
@@ -36,13 +36,13 @@ export class Generation implements Part {
   /** Counts the poses of drags. */
   #pose = 0;
   readonly #asking = signal(false);
-  /** What is asked and not answered yet, and a change that rests before it is asked about. */
+  /** Requests without an answer yet, and a change that waits for the rest delay. */
   readonly #open = new Set<object>();
   #rest: ReturnType<typeof setTimeout> | undefined;
   #rested: () => void = () => undefined;
   #scoring: AbortController | null = null;
 
-  /** Is anything asked, or about to be? */
+  /** Is a request open, or about to be sent? */
   readonly asking: ReadonlySignal<boolean> = this.#asking;
 
   constructor(
@@ -50,9 +50,9 @@ export class Generation implements Part {
     private readonly file: SceneFile,
     private readonly saving: Saving,
     private readonly generator: Generator,
-    /** A line of its own for what the others would do. */
+    /** A connection of its own for the reactions of the others. */
     others: Generator,
-    /** Draws the speeds of a curve that a change has put out of force anew; false where that cannot be. */
+    /** Draws again the speeds of a curve that a change has put out of force; false where it cannot. */
     takeUpCurve: (id: string, joins: boolean) => boolean,
   ) {
     this.#requests = new RequestBuilder(editor, file);
@@ -81,9 +81,9 @@ export class Generation implements Part {
     editor.join(this);
   }
 
-  // -------------------------------------------------------------- what sets it off
+  // -------------------------------------------------------------- triggers
 
-  /** A scene was opened that lacks the answers to what is changed in it. */
+  /** A scene was opened without the answers to its changes. */
   begin(everybody: boolean): void {
     const scene = this.editor.scene.peek();
     const step = { name: TEXTS.sceneOpened, agent: null, undo: true, ...(everybody ? { everybody } : {}) };
@@ -96,14 +96,14 @@ export class Generation implements Part {
       return;
     }
     const { answers } = this.editor;
-    // A running answer to a change must still arrive; only a look at futures is dropped.
+    // A running answer to a change must still arrive; only a request for the futures of a selection is dropped.
     if (answers.motion.peek().stale) return;
     this.generator.cancel();
-    // What was said about its futures goes with it.
+    // The status about its futures ends with it.
     if (['refining', 'slow', 'settled'].includes(answers.status.peek().kind)) answers.report({ kind: 'ready' });
   }
 
-  /** The six futures of one; nobody follows them yet, and nobody else moves. */
+  /** The six futures of one road user: none is followed yet, and no other road user moves. */
   #look(id: string): void {
     const { editor } = this;
     const a = editor.agent.peek();
@@ -112,7 +112,7 @@ export class Generation implements Part {
     if (a && canChange(a) && this.#connection.now && !only) this.#sketch(id, true);
     if (!a || !canChange(a) || m.stale || (m.futures.has(id) && !only)) return;
     const scene = editor.scene.peek()!;
-    // What is said of each holds when it is picked: the others answer it then.
+    // The verdict on each future must hold when it is picked, so the others react to it.
     this.#ask({ agents: [id], react: whoReacts(scene, [id]), step: null, drafts: !only }, true);
   }
 
@@ -132,9 +132,9 @@ export class Generation implements Part {
     });
   }
 
-  // -------------------------------------------------------------- what the others would do
+  // -------------------------------------------------------------- reactions of the others
 
-  /** What a release would ask of a document that is being dragged. */
+  /** The request that a release would send for a dragged document. */
   #onRelease(scene: Scene): Wanted | null {
     const agent = this.editor.selection.peek();
     const asked = agent && requestForChange(this.editor, scene, { name: '', agent, undo: false });
@@ -146,7 +146,7 @@ export class Generation implements Part {
     return asked && this.#requests.make(scene, { ...asked, background: true }, true, on);
   }
 
-  /** The release takes over what was foreseen of exactly this document; false when nothing was. */
+  /** A preview of exactly this document answers the release; false when there is none. */
   #takeOver(scene: Scene, step: Step): boolean {
     const asked = requestForChange(this.editor, scene, step);
     if (typeof asked === 'string') return false;
@@ -163,12 +163,12 @@ export class Generation implements Part {
     return taken;
   }
 
-  /** Drops the previews of a drag that was put back. */
+  /** Drops the previews of a cancelled drag. */
   cancelPreviews(): void {
     this.#reactions.drop();
     this.generator.cancel();
     if (!this.editor.answers.motion.peek().stale || this.#connection.now) return;
-    // A drag that began while a change was being worked out has pushed that aside; it is asked for again.
+    // A drag that began while a change was being computed has cancelled that request; it is sent again.
     this.#workOut({ name: TEXTS.change, agent: this.editor.selection.peek(), undo: true });
   }
 
@@ -202,20 +202,20 @@ export class Generation implements Part {
     this.saving.answered();
   }
 
-  /** The Generate button: everybody anew. */
+  /** The Generate button: draws the motion of all road users again. */
   generateAll(): void {
     const scene = this.editor.scene.peek();
     if (scene) this.editor.commits.run(drawAnew(scene));
   }
 
-  /** Asks at once whether the generator is back. */
+  /** Tries the connection to the generator at once. */
   tryNow(): Promise<void> {
     return this.#connection.tryNow();
   }
 
   // -------------------------------------------------------------- a change
 
-  /** Release, typed value, undo to an unknown state: the others are asked too. */
+  /** Release, typed value, undo to an unknown state: the others react too. */
   #workOut(step: Step): void {
     const scene = this.editor.scene.peek();
     if (!scene) return;
@@ -225,7 +225,7 @@ export class Generation implements Part {
     else this.#ask(asked);
   }
 
-  /** Nobody is asked anything: everybody follows the log again and, past its end, goes on by the generator. */
+  /** No conditions remain: all replay the recording and, past its end, continue by the generator. */
   #pristine(scene: Scene, step: Step): void {
     const { editor } = this;
     if (scene.length > GOAL_TIME && scene.others === 'react') {
@@ -239,7 +239,7 @@ export class Generation implements Part {
     if (selected) this.#look(selected);
   }
 
-  /** `came` is called when something came of it, and when it ends, with whether there was something to be seen. */
+  /** `came` is called on each visible result and at the end, with whether a result was shown. */
   #ask(w: Wanted, preview = false, came?: (shown: boolean) => void): void {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -249,7 +249,7 @@ export class Generation implements Part {
     if (!preview) editor.answers.report({ kind: 'refining', step: 0, steps: DEFAULTS.steps, ms: 0 });
   }
 
-  /** Something is open from now on; what it gives back ends it. */
+  /** Marks a request as open; the returned function ends it. */
   #begin(): () => void {
     const token = {};
     this.#open.add(token);
@@ -260,7 +260,7 @@ export class Generation implements Part {
     };
   }
 
-  /** The same handlers, with the question open until one of its endings. */
+  /** The same handlers; the request counts as open until one of its endings. */
   #untilAnswered(on: Handlers, came?: (shown: boolean) => void): Handlers {
     const end = this.#begin();
     const ending =
@@ -285,7 +285,7 @@ export class Generation implements Part {
 
   // -------------------------------------------------------------- scores
 
-  /** Events of motions that are known already: after a pick among futures, and of the log at the start. */
+  /** Events of known motions: after a pick among futures, and of the recording at the start. */
   async score(step: Step | null = null, quiet = false): Promise<void> {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -307,7 +307,7 @@ export class Generation implements Part {
       editor.answers.scored(score, score && step?.counting ? countedAnew(scene, judged, score) : judged);
       if (step && !quiet) this.#handler.settled(step, 0);
     } catch (e) {
-      // Without a score there are no events to show; the motions stand.
+      // Without a score there are no events to show; the motions still hold.
       if (e instanceof Away && step) this.#away({ agents: [], react: false, step });
     } finally {
       end();
@@ -315,7 +315,7 @@ export class Generation implements Part {
     if (step && !quiet && editor.answers.status.peek().kind === 'refining') editor.answers.report({ kind: 'ready' });
   }
 
-  /** The motions as the document has them now: those asked something follow their futures where there are any. */
+  /** The motions as the document has them now: conditioned road users follow their futures where there are any. */
   #shown(scene: Scene): MotionSet {
     const set = this.editor.answers.motion.peek();
     return { ...followed(scene, set), futures: withCurves(scene, set.futures), fresh: null };
@@ -339,7 +339,7 @@ export class Generation implements Part {
     else this.selected(agent);
   }
 
-  /** A plain curve in place of futures. */
+  /** A plain curve in place of futures while the generator is unreachable. */
   #sketch(id: string, selectedOnly = false): void {
     const { editor } = this;
     const scene = editor.scene.peek();

@@ -1,4 +1,4 @@
-// What everybody does once an answer is there: what was known before, and what the answer says in its place.
+// The motion of all road users after an answer: the earlier motion, updated by the answer.
 import { DEFAULTS } from '../../model/base/domain';
 import { asIfNotAsked, toBeGivenUp } from '../../model/document/reaction-records';
 import type { AgentFuturesJson } from '../../model/document/scene-json';
@@ -23,13 +23,13 @@ import type { Wanted } from './request-builder';
 import { readReach, readScore, readWarnings } from './read-answer';
 import { judgedCurves, withCurves } from './drawn-speeds';
 
-/** Which letters the futures of a road user get. */
+/** Order of the letters for the futures of a road user. */
 export type Keep = (a: Agent) => KeepOrder;
 
 export const naming = (scene: Scene, a: Agent): Naming => ({
   onFoot: a.type === 'pedestrian',
   nameOf: nameIn(scene),
-  // What an example comes with was not recorded of anybody.
+  // Examples and placed road users have no recorded motion.
   log: isRecorded(scene.source) && !a.placed ? a.log : null,
 });
 
@@ -37,7 +37,7 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
   const before = asIfNotAsked(last, w.anew);
   const answers = futuresOf(before, scene, e, keep);
   const mine = touchedIn(scene);
-  // A look at somebody's futures from before the change is no longer true.
+  // Futures requested before the change, only for a selection, are no longer true.
   const stillTrue = (id: string) => {
     const a = scene.agents.get(id);
     return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
@@ -51,12 +51,12 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
   };
   const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
   for (const id of mine) if (futures.has(id)) driving.add(id);
-  // What they were judged against has changed with those that are answered.
+  // The motions that these were judged against have changed with the answer.
   const now: MotionSet = { ...before, futures, driving };
   const since = changedSince(last, now, scene);
   const picked = (w.pinned ?? []).filter((id) => !since.some((c) => c.agent.id === id));
   const changed = [...since, ...doingNow(scene, now, picked)];
-  // Of whom another future is picked all six are judged by what the others do when they are: that stands.
+  // For a road user with a picked future, all six were already judged with the others' reactions; those verdicts stay.
   const stands = new Set([...answers.keys(), ...(w.pinned ?? [])]);
   const own = mine.filter((id) => !answers.has(id));
   const met = metAgain(scene, futures, changed, stands, score, own);
@@ -80,13 +80,13 @@ export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wan
   };
 }
 
-/** The same, where another future is picked and nobody is asked anything: the score tells who meets whom. */
+/** The same after a pick without a generator request: the score gives the pairs that meet. */
 export const rejudged = (scene: Scene, set: MotionSet, score: Score, picked: readonly string[]): Map<string, Futures> =>
   metAgain(scene, set.futures, doingNow(scene, set, picked), new Set(picked), score, touchedIn(scene));
 
 /**
- * Futures with whom they meet now that the `changed` do something else; the verdicts of those who are in `stands` are
- * known already. What each of `own` does is judged by the score, where there is one.
+ * Futures judged again after the `changed` motions; verdicts of the ids in `stands` stay. The followed future of each
+ * of `own` is judged by the score, where there is one.
  */
 function metAgain(
   scene: Scene,
@@ -108,14 +108,14 @@ function metAgain(
   return out;
 }
 
-/** What these do, for others that are to be judged against it. */
+/** Current motions of these ids, to judge others against. */
 const doingNow = (scene: Scene, set: MotionSet, ids: readonly string[]): Changed[] =>
   ids.flatMap((id) => {
     const agent = scene.agents.get(id);
     return agent ? [{ agent, motion: motionOf(scene, set, agent) }] : [];
   });
 
-/** Everybody who does something else. */
+/** All road users with another motion than before. */
 function changedSince(before: MotionSet, now: MotionSet, scene: Scene): Changed[] {
   return [...scene.agents.values()].flatMap((agent) => {
     const motion = motionOf(scene, now, agent);
@@ -143,13 +143,13 @@ function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFutur
     const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
     return withNames(f, naming(scene, a));
   }
-  // A picked future comes back longer than it was, and judged to its end; the other five stand as they are.
+  // A picked future returns extended and judged to its end; the other five stay unchanged.
   const [read] = readFutures(json, start, 1, 1, a.type === 'pedestrian').modes;
   const longer = { ...picked, motion: read.motion, about: read.about ?? picked.about, sent: read.sent };
   return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
 }
 
-/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
+/** The cause of each reaction; reactions that were not computed again keep their earlier cause. */
 function answeringAfter(before: MotionSet, e: FinalEvent, pinned: readonly string[] = []): Map<string, Answering> {
   const out = new Map(before.answering);
   for (const id of pinned) out.delete(id);

@@ -1,4 +1,4 @@
-// What a change led to, in sentences for the toast and for screen readers.
+// The outcome of a change, in sentences for the toast and for screen readers.
 import { counted } from '../../model/physics/events';
 import type { Change } from '../../model/words/change-words';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -9,7 +9,7 @@ import type { Step } from '../document/step';
 import type { Editor } from '../session/editor';
 import { TEXTS } from '../../texts/editing/generation';
 
-/** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */
+/** `Goal of Car 4 moved. 2 others changed.` "No other agent is affected" is omitted beside a collision. */
 export function outcome(
   step: Step,
   scene: Scene,
@@ -28,7 +28,7 @@ export function outcome(
   return TEXTS.othersChangedAndHit(n, step.name, hit);
 }
 
-/** The same with who changed first and how. */
+/** The same, with the first affected road user and its reaction. */
 export function spokenOutcome(
   step: Step,
   scene: Scene,
@@ -39,7 +39,7 @@ export function spokenOutcome(
   return `${outcome(step, scene, changes, events)}${first ? ` ${first.name} ${first.words}.` : ''}`;
 }
 
-/** `Reached in A, C, D.`: the verdict on whom the step was about, while it is selected; empty where nobody has one. */
+/** `Reached in A, C, D.`: the verdict on the road user of the step, while it is selected; empty where there is none. */
 export function spokenVerdict(editor: Editor, step: Step): string {
   const a = editor.agent.peek();
   const f = editor.reading.futures.peek();

@@ -1,24 +1,24 @@
-// What the others would do if one let go now: asked beside the drag's own question, on a line of its own, so that it
-// neither overtakes nor holds up the six futures. The last answer is the one that a release takes over.
+// Reactions of the others if the drag ended now. Requested on a connection of its own, so that it neither overtakes nor
+// delays the six futures. A release takes over the last answer.
 import { sceneKey, type Scene } from '../../model/document/scene';
 import type { Generator, Handlers, Question } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
 import { RestTimer } from './rest-timer';
 
-/** Time between two questions. */
+/** Time between two requests. */
 const GAP_MS = 150;
 const LONGEST_GAP_MS = 250;
-/** A hand that is still for so long rests: a question about an older pose is dropped for the one it rests at. */
+/** A drag paused for this long is at rest: a request about an older pose is dropped for the current one. */
 const REST_MS = 120;
-/** How old a question may get while the hand moves on. */
+/** Longest age of a request while the drag moves on. */
 const OLDEST_MS = 500;
 
 export interface Asking {
-  /** The question that a release would ask of a document; null when none would be asked. */
+  /** The request that a release would send for a document; null where none is needed. */
   question(scene: Scene, on: Handlers): Question | null;
-  /** An answer came. */
+  /** An answer arrived. */
   preview(scene: Scene, e: FinalEvent): void;
-  /** Something is open until what this gives back is called. */
+  /** Marks a request as open; the returned function ends it. */
   begin(): () => void;
 }
 
@@ -34,15 +34,15 @@ interface Running {
   readonly key: string;
   readonly old: ReturnType<typeof setTimeout>;
   readonly end: () => void;
-  /** The release waits for it. */
+  /** Set while a release waits for it. */
   awaited: ((known: Known | null) => void) | null;
 }
 
 export class ReactionPreview {
-  /** The newest pose, until it has been asked about. */
+  /** The newest pose without a request yet. */
   #wanted: Scene | null = null;
   #endWait: (() => void) | null = null;
-  /** Has a question of the drag's own shown something since the last one of these? The hand's own futures go first. */
+  /** Has a request of the drag's own shown a result since the last preview request? The drag's own futures go first. */
   #free = false;
   #running: Running | null = null;
   #gap: ReturnType<typeof setTimeout> | undefined;
@@ -54,20 +54,20 @@ export class ReactionPreview {
     private readonly asking: Asking,
   ) {}
 
-  /** The hand is at another pose. */
+  /** The drag is at another pose. */
   moved(scene: Scene): void {
     this.#wanted = scene;
     this.#rest.begin(() => this.#drop());
     this.#endWait ??= this.asking.begin();
   }
 
-  /** A question of the drag's own has shown something. The one that waits behind it is put before this one. */
+  /** A request of the drag's own has shown a result. The waiting preview request goes before the next one. */
   yielded(): void {
     this.#free = true;
     if (this.#wanted) queueMicrotask(() => this.#next());
   }
 
-  /** Nobody wants to know any more. */
+  /** The answer is no longer needed. */
   drop(): void {
     this.#forget();
     this.#known = null;
@@ -75,8 +75,8 @@ export class ReactionPreview {
   }
 
   /**
-   * The release: `take` gets the answer to exactly this document, at once or as soon as it is there, or null when it
-   * does not come. False when there is none: it is to be asked for as any other.
+   * The release: `take` gets the answer to exactly this document, at once or when it arrives, or null when it fails.
+   * False when none is known or under way: the caller must request it.
    */
   release(scene: Scene, take: (known: Known | null) => void): boolean {
     const key = sceneKey(scene);
@@ -150,7 +150,7 @@ export class ReactionPreview {
   #answered(running: Running, known: Known): void {
     if (this.#running !== running) return;
     this.#over(running);
-    // Where these take long, at least half of the time is the hand's own.
+    // If previews take long, at least half of the time is left to the drag's own requests.
     if (known.ms > GAP_MS / 2) this.#pause(Math.min(known.ms, LONGEST_GAP_MS));
     if (running.awaited) {
       running.awaited(known);
@@ -168,7 +168,7 @@ export class ReactionPreview {
     this.#next();
   }
 
-  /** What is under way makes place for a newer pose, where there is one. */
+  /** Cancels the running request if a newer pose waits. */
   #drop(): void {
     if (!this.#wanted) return;
     this.#stop();

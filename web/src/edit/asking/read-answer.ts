@@ -1,4 +1,4 @@
-// Verdicts, scores and warnings of an answer, in the editor's own terms.
+// Verdicts, scores and warnings of an answer, in the editor's own types.
 import type { FinalEvent, Resolved, ScoreReply } from '../../net/types';
 import type { Message } from '../../model/document/message';
 import type { Reach, Score, Stretch } from '../../model/document/futures';
@@ -30,7 +30,7 @@ export function readWarnings(e: FinalEvent): Map<string, Message[]> {
   return out;
 }
 
-/** The score of the scene as a whole; null when none was asked for. */
+/** The score of the scene as a whole; null where the request had none. */
 export function readScore(reply: ScoreReply | null | undefined): Score | null {
   if (!reply) return null;
   const s = reply.scene;
@@ -72,7 +72,7 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
   };
 }
 
-/** Who is part of a pair that comes to one place one after the other. */
+/** Road users of a pair that pass the same place one after the other. */
 const petsOf = ({ agents }: Partial<ScoreReply>): ReadonlyMap<string, number> =>
   new Map(Object.entries(agents ?? {}).flatMap(([id, a]) => (a.pet_s == null ? [] : [[id, a.pet_s]])));
 

@@ -1,4 +1,4 @@
-// What comes of the ways out of an event, before anybody takes one: each is tried apart, one after the other.
+// Outcomes of the remedies for an event, before the user takes one: each is tried separately, in order.
 import { effect, signal, untracked } from '@preact/signals-core';
 import { compareMarks, type Mark } from '../../model/document/future-facts';
 import { counted } from '../../model/physics/events';
@@ -11,7 +11,7 @@ import type { Remedy } from '../moves/moves';
 import { triedChange, type WhatIf } from './what-if';
 import { TEXTS } from '../../texts/panels/events-panel';
 
-/** What comes of a way out: `ok` where the event is gone and nothing new comes in its place. */
+/** The outcome of a remedy: `ok` where the event is gone and no new one replaces it. */
 export interface Outcome {
   readonly mark: Mark;
   readonly words: string;
@@ -25,7 +25,7 @@ export class RemedyOutcomes {
     private readonly whatIf: WhatIf,
   ) {}
 
-  /** Weighs the ways out of the event that is picked, until the function that comes back is called. */
+  /** Tries the remedies of the selected event until the returned function is called. */
   begin(): () => void {
     const { editor, whatIf } = this;
     const end = effect(() => {
@@ -80,10 +80,10 @@ export class RemedyOutcomes {
   }
 }
 
-/** A way out is made anew whenever it is drawn; what it says stays the same. */
+/** A remedy is created again at each draw; its texts stay the same and identify it. */
 const keyOf = ({ label, note }: Remedy): string => `${label} ${note}`;
 
-/** Is it about the same, whatever comes of it? */
+/** Do both events concern the same pair? */
 const samePair = (p: TrafficEvent, q: TrafficEvent): boolean => {
   const [a, b] = [p.b?.id ?? '', q.b?.id ?? ''];
   return (p.a.id === q.a.id && a === b) || (p.a.id === b && a === q.a.id);

@@ -1,4 +1,4 @@
-// A change that is tried and not made: what everybody would do is shown dashed beside what they do.
+// Preview of a change that is not committed: the resulting motion of all is dashed beside the current one.
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import { findChanges } from '../../model/words/change-words';
@@ -8,7 +8,7 @@ import type { Beside } from '../session/view-settings';
 import { triedChange, type WhatIf, type TriedChange } from './what-if';
 
 export class RemedyPreview {
-  /** What is shown for it; somebody else's is not taken away. */
+  /** The preview shown from here; another owner's preview is not removed. */
   #shown: Beside | null = null;
 
   get asking(): ReadonlySignal<boolean> {
@@ -19,14 +19,14 @@ export class RemedyPreview {
     private readonly editor: Editor,
     private readonly whatIf: WhatIf,
   ) {
-    // It is about the document as it was, and somebody's way out: made or not, it is over when that changes.
+    // A preview belongs to one document and one selection: it ends when either changes.
     effect(() => {
       void [editor.scene.value, editor.selected.value];
       this.stop();
     });
   }
 
-  /** Shows where the command puts goal and start at once, and what comes of it as soon as that is known. */
+  /** Shows the goal and start of the command at once, and its outcome when that is known. */
   begin(command: Command): void {
     const { editor } = this;
     const scene = editor.scene.peek();

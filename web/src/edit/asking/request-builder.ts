@@ -1,5 +1,5 @@
-// From the document to a question: the scene, by name where the server has it as it is on screen, what is asked of
-// whom, and the options.
+// Builds a request from the document: the scene (by name where the server holds the same version), the conditioned road
+// users, and the options.
 import { DEFAULTS } from '../../model/base/domain';
 import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../../model/document/scene-json';
 import type { Futures, MotionSet } from '../../model/document/futures';
@@ -21,39 +21,36 @@ import type { SceneFile } from '../document/scene-file';
 import { shownFuture } from './shown-future';
 import { withCurve } from './drawn-speeds';
 
-/** What is wanted of the generator. */
+/** Content of a generator request. */
 export interface Wanted {
-  /** Who is worked out anew. */
+  /** Road users to compute again. */
   readonly agents: string[] | 'all';
-  /** Who else answers them. */
+  /** Other road users that react to them. */
   readonly react: boolean | string[];
-  /** The change this answers; null for a look at futures that nobody follows yet. */
+  /** The change this answers; null for futures of a selection that no road user follows yet. */
   readonly step: Step | null;
-  /** Those whose futures are kept as they are and count as what the scene does. */
+  /** Road users that keep their futures; these count as the motion of the scene. */
   readonly kept?: ReadonlySet<string>;
-  /** Those that answered an earlier change of this kind: they begin again at what they gave up for it. */
+  /** Road users that reacted to an earlier change of this kind: they start from the plan they gave up for it. */
   readonly anew?: ReadonlySet<string>;
-  /** Those of them that others are to answer as if they had been asked for. */
+  /** Road users whose kept futures the others react to as if requested. */
   readonly pinned?: readonly string[];
   readonly unscored?: boolean;
-  /** Cards are wanted in place of the likeliest futures, by what was said of earlier ones. */
+  /** Requests preference cards in place of the likeliest futures, using earlier feedback. */
   readonly feedback?: FeedbackDocJson;
-  /** Does anybody look at drafts on the way to the answer? Yes, unless this says no. */
+  /** Are drafts shown before the answer? True unless set to false. */
   readonly drafts?: boolean;
-  /** The hand's own questions go before this one, on the server too. */
+  /** The drag's own requests go before this one, on the server too. */
   readonly background?: boolean;
 }
 
-/**
- * A draft that stays for less than a picture on the screen would not be seen; nor would one before an answer that
- * comes in the same picture.
- */
+/** A draft shown for less than one frame would not be seen, nor one before an answer in the same frame. */
 const DRAFTS = { stream_modes: 'all', draft_delay_ms: 8, draft_interval_ms: 16 } as const;
-/** Where nobody looks at drafts. */
+/** For requests whose drafts are not shown. */
 const ANSWER_ALONE = { stream_modes: 'chosen', draft_delay_ms: 1000, draft_interval_ms: 1000 } as const;
 
 export class RequestBuilder {
-  /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
+  /** The scene of the last drag requests: the selected road user's own, and the reaction preview. */
   readonly #last = new Map<boolean, { set: MotionSet; rest: string; scene: SceneJson }>();
 
   constructor(
@@ -72,7 +69,9 @@ export class RequestBuilder {
     };
   }
 
-  /** The same whatever is on screen, and whatever the server keeps beside the scene: everybody does as in `set`. */
+  /**
+   * The same, independent of the shown state and of the scene stored on the server: all road users move as in `set`.
+   */
   makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
     const { map, mapRef } = this.file;
     return {
@@ -98,14 +97,14 @@ export class RequestBuilder {
       diversity: scene.diversity,
       steps: DEFAULTS.steps,
       ...(w.drafts === false ? ANSWER_ALONE : DRAFTS),
-      // What it knows of the others it has itself.
+      // The editor already holds the kept futures of the others.
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
       ...thresholdsOf(scene),
       ...(w.feedback ? { feedback: w.feedback } : {}),
       ...(w.background ? { background: true } : {}),
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
-      // One window is the default and needs no words.
+      // One window is the default and needs no options.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
         : {}),
@@ -118,7 +117,7 @@ export class RequestBuilder {
     if (asStored) return { id: scene.id };
     const map = file.mapRef ? { ref: file.mapRef } : file.map!;
     if (!preview) return { scene: this.#written(scene, set, w, map) };
-    // A drag asks sixty times a second about the same surroundings.
+    // A drag sends sixty requests a second with the same surroundings.
     const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));
     const rest = JSON.stringify([scene.others, does, scene.castKey, [...(w.kept ?? [])], [...(w.anew ?? [])]]);
     const last = this.#last.get(w.step !== null);
@@ -150,7 +149,7 @@ export class RequestBuilder {
 const someStill = (s: Scene): boolean =>
   s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');
 
-/** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
+/** Only a drag and its release continue from the shown future; other answers do not depend on earlier ones. */
 type Shown = Pick<GenerateOptions, 'shown'>;
 
 function shownOf(editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selection'>, w: Wanted): Shown {
@@ -160,7 +159,7 @@ function shownOf(editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selectio
   return shown ? { shown } : {};
 }
 
-/** The one future that is followed: it is all that others are worked out against, and a sixth of the text. */
+/** Only the followed future: the others react to it alone, and it is a sixth of the text. */
 function inForce(scene: Scene, id: string, f: Futures): Futures {
   const a = scene.agents.get(id);
   const index = Math.min(f.modes.length - 1, a?.chosen ?? f.chosen);

@@ -1,4 +1,4 @@
-// What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
+// The request after a change of the document: the road users to compute again, and those that may react.
 import { thoseWhoAnswer } from '../../model/document/reaction-records';
 import type { MotionSet } from '../../model/document/futures';
 import { takenPin } from '../../model/document/pins';
@@ -8,7 +8,7 @@ import type { Step } from '../document/step';
 import type { Editor } from '../session/editor';
 import type { Wanted } from './request-builder';
 
-/** `nothing`: nobody is asked anything any more. `known`: the motions are there and only to be scored. */
+/** `nothing`: no conditions remain. `known`: the motions are known and need only a score. */
 export type Asked = Wanted | 'nothing' | 'known';
 
 export function requestForChange(
@@ -22,7 +22,7 @@ export function requestForChange(
   return { ...asked, anew: thoseWhoAnswer(scene, set, [...asked.agents, ...changedBy(step)]) };
 }
 
-/** Whom a step is about. */
+/** Road users that a step changes. */
 export const changedBy = (step: Step): Iterable<string> => (step.agent ? [step.agent] : (step.several ?? []));
 
 function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
@@ -36,9 +36,9 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
-    // Past its 9 s the generator says how it goes on.
+    // Past its 9 s the generator computes the continuation.
     if (!rest.length && scene.length <= GOAL_TIME) return 'known';
-    // It is kept as it is; whoever meets it answers it, and all others go on as they do.
+    // Its future is kept; road users that meet it react, and all others keep theirs.
     const { id } = subject;
     const react = rest.length > 0 && whoReacts(scene, [id]);
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
@@ -46,7 +46,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   const held = heldIn(scene, known);
   const asked = whoIsAsked(scene, mine, known, step).filter((id) => !held.has(id));
   if (!asked.length && held.size) {
-    // A pinned future stays as it is, whatever else is drawn anew: others answer it as any that is picked.
+    // A pinned future stays unchanged when all else is drawn again: others react to it as to a picked one.
     const ids = [...held];
     return { agents: ids, pinned: ids, react: rest, step, kept: new Set(picked) };
   }
@@ -54,7 +54,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   return { agents: asked, react: whoReacts(scene, asked), step, kept };
 }
 
-/** Who may answer those that are asked, as the API takes it. */
+/** Road users that may react to the requested ones, in the form of the API. */
 export function whoReacts(scene: Scene, asked: readonly string[]): boolean | string[] {
   const others = othersThatAnswer(scene);
   if (others === 'nobody') return false;
@@ -63,15 +63,15 @@ export function whoReacts(scene: Scene, asked: readonly string[]): boolean | str
   return (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
 }
 
-/** Those that may take another way: nobody has picked a future for them. Who comes in later brakes for others too. */
+/** Road users without a picked future, which may replan. Late arrivals brake for others too. */
 const free = (scene: Scene): string[] =>
   [...scene.agents.values()].filter((a) => isEverThere(scene, a) && a.chosen === null).map((a) => a.id);
 
-/** Does somebody who can move come within what is worked out? */
+/** Is a movable road user present within the computed time? */
 const isEverThere = (scene: Scene, a: Agent): boolean =>
   canChange(a) || (a.type !== 'other' && a.log.valid.some(([from]) => from * STEP_S < scene.length - 1e-6));
 
-/** Who answers to a change: all, nobody, or those of whom that was said. */
+/** Road users that react to a change: all, none, or the ids set to react. */
 function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
   const own = [...scene.agents.values()].some((a) => a.does !== null && a.does !== scene.others);
   if (!own) return scene.others === 'react' ? 'all' : 'nobody';
@@ -80,8 +80,8 @@ function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
 }
 
 /**
- * Whom the change is about, and those of whom nothing is known yet. It may be nobody: everybody goes on then, longer or
- * with others that answer. Where chance is another all are drawn anew of whom no future is picked.
+ * The changed road users, and those without known futures. May be empty: then all continue, longer or with reacting
+ * others. After a new seed all without a picked future are drawn again.
  */
 function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<string, unknown>, step: Step): string[] {
   const open = mine.filter((id) => !known.has(id));
@@ -92,7 +92,7 @@ function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<st
   return unpicked.length ? unpicked : [...mine];
 }
 
-/** The others keep to the log or stand: only those that were asked something are worked out. */
+/** The others replay or hold still: only conditioned road users are computed. */
 function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): Asked {
   const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   const kept = new Set(mine.filter((id) => !open.includes(id)));
@@ -100,7 +100,7 @@ function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['
   return scene.length > GOAL_TIME ? { agents: mine, pinned: mine, react: false, step, kept } : 'known';
 }
 
-/** Everybody is drawn anew but those that take a pinned future: these go on as they do, and the others see it. */
+/** Draws all again except road users with a taken pinned future: these keep it, and the others react to it. */
 function everybodyAnew(scene: Scene, step: Step, known: MotionSet['futures']): Asked {
   const held = heldIn(scene, known);
   if (!held.size) return { agents: 'all', react: false, step };
@@ -108,6 +108,6 @@ function everybodyAnew(scene: Scene, step: Step, known: MotionSet['futures']): A
   return agents.length ? { agents, react: false, step, kept: held } : 'known';
 }
 
-/** Those that take a pinned future that is known. */
+/** Road users with a taken pinned future that is known. */
 const heldIn = (scene: Scene, known: MotionSet['futures']): ReadonlySet<string> =>
   new Set([...scene.agents.values()].filter((a) => takenPin(a) && known.has(a.id)).map((a) => a.id));

@@ -1,7 +1,7 @@
-// Something that is done once nothing has happened for a while. Setting a timer anew costs much in a frame of a drag,
-// so one runs on and counts how long it has been quiet.
+// Runs work once nothing has happened for a while. Restarting a timer is slow in a drag frame, so one timer keeps
+// running and counts the quiet parts.
 
-/** Into so many parts a while is counted: it lasts as much longer as one of them, at most. */
+/** Number of parts of the delay: it may last longer by at most one part. */
 const PARTS = 4;
 
 export class RestTimer {
@@ -14,15 +14,15 @@ export class RestTimer {
     this.#part_ms = after_ms / PARTS;
   }
 
-  /** Something happened: `done` runs when nothing follows. */
+  /** Restarts the delay; `done` runs at its end. */
   begin(done: () => void): void {
     this.#done = done;
-    // The part that runs already does not count.
+    // The part already running does not count.
     this.#quiet = this.#timer === undefined ? 0 : -1;
     this.#timer ??= this.#wait();
   }
 
-  /** Nothing is waited for any more. */
+  /** Cancels the delay. */
   stop(): void {
     this.#done = null;
   }

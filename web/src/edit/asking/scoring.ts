@@ -1,4 +1,4 @@
-// What happens in motions that are known already.
+// Scores motions that are already known.
 import type { MotionSet, Score } from '../../model/document/futures';
 import { canChange, doing, sceneKey, touchedIn, type Scene } from '../../model/document/scene';
 import { thresholdsOf } from '../../model/document/scene-writer';
@@ -8,13 +8,13 @@ import type { Generator } from '../../net/generator';
 import { readScore } from './read-answer';
 import type { SceneFile } from '../document/scene-file';
 
-/** What everybody does by the document: those asked something follow their futures where there are any. */
+/** The motions of the document: conditioned road users follow their futures where there are any. */
 export function followed(scene: Scene, set: MotionSet): MotionSet {
   const asked = touchedIn(scene).filter((id) => set.futures.has(id));
   return { ...set, key: sceneKey(scene), driving: new Set([...set.driving, ...asked]), stale: false };
 }
 
-/** Asks for the events of what everybody does in `set`; null where the answer has none. */
+/** Requests the events of the motions in `set`; null where the answer has none. */
 export async function scoreOf(
   generator: Generator,
   file: SceneFile,
@@ -22,7 +22,7 @@ export async function scoreOf(
   set: MotionSet,
   signal = new AbortController().signal,
 ): Promise<Score | null> {
-  // Who comes in later and answers somebody is among those who drive.
+  // Late arrivals that react are in `driving`.
   const own = [...scene.agents.values()].filter(
     (a) => set.driving.has(a.id) || (canChange(a) && (a.placed || doing(scene, a) === 'still')),
   );

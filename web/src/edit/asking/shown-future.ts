@@ -1,4 +1,4 @@
-// The future that was bold last, for the generator: it leaves it only for a gain that is worth the jump.
+// The last bold future, for the generator: it is kept unless another is better by the cost of switching.
 import type { ShownJson } from '../../model/document/scene-json';
 import { isJudged } from '../../model/document/futures';
 import type { Editor } from '../session/editor';
@@ -7,7 +7,7 @@ import type { Editor } from '../session/editor';
 const EVERY = 5;
 const MOST = 18;
 
-/** What is on screen of the selected road user; nothing where none of it came from the generator. */
+/** The shown future of the selected road user; undefined where it did not come from the generator. */
 export function shownFuture(
   e: Pick<Editor, 'reading' | 'selection'>,
   asked: readonly string[] | 'all',

@@ -1,5 +1,5 @@
-// A plain curve for the time the generator is away: along the lanes where they lead there, at an even change of
-// speed. It is marked as a sketch everywhere and never becomes part of the scene's motion.
+// A plain curve while the generator is unreachable: along the lanes that lead to the goal, at constant acceleration.
+// Marked as a sketch everywhere; never becomes motion of the scene.
 import { pointAt, type Pose } from '../../model/base/geometry';
 import { limitsOf } from '../../model/base/domain';
 import { pathTo } from '../../model/physics/reach';
@@ -35,7 +35,8 @@ export function sketchFutures(scene: Scene, a: Agent): Futures | null {
 function along(a: Agent, line: ReturnType<typeof pathTo>['line'], start: Pose, time: number): Motion {
   const n = Math.round(time * 10) + 1;
   const l = limitsOf(a);
-  // Distance = v t + b t^2 / 2, with b held inside what the road user can do.
+  // Distance = v t + b t^2
+  // 2, with b limited to possible acceleration and braking.
   const b = Math.max(-l.brake_mps2, Math.min(l.accel_mps2, (2 * (line.length - start.speed * time)) / (time * time)));
   const m = {
     x: new Float64Array(n),

@@ -1,9 +1,9 @@
-// What is said of the others while the hand moves: a new one is said at once, but a verb changes and a name goes only
-// after a while of agreement, so that nobody flickers between waiting and going.
+// Words about the others during a drag: a new one appears at once; a verb changes and a name goes only after a while of
+// agreement, so that no name flickers between waiting and going.
 import type { Change } from '../../model/words/change-words';
 import { TEXTS } from '../../texts/editing/generation';
 
-/** For so long the newer answers agree before another verb is said. */
+/** Newer answers must agree for this long before the verb changes. */
 export const AGREED_MS = 400;
 
 interface Doubt {
@@ -11,7 +11,7 @@ interface Doubt {
   readonly timer: ReturnType<typeof setTimeout>;
 }
 
-/** What is being done and for whom; the numbers in a sentence may change at any time. */
+/** The reaction and its cause; the numbers of a sentence may change at any time. */
 const verbOf = (c: Change | undefined): string =>
   c ? `${c.reaction?.kind} ${c.reaction?.ahead} ${c.reaction?.cause.id}` : TEXTS.asBefore;
 
@@ -20,7 +20,7 @@ export class StableWords {
   #heard = new Map<string, Change>();
   readonly #doubts = new Map<string, Doubt>();
 
-  /** `say` is called with who is most affected first. */
+  /** `say` is called with the most affected road user first. */
   constructor(private readonly say: (changes: readonly Change[]) => void) {}
 
   hear(changes: readonly Change[]): void {

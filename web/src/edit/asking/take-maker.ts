@@ -1,5 +1,5 @@
-// How variants come about: of one road user its futures, one after the other, with what the others do about each; else
-// everybody anew with seed after seed. What is asked depends on the document alone, so that it can be asked again.
+// Makes variants: for one road user its futures in turn, with the others' reactions to each; otherwise all road users
+// with one seed after the other. Requests depend only on the document, so they can be repeated.
 import { choose, drawAnew, patchScene } from '../../model/document/commands';
 import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/document/futures';
 import { poseAt, STEP_S } from '../../model/base/motion';
@@ -19,18 +19,18 @@ import type { RequestBuilder, Wanted } from './request-builder';
 import type { SceneFile } from '../document/scene-file';
 import { TEXTS } from '../../texts/editing/variants';
 
-/** A document and what everybody does in it. */
+/** A document and the motion of all road users in it. */
 export interface Take {
   readonly scene: Scene;
   readonly set: MotionSet;
 }
 
-/** Somebody asked for something else meanwhile. */
+/** A newer request replaced this one. */
 export class Stopped extends Error {}
 
-/** Two in which nobody is ever further apart than this are the same, metres. */
+/** Takes are alike if no road user is ever further apart than this, metres. */
 const ALIKE_M = 0.5;
-/** So many more than wanted are tried where some are alike. */
+/** Attempts per wanted take, since some are alike. */
 const TRIES = 3;
 
 export class Maker {
@@ -43,7 +43,7 @@ export class Maker {
     private readonly file: SceneFile,
   ) {}
 
-  /** Gives one after the other, no two alike; fewer where there are no more. */
+  /** Yields takes in turn, no two alike; fewer where there are no more. */
   async *make(scene: Scene, subject: string | null, first: number, wanted: number): AsyncGenerator<Take> {
     this.#bases.clear();
     const made: Take[] = [];
@@ -55,7 +55,7 @@ export class Maker {
     }
   }
 
-  /** What everybody does in each of these documents, one after the other. */
+  /** The motion of all road users in each of these documents, in order. */
   async *each(scenes: readonly Scene[], subject: string, dealt?: Futures): AsyncGenerator<Take> {
     this.#bases.clear();
     for (const scene of scenes) yield await this.workOut(scene, subject, dealt);
@@ -73,23 +73,23 @@ export class Maker {
     return this.workOut(choose(seeded.agents.get(subject)!, which, '').apply(seeded), subject);
   }
 
-  /** The six futures of a road user in a document, while nobody answers them. */
+  /** The six futures of a road user in a document, before the others react. */
   futuresOf(scene: Scene, subject: string): Promise<MotionSet> {
     return this.#base(scene, subject);
   }
 
-  /** Nothing is asked of documents any more that were asked about before. */
+  /** Discards the cached answers. */
   forget(): void {
     this.#bases.clear();
   }
 
-  /** A variant of last time: as the file keeps it, else worked out again. */
+  /** A variant of an earlier session: from the file, otherwise computed again. */
   async again(id: number, scene: Scene, subject: string | null): Promise<Take> {
     const kept = this.file.raw && readVariantSample(this.file.raw, id, scene);
     return kept ? { scene, set: await this.#scored(scene, kept) } : this.workOut(scene, subject);
   }
 
-  /** What everybody does in a document. `dealt`: futures of the subject that are not its usual ones. */
+  /** The motion of all road users in a document. `dealt`: futures of the subject other than its usual ones. */
   async workOut(scene: Scene, subject: string | null, dealt?: Futures): Promise<Take> {
     const usual = subject === null ? emptyMotion('') : await this.#base(scene, subject);
     const own = subject !== null && dealt ? new Map(usual.futures).set(subject, dealt) : usual.futures;
@@ -100,7 +100,7 @@ export class Maker {
     return { scene, set: await this.#answered(scene, base, asked) };
   }
 
-  /** The six futures of a road user with nobody answering to them yet. */
+  /** The six futures of a road user, before the others react. */
   #base(scene: Scene, subject: string): Promise<MotionSet> {
     const agents = scene.agents.get(subject)!;
     const open = choose(agents, null, '').apply(scene);
@@ -120,7 +120,7 @@ export class Maker {
     return motionAfter(base, scene, e, w, (a) => this.#letters(a, base));
   }
 
-  /** Whoever has a pick keeps the letters that it was picked by. */
+  /** A road user with a picked future keeps the letters of the pick. */
   #letters(a: Agent, base: MotionSet): KeepOrder {
     const like = base.futures.get(a.id) ?? this.editor.answers.motion.peek().futures.get(a.id);
     return a.chosen !== null && like ? { like, always: true } : 'rank';
@@ -139,7 +139,7 @@ export class Maker {
     });
   }
 
-  /** The motions are known already; what happens in them is asked. */
+  /** The motions are known; only their events are requested. */
   async #scored(scene: Scene, base: MotionSet): Promise<MotionSet> {
     const set = followed(scene, base);
     const score = await scoreOf(this.generator, this.file, scene, set);
@@ -151,7 +151,7 @@ const EVERYBODY = { everybody: true } as const;
 
 const withSeed = (scene: Scene, seed: number): Scene => patchScene('', { seed }).apply(scene);
 
-/** Of whom variants are made: who is selected, else who has a goal; null where it is everybody. */
+/** The road user to make variants of: the selected one, otherwise the only one with a goal; null for all. */
 export function subjectOf(editor: Editor): string | null {
   const scene = editor.scene.value;
   const selected = editor.agent.value;

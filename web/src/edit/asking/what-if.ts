@@ -1,4 +1,5 @@
-// What everybody would do after a change that is not made, asked on a line of its own. The document stays as it is.
+// The motion of all road users after a change that is not committed, requested on a connection of its own. The document
+// stays unchanged.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { MotionSet } from '../../model/document/futures';
@@ -12,14 +13,14 @@ import type { RequestBuilder } from './request-builder';
 import type { SceneFile } from '../document/scene-file';
 import { followed, scoreOf } from './scoring';
 
-/** A document with one change more, and whom it is about. */
+/** A document with one more change, and the changed road users. */
 export interface TriedChange {
   readonly name: string;
   readonly scene: Scene;
   readonly changed: readonly string[];
 }
 
-/** Null where the command changes nobody. */
+/** Null where the command changes no road user. */
 export function triedChange(scene: Scene, command: Command): TriedChange | null {
   const after = command.apply(scene);
   const changed = [...after.agents.values()].filter((a) => scene.agents.get(a.id) !== a).map((a) => a.id);
@@ -28,7 +29,7 @@ export function triedChange(scene: Scene, command: Command): TriedChange | null 
 
 export class WhatIf {
   readonly #asking = signal(false);
-  /** The question that is open; an answer to an earlier one says nothing. */
+  /** The open request; answers to earlier ones are ignored. */
   #open = {};
 
   readonly asking: ReadonlySignal<boolean> = this.#asking;
@@ -40,7 +41,10 @@ export class WhatIf {
     private readonly file: SceneFile,
   ) {}
 
-  /** `answered` hears null when nothing came of it. False: there is nobody to ask, or nothing that is asked. */
+  /**
+   * `answered` gets null when the request failed. False where the generator is unreachable or nothing is to be
+   * requested.
+   */
   ask({ name, scene, changed }: TriedChange, answered: (set: MotionSet | null) => void): boolean {
     const { editor } = this;
     const set = editor.answers.motion.peek();
@@ -68,14 +72,14 @@ export class WhatIf {
     return true;
   }
 
-  /** Nobody answers: another future of somebody is all that changes. */
+  /** No road user reacts: only the followed future of a road user changes. */
   async #scored(scene: Scene, set: MotionSet, changed: readonly string[]): Promise<MotionSet> {
     const after = followed(scene, set);
     const score = await scoreOf(this.generator, this.file, scene, after);
     return score ? { ...after, futures: rejudged(scene, after, score, changed), score } : after;
   }
 
-  /** Nothing is heard any more of what was asked. */
+  /** Ignores the answer to the open request. */
   cancel(): void {
     if (!this.#asking.peek()) return;
     this.#open = {};

@@ -1,24 +1,24 @@
-// The document of the open scene: what is committed, with its history, and on top of it the trial of a drag. A trial
-// is never part of what is committed; while one is open, nothing else can be committed.
+// The document of the open scene: the committed scene with its history, and on top of it the trial of a drag. A trial
+// is never part of the committed scene; while one is open, no other commit is possible.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import { History, type Camera, type Committed, type HistoryStep, type KeptHistory } from '../../model/document/history';
 import type { Scene } from '../../model/document/scene';
 
-/** Why the document can be looked at only, and the way out. */
+/** Why the document is read-only, and the way out. */
 export interface Lock {
   readonly words: string;
   readonly label: string;
   run(): void;
 }
 
-/** What a drag previews: the committed document with the drag's newest command applied. */
+/** The preview of a drag: the committed document with the drag's newest command applied. */
 export interface DragTrial {
   readonly base: Committed;
   readonly scene: Scene;
-  /** Null until the hand has moved. */
+  /** Null until the pointer has moved. */
   readonly command: Command | null;
-  /** Where the picture looked when the drag began. */
+  /** The camera at the start of the drag. */
   readonly from: Camera | null;
 }
 
@@ -61,15 +61,15 @@ export class Document {
   readonly undoName = computed<string | null>(() => (void this.historyTick.value, this.#history?.undoName ?? null));
   readonly redoName = computed<string | null>(() => (void this.historyTick.value, this.#history?.redoName ?? null));
 
-  /** Where the picture looks; kept with every step. */
+  /** Returns the camera; stored with every step. */
   camera: () => Camera | null = () => null;
 
-  /** The history of the open scene, to be read. */
+  /** The history of the open scene, read-only. */
   get history(): History | null {
     return this.#history;
   }
 
-  /** Opens a scene with the steps that were kept of it. A trial of the scene before ends without a change. */
+  /** Opens a scene with the steps stored for it. A trial of the scene before ends without a change. */
   open(scene: Scene, kept: KeptHistory | null = null): void {
     const history = new History(scene, undefined, kept, this.#committed.peek()?.version);
     history.camera = () => this.camera();
@@ -82,7 +82,7 @@ export class Document {
     });
   }
 
-  /** The document can only be looked at while a lock is set. */
+  /** The document is read-only while a lock is set. */
   lockWith(lock: Lock | null): void {
     this.#lock.value = lock;
   }
@@ -97,7 +97,7 @@ export class Document {
     });
   }
 
-  /** Another version of the same scene takes the place of this one, as a step. */
+  /** Replaces the document with another version of the same scene, as a step. */
   adopt(name: string, scene: Scene): Commit | null {
     return this.#commit((h) => {
       h.adopt(name, scene);
@@ -105,17 +105,17 @@ export class Document {
     });
   }
 
-  /** Takes a step back; null where there is none. */
+  /** Undoes a step; null where there is none. */
   undo(): Travel | null {
     return this.#travel((h) => h.undo());
   }
 
-  /** Does the next step again. */
+  /** Redoes the next step. */
   redo(): Travel | null {
     return this.#travel((h) => h.redo());
   }
 
-  /** To any step of the history, null for the document before the first. */
+  /** Goes to any step of the history; null for the document before the first. */
   goTo(id: number | null): Commit | null {
     return this.#commit((h) => {
       h.goTo(id);
@@ -123,7 +123,7 @@ export class Document {
     });
   }
 
-  /** Gives a step a title, which is no change of the document. */
+  /** Titles a step; the document does not change. */
   entitle(id: number, title: string | null): void {
     this.#history?.entitle(id, title);
     this.#historyTick.value++;
@@ -188,13 +188,13 @@ export class Document {
     this.#trial.value = null;
   }
 
-  /** Does something at once where no trial is open, else when `settle` is called after it; never for another scene. */
+  /** Runs `work` at once where no trial is open, else when `settle` is called after it; never for another scene. */
   afterTrial(work: () => void): void {
     if (this.#trial.peek()) this.#waiting.push(work);
     else work();
   }
 
-  /** Does what waited for the end of the trial. */
+  /** Runs the work that waited for the end of the trial. */
   settle(): void {
     const waiting = this.#waiting;
     this.#waiting = [];

@@ -1,4 +1,4 @@
-// What was done in the open scene, kept on this computer step by step, so that undo and redo outlive the page.
+// Steps of the open scene, stored on this computer one by one, so that undo and redo survive a reload.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import {
   History,
@@ -15,17 +15,17 @@ import { ofAgents, variantsJson } from '../../model/document/scene-writer';
 import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
 import { TEXTS } from '../../texts/editing/keeping';
 
-/** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
+/** `kept`: stored on this computer. `full`: the storage is full. `off`: this browser stores nothing for this page. */
 export type Keeping = 'kept' | 'full' | 'off';
 
-/** Scenes whose steps are kept; of more, those looked at longest ago are forgotten once the server has them. */
+/** Scenes with stored steps; beyond this, the least recently opened are removed once the server has them. */
 const MOST_SCENES = 60;
-/** So many versions that were sent without a reply are remembered of a scene. */
+/** Versions sent without a reply that are remembered for each scene. */
 const MOST_SENT = 20;
 
 /**
- * How a scene goes on from what is kept of it. `ahead`: with changes that the server does not have. `conflict`: with
- * such, and the server has others. `behind`: with the newer version of the server, as a step.
+ * How a scene continues from its stored steps. `ahead`: with changes that the server lacks. `conflict`: with such
+ * changes, while the server has others. `behind`: with the newer version of the server, as a step.
  */
 export type Standing = 'fresh' | 'same' | 'ahead' | 'behind' | 'conflict';
 
@@ -35,7 +35,7 @@ export interface Resumed {
   readonly standing: Standing;
 }
 
-/** From a file and what was kept of the scene; `own` ones are saved to the server step by step. */
+/** From a file and the stored steps of the scene; `own` scenes are saved to the server after each step. */
 export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: string | null): Resumed {
   const fresh: Resumed = { scene: file, history: null, standing: 'fresh' };
   if (!kept?.steps.length || !isWhole(kept)) return fresh;
@@ -54,30 +54,30 @@ export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: 
   return { scene, history, standing: standingOf(file, scene, { history, sent: kept.place.sent ?? [] }) };
 }
 
-/** Names what is to be saved of a scene, shortly. */
+/** Short digest of the saved content of a scene. */
 const digestOf = (scene: Scene): string => shortFor(versionOf(scene));
 
-/** Does the server have the document that the kept steps lead to, with no other one on its way there? */
+/** Does the server have the document after the stored steps, with no other version under way? */
 const isSynced = ({ head, revision, synced, sent = [] }: Place): boolean =>
   synced !== null && !sent.length && isSameDocument(synced, { step: head, revision });
 
-/** What all road users do in the document that the kept steps lead to, as far as it is kept. */
+/** The stored motions of all road users in the document after the stored steps; null where there are none. */
 export function keptAnswers(kept: KeptScene | null): GeneratedJson | null {
   const at = kept && { step: kept.place.head, revision: kept.place.revision };
   return at && kept.answers && isSameDocument(kept.answers, at) ? kept.answers.generated : null;
 }
 
-/** Does every step lead back to the first? */
+/** Do the steps form an unbroken chain to the first? */
 function isWhole({ steps, place }: KeptScene): boolean {
   const there = new Set<number | null>([null, ...steps.map((s) => s.id)]);
   return there.has(place.head) && steps.every((s) => there.has(s.parent));
 }
 
-/** What is to be saved of a scene: what is asked, and what people call things. */
+/** The saved content of a scene: conditions, names and notes. */
 export const versionOf = (scene: Scene): string =>
   sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene), scene.feedback]);
 
-/** A version that was sent from here, or a document that undo leads back to, is no other version. */
+/** A version sent from here, or a document that undo leads back to, is not another version. */
 function standingOf(
   file: Scene,
   scene: Scene,
@@ -95,17 +95,17 @@ export class Journal {
   readonly #keeping = signal<Keeping>('kept');
   #history: History | null = null;
   #scene = '';
-  /** The document before the first step, where the file is another by now. */
+  /** The document before the first step, where the file has changed since. */
   #base: SceneState | null = null;
   #synced: Synced | null = null;
-  /** Digests of the versions of each scene that were sent since the last one that the server is known to hold. */
+  /** Digests of the versions of each scene sent since the last one that the server is known to hold. */
   readonly #sent = new Map<string, readonly string[]>();
   #writing: Promise<void> = Promise.resolve();
-  /** Entries that are missing, because there was no room: all is written anew when there is. */
+  /** Entries are missing because storage was full: all are written again once there is room. */
   #gap = true;
 
   readonly keeping: ReadonlySignal<Keeping> = this.#keeping;
-  /** Called when a step is kept. */
+  /** Called when a step is stored. */
   onKept: (() => void) | null = null;
 
   constructor(private readonly store: StepStore) {}
@@ -120,8 +120,8 @@ export class Journal {
   }
 
   /**
-   * From now on the steps of this history are kept; of an own scene with the document that they start from. `kept` is
-   * what was kept of it before, null where nothing of it is to stay.
+   * Stores the steps of this history from now on; for an own scene also the document they start from. `kept`: what was
+   * stored before, null to discard it.
    */
   follow(history: History, scene: string, kept: KeptScene | null, own: boolean): void {
     this.#history = history;
@@ -133,23 +133,23 @@ export class Journal {
     history.onChange = (change) => this.#changed(change);
   }
 
-  /** What everybody does where one is now. */
+  /** Stores the motion of all road users for the current step. */
   keepAnswers(generated: GeneratedJson | null): void {
     const history = this.#history;
     if (!history?.kept().steps.length) return;
     const scene = this.#scene;
     const answers = generated && { ...history.ref, generated };
-    // They can be worked out anew: where there is no room for them the steps matter more.
+    // Answers can be computed again: where storage is short the steps matter more.
     this.#writing = this.#writing.then(() => this.store.keepAnswers(scene, answers)).catch(() => undefined);
   }
 
-  /** Another tab keeps them now. */
+  /** Another tab stores them now. */
   letGo(): void {
     if (this.#history) this.#history.onChange = null;
     this.#history = null;
   }
 
-  /** A committed document is about to be sent to the server: ends when this is kept, with all steps before it. */
+  /** A committed document is about to be sent to the server: resolves when it is stored, with all steps before it. */
   async sending({ scene }: Committed): Promise<void> {
     const digest = digestOf(scene);
     const sent = [...(this.#sent.get(scene.id) ?? []).filter((d) => d !== digest), digest].slice(-MOST_SENT);
@@ -158,12 +158,12 @@ export class Journal {
     await this.#writing;
   }
 
-  /** Was this document sent from here since the last one that the server is known to hold? */
+  /** Was this document sent from here since the last version that the server is known to hold? */
   wasSent(scene: Scene): boolean {
     return (this.#sent.get(scene.id) ?? []).includes(digestOf(scene));
   }
 
-  /** The server holds a committed document under an ETag; its scene need not be open any more. */
+  /** The server holds a committed document under an ETag; its scene may be closed by now. */
   synced({ scene, step, revision }: Committed, etag: string): void {
     const synced = { etag, step, revision };
     const sent = this.#sent.get(scene.id);
@@ -173,7 +173,7 @@ export class Journal {
     } else this.#note(scene.id, (place) => ({ ...place, synced, sent }));
   }
 
-  /** The same by a save that was answered: what was sent before it cannot arrive any more. */
+  /** The same after an answered save: requests sent before it cannot arrive any more. */
   saved(committed: Committed, etag: string): void {
     this.#sent.delete(committed.scene.id);
     this.synced(committed, etag);
@@ -183,19 +183,19 @@ export class Journal {
     this.#writing = this.#writing.then(() => this.store.update(scene, change)).catch(() => undefined);
   }
 
-  /** Everything is written. */
+  /** Resolves when all is written. */
   flush(): Promise<void> {
     return this.#writing;
   }
 
-  /** Writes all of it once more, after room was made. */
+  /** Writes all of it again after room was made. */
   retry(): Promise<void> {
     this.#gap = true;
     if (this.#history) this.#changed({});
     return this.#writing;
   }
 
-  /** A scene that is not open has another version on the server, with the same in it; `was`: its ETag before. */
+  /** A scene that is not open has a new version on the server with the same content; `was`: its ETag before. */
   noteVersion(scene: string, was: string | null, etag: string | null): Promise<void> {
     this.#note(scene, (place) =>
       !place.synced || !etag || (was !== null && place.synced.etag !== was)
@@ -209,7 +209,7 @@ export class Journal {
     return this.store.forget(scene).catch(() => undefined);
   }
 
-  /** Forgets the steps of scenes that the server has as they are, but for the open one; says how many. */
+  /** Removes the stored steps of scenes that the server has unchanged, except the open one; returns their number. */
   async makeRoom(isOwn: (scene: string) => boolean, least = 0): Promise<number> {
     const places = (await this.store.places()).sort((a, b) => a.at - b.at);
     const saved = places.filter((p) => p.scene !== this.#scene && isOwn(p.scene) && isSynced(p));
@@ -218,7 +218,7 @@ export class Journal {
     return dropped.length;
   }
 
-  /** Keeps the number of scenes within bounds. */
+  /** Keeps the number of stored scenes within bounds. */
   async tidy(isOwn: (scene: string) => boolean): Promise<void> {
     await this.makeRoom(isOwn, MOST_SCENES).catch(() => 0);
   }

@@ -1,4 +1,4 @@
-// Scenes are opened here: from the server, with what this computer keeps of them, if it is this tab's turn.
+// Opens scenes from the server, with the steps stored on this computer, once this tab holds the scene's lock.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { Away, Refused, type Client } from '../../net/client';
 import { keep } from '../../net/storage';
@@ -18,35 +18,35 @@ import type { Session } from './session';
 import { TEXTS } from '../../texts/editing/keeping';
 
 const WELCOME_BACK_MS = 9000;
-/** Less than a tab that waits for its turn has patience. */
+/** Shorter than the time that a waiting tab allows. */
 const WRITTEN_WITHIN_MS = 2000;
 
-/** A scene as it came from the server, with its map and as a document. */
+/** A scene from the server, with its map and as a document. */
 interface Fetched {
   readonly json: SceneJson;
   readonly map: MapJson;
   readonly plain: Scene;
   readonly etag: string | null;
-  /** The server was not reached for the newest. */
+  /** The server was unreachable when the newest version was read. */
   readonly away?: true;
 }
 
-/** Whose answers a scene that was opened lacks: of none it is judged alone. */
+/** Road users without a known motion in an opened scene; with `none`, only the score is missing. */
 export type Missing = 'none' | 'changed' | 'everybody';
 
 export class Library {
   readonly #openError = signal<string | null>(null);
   readonly #turns: SceneTurns;
-  /** Counts what was asked to be opened; of two on their way the later one stays. */
+  /** Counts requests to open a scene; the later of two wins. */
   #asked = 0;
-  /** The last one of these for which other tabs were asked. */
+  /** The last of these requests that asked other tabs for the scene. */
   #reached = 0;
 
   /** Why the last scene could not be opened. */
   readonly openError: ReadonlySignal<string | null> = this.#openError;
-  /** Called when another scene is on screen; `again` when it is the same one, newer. */
+  /** Called when another scene is shown; `again` when it is a newer version of the same one. */
   onOpen: ((scene: Scene, again: boolean) => void) | null = null;
-  /** Asks for what is missing of the scene that is on screen. */
+  /** Requests the missing answers of the shown scene. */
   #ask: ((missing: Missing) => void) | null = null;
   #missing: Missing | null = null;
 
@@ -68,7 +68,7 @@ export class Library {
     journal.onKept = () => this.#turns.tellChanged();
   }
 
-  /** On its way to another scene the tab waits in line for that one, and has this one open. */
+  /** While another scene is being opened the tab waits for its lock, with this one still open. */
   #isOpen(id: string): boolean {
     return this.session.document.scene.peek()?.id === id;
   }
@@ -83,17 +83,17 @@ export class Library {
     }
   }
 
-  /** The same scene anew, as it is by now: it was changed in another tab, or it is this tab's turn again. */
+  /** Opens the same scene again in its current version: another tab changed it, or this tab has its lock again. */
   async again(): Promise<void> {
     const plain = this.session.document.scene.peek();
     const { raw, map, stored } = this.file;
     if (!plain || !raw || !map || !stored) return;
-    // Without the server what is kept on this computer is enough.
+    // Without the server the copy on this computer is enough.
     const here: Fetched = { json: raw, map, plain: readScene(raw, map), etag: null, away: true };
     await this.#bring(plain.id, () => this.#fetch(plain.id).catch(() => here), true);
   }
 
-  /** Shows a scene that is not on the server, to be looked at. */
+  /** Shows a scene that is not on the server, read-only. */
   async show(json: SceneJson, lock: Lock): Promise<void> {
     const scene = readScene(json);
     await this.written();
@@ -110,7 +110,7 @@ export class Library {
     this.#show(scene, saved !== null, false);
   }
 
-  /** Asks the tab that has this scene for it. */
+  /** Asks the tab that holds this scene to release it. */
   editHere(): void {
     this.#turns.takeOver();
   }
@@ -138,7 +138,7 @@ export class Library {
     return sha ? (sha.startsWith('sha256:') ? sha : `sha256:${sha}`) : null;
   }
 
-  /** The scene before stays in hand until the other one is on screen and all of its steps are written. */
+  /** The scene before stays locked until the other one is shown and all of its steps are written. */
   async #bring(id: string, fetch: () => Promise<Fetched>, again: boolean): Promise<void> {
     const turn = ++this.#asked;
     let known = this.#known(id);
@@ -147,8 +147,8 @@ export class Library {
     this.#reached = turn;
     await this.#turns.goTo(id);
     let mine = this.#turns.holds;
-    // What the server has and what is kept must be of one moment: both are asked for anew where another version was
-    // committed or saved since, by this tab or by the one that had the scene before.
+    // Server version and stored steps must be from one moment: both are read again if this tab or the previous owner of
+    // the lock committed or saved in between.
     for (let asked = false; ; asked = true) {
       await this.journal.flush();
       const kept = await this.journal.read(id);
@@ -166,13 +166,13 @@ export class Library {
     }
   }
 
-  /** What this tab itself knows of a scene: its document, where it is open, and its version on the server. */
+  /** This tab's own state of a scene: its document, where it is open, and its version on the server. */
   #known(id: string): { readonly committed: Committed | null; readonly etag: string | null } {
     const committed = this.session.document.committed.peek();
     return { committed: committed?.scene.id === id ? committed : null, etag: this.saving.etagOf(id) };
   }
 
-  /** Puts a scene on screen; ends when the one before is saved, or cannot be. */
+  /** Shows a scene; resolves when the one before is saved, or cannot be. */
   #adopt({ json, map, plain, etag: found, away }: Fetched, kept: KeptScene | null, again: boolean): Promise<void> {
     const { session, journal, saving } = this;
     const { document } = session;
@@ -183,12 +183,12 @@ export class Library {
     let { scene, history, standing } = resume(plain, kept, own, etag);
     const unsaved = saving.unsaved(plain.id);
     if (standing === 'fresh' && unsaved) {
-      // Nothing is kept on this computer: the change waits in this tab alone.
+      // Nothing is stored on this computer: the change exists only in this tab.
       [scene, history, standing, etag] = [unsaved.committed.scene, null, 'ahead', saving.etagOf(plain.id)];
     } else if (standing === 'fresh' && away && open) scene = open.scene;
     const current = !away && standing !== 'ahead' && standing !== 'conflict';
     const generated = current ? json.generated : standing === 'fresh' && open ? this.file.answers() : keptAnswers(kept);
-    // What the server has is not known: it is told once it is back, and says whether it has another version.
+    // The server's version is unknown: changes are sent once it is back, and a conflict shows then.
     if (away && own && standing !== 'conflict') standing = 'ahead';
     journal.letGo();
     this.file.adopt(json, map, true);
@@ -216,7 +216,7 @@ export class Library {
     return before;
   }
 
-  /** Answers that are missing are asked for. */
+  /** Requests the missing answers. */
   #show(scene: Scene, answered: boolean, again: boolean): void {
     const { session } = this;
     const unanswered = !answered && (scene.drawn > 0 || [...scene.agents.values()].some(touched));
@@ -226,7 +226,7 @@ export class Library {
     this.#askNow();
   }
 
-  /** Who asks may come after the first scene is on screen. */
+  /** `ask` may be set after the first scene is shown. */
   askBy(ask: (missing: Missing) => void): void {
     this.#ask = ask;
     this.#askNow();
@@ -267,13 +267,13 @@ export class Library {
     this.session.lockWith(lock);
   }
 
-  /** Before another tab takes over, everything is written, and nothing new begins. */
+  /** Before another tab takes over, everything is written, and no new work begins. */
   async #handOver(): Promise<void> {
     this.#lock();
     await this.written();
   }
 
-  /** Steps are kept and saved, also those of a scene that comes next, unless the server takes its time over it. */
+  /** Stores and saves all steps, also those of the next scene, within a time limit for the server. */
   async written(next?: string): Promise<void> {
     await atMost(WRITTEN_WITHIN_MS, this.saving.flush(next));
     await this.journal.flush();
@@ -281,7 +281,7 @@ export class Library {
 
   // -------------------------------------------------------------- conflict
 
-  /** The version on the server replaces the one on screen; undo brings that back. */
+  /** Replaces the shown version with the one on the server; undo brings it back. */
   async takeTheirs(): Promise<void> {
     const { document } = this.session;
     const id = document.scene.peek()?.id;
@@ -289,7 +289,7 @@ export class Library {
     try {
       const { plain, etag } = await this.#fetch(id);
       document.afterTrial(() => {
-        // The other version may have been replaced meanwhile.
+        // The other version may have changed meanwhile.
         if (document.scene.peek()?.id !== id || document.lock.peek() || !this.saving.conflict.peek()) return;
         this.session.commits.adopt(TEXTS.theOtherVersion, plain);
         this.saving.tookTheirs(etag);

@@ -1,14 +1,14 @@
-// Saves one scene to the server: one request at a time, the newest version waits, and each names the version on the
-// server that it replaces. The queue goes on when another scene is opened.
+// Saves one scene to the server: one request at a time; the newest version waits, and each request names the version it
+// replaces. The queue continues when another scene is opened.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../../model/document/scene-json';
 import { Away, Refused, type Client } from '../../net/client';
 import type { Snapshot } from './scene-file';
 
-/** `behind`: the server lacks the newest version, for no version of its own. `conflict`: it has another one. */
+/** `behind`: the server lacks the newest version, without a conflict. `conflict`: it has another one. */
 export type QueueState = 'saved' | 'saving' | 'behind' | 'conflict';
 
-/** The version on the server that is not ours; without an ETag where the scene was deleted there. */
+/** A foreign version on the server; without an ETag where the scene was deleted there. */
 export interface Conflict {
   readonly etag: string | null;
 }
@@ -16,15 +16,15 @@ export interface Conflict {
 export interface SaveEvents {
   /** The server holds a snapshot under an ETag. */
   saved(snapshot: Snapshot, etag: string | null): void;
-  /** A snapshot is about to be sent; it is when this ends. */
+  /** A snapshot is about to be sent; sending waits for this. */
   sending(snapshot: Snapshot): Promise<void>;
-  /** Is a version, found on the server, this one, another one that was sent from here, or none of ours? */
+  /** Is a version found on the server this one, another one sent from here, or foreign? */
   compare(theirs: SceneJson, snapshot: Snapshot): 'same' | 'ours' | 'theirs';
 }
 
-/** A change waits so long for the next one. */
+/** Delay after a change, in which further changes are collected. */
 const DELAY_MS = 300;
-/** After a request without an answer the next one follows so much later, and so on; the last one repeats. */
+/** Delays of the retries without an answer; the last one repeats. */
 const RETRY_MS = [2000, 5000, 15_000, 30_000];
 
 export class SaveQueue {
@@ -34,10 +34,10 @@ export class SaveQueue {
   #newest: Snapshot | null = null;
   #etag: string | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** The newest version is to be sent as soon as no request is on its way. */
+  /** The newest version is due as soon as no request is under way. */
   #due = false;
   #running: Promise<void> | null = null;
-  /** Rises when what is on its way does not count any more. */
+  /** Increases when the running request no longer counts. */
   #turn = 0;
   #tries = 0;
 
@@ -60,7 +60,7 @@ export class SaveQueue {
     return this.#newest;
   }
 
-  /** The scene was opened, and what it starts from was compared with the server. */
+  /** The scene was opened, and its start was compared with the server. */
   opened(etag: string | null, state: QueueState): void {
     this.stop();
     this.#etag = etag;
@@ -68,7 +68,7 @@ export class SaveQueue {
     this.#state.value = state;
   }
 
-  /** A version is to be saved. In a conflict it waits for the decision. */
+  /** Queues a version. In a conflict it waits for the decision. */
   push(snapshot: Snapshot): void {
     this.#newest = snapshot;
     if (this.#conflict.peek()) return;
@@ -76,17 +76,17 @@ export class SaveQueue {
     this.#sendIn(DELAY_MS);
   }
 
-  /** The server may be back: what it lacks is sent now. */
+  /** The server may be back: sends the newest version at once. */
   retry(): void {
     if (this.#state.peek() === 'behind' && this.#newest) void this.#send();
   }
 
-  /** Sends what waits; ends when it is saved, or cannot be. */
+  /** Sends the newest version; resolves when it is saved, or cannot be. */
   async flush(): Promise<void> {
     while (this.#state.peek() === 'saving') await this.#send();
   }
 
-  /** Another tab takes care of the scene from now on. What is on its way may still arrive at the server. */
+  /** Another tab saves the scene from now on. A running request may still arrive at the server. */
   stop(): void {
     clearTimeout(this.#timer);
     this.#turn++;
@@ -96,7 +96,7 @@ export class SaveQueue {
     if (this.#state.peek() === 'saving') this.#state.value = 'behind';
   }
 
-  /** The conflict ends: this version replaces the one on the server, or makes the scene again. */
+  /** Resolves the conflict: this version replaces the one on the server, or creates the scene again. */
   async keep(snapshot: Snapshot): Promise<void> {
     const conflict = this.#conflict.peek();
     if (!conflict) return;
@@ -106,7 +106,7 @@ export class SaveQueue {
     await this.#send();
   }
 
-  /** The conflict ends: the version on the server is the document now. */
+  /** Resolves the conflict: the version on the server is the document now. */
   tookTheirs(etag: string | null): void {
     this.stop();
     this.#etag = etag;
@@ -141,7 +141,7 @@ export class SaveQueue {
     this.#running = null;
   }
 
-  /** What follows from a request, to be done where it still counts. */
+  /** Sends a request; the returned function applies the result if it still counts. */
   async #try(snapshot: Snapshot): Promise<() => void> {
     try {
       const etag = await this.#put(snapshot, this.#etag);
@@ -172,7 +172,7 @@ export class SaveQueue {
     }
   }
 
-  /** The server has another version than the one that was to be replaced: it may be ours, with its reply lost. */
+  /** The server has another version than expected: it may be ours, with its reply lost. */
   async #compare(snapshot: Snapshot): Promise<() => void> {
     try {
       const { json, etag } = await this.client.scene(this.id);
@@ -193,7 +193,7 @@ export class SaveQueue {
     this.#state.value = 'conflict';
   }
 
-  /** A server that does not answer, or is busy, is asked again; one that refuses, with the next change. */
+  /** An unreachable or busy server is retried; after a refusal the next change is sent. */
   #away(e: unknown): void {
     if (!this.#newest || this.#due) return;
     this.#state.value = 'behind';

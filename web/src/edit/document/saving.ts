@@ -1,5 +1,5 @@
-// Saving: every step is kept on this computer, and own scenes go to the server after it, each by a queue of its own.
-// Examples stay here until a copy is made of them.
+// Saving: every step is stored on this computer; own scenes then go to the server, each by its own queue. Examples stay
+// local until they are copied.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { isMapRef, type SceneJson } from '../../model/document/scene-json';
 import type { Committed } from '../../model/document/history';
@@ -11,20 +11,20 @@ import { SaveQueue, type Conflict, type QueueState } from './save-queue';
 import type { SceneFile, Snapshot } from './scene-file';
 import type { SceneList } from './scene-list';
 
-/** `local`: kept on this computer only. `full`: there was no room even for that. `off`: this page may keep nothing. */
+/** `local`: stored on this computer only. `full`: the local storage is full. `off`: this page may store nothing. */
 export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full' | 'off';
 
-/** A storage that does not answer holds a save up no longer than this. */
+/** A local storage without an answer delays a save by at most this. */
 const SENDING_MS = 1000;
 
 export class Saving {
   readonly #queues = new Map<string, SaveQueue>();
-  /** The queue of the open scene; null where that is not saved to the server. */
+  /** The queue of the open scene; null where the scene is not saved to the server. */
   readonly #open = signal<SaveQueue | null>(null);
   /** The version of the document that the server holds. */
   readonly #held = signal<number | null>(null);
 
-  /** The version on the server that is not ours. */
+  /** The foreign version on the server. */
   readonly conflict = computed<Conflict | null>(() => this.#open.value?.conflict.value ?? null);
   readonly state: ReadonlySignal<SaveState>;
 
@@ -48,11 +48,11 @@ export class Saving {
   /** Null for a scene that is not saved to the server. */
   #serverState(): QueueState | null {
     const state = this.#open.value?.state.value ?? null;
-    // A version that nobody has pushed is not on the server, whatever became of the ones before it.
+    // A version not yet pushed is not on the server, whatever the state of the ones before it.
     return state === 'saved' && this.#held.value !== this.document.committed.value?.version ? 'behind' : state;
   }
 
-  /** ETag of the open scene on the server, as far as it is known. */
+  /** ETag of the open scene on the server, where known. */
   get etag(): string | null {
     return this.#open.peek()?.etag ?? null;
   }
@@ -68,8 +68,8 @@ export class Saving {
   }
 
   /**
-   * Another scene is open: `ahead` with changes that the server does not have, `conflict` where it has others. Ends
-   * when the one before is saved, or cannot be.
+   * Another scene is open: `ahead` with changes that the server lacks, `conflict` where it has others. Resolves when
+   * the scene before is saved, or cannot be.
    */
   opened(committed: Committed, etag: string | null, standing: Standing): Promise<void> {
     const queue = this.#open.peek();
@@ -91,45 +91,45 @@ export class Saving {
     this.#open.value = queue;
   }
 
-  /** The committed document has changed, or more is known of it. */
+  /** The committed document has changed, or its answers arrived. */
   changed(): void {
     const snapshot = this.document.lock.peek() ? null : this.file.snapshot();
     if (snapshot && this.#isSaved(snapshot.committed.scene.id)) this.#open.peek()?.push(snapshot);
   }
 
   /**
-   * What all road users do in the document is known, and is kept with it. Worked out anew when it is opened again it
-   * could be another: a drag and its release go on from what the hand has seen.
+   * Stores the known motions with the document. Computed again at the next opening they could differ: a drag and its
+   * release continue from the shown future.
    */
   answered(): void {
     if (this.#open.peek()) this.changed();
     else this.journal.keepAnswers(this.file.answers());
   }
 
-  /** The server is back: what could not be saved is saved now. */
+  /** The server is back: sends all unsaved versions. */
   retry(): void {
     for (const queue of this.#queues.values()) queue.retry();
   }
 
-  /** The open scene, and one that is about to be opened: what is to be saved is saved, or cannot be. */
+  /** Saves the open scene, and one about to be opened; resolves when both are saved, or cannot be. */
   async flush(id?: string): Promise<void> {
     const about = id === undefined ? undefined : this.#queues.get(id);
     about?.retry();
     await Promise.all([this.#open.peek()?.flush(), about?.flush()]);
   }
 
-  /** Another tab takes care of the open scene from now on, with the steps that are kept of it. */
+  /** Another tab saves the open scene from now on, with its stored steps. */
   letGo(): void {
     if (this.journal.keeping.peek() === 'kept') this.#open.peek()?.stop();
   }
 
-  /** Conflict: this version replaces the other one, or makes the scene again where it was deleted. */
+  /** Conflict: this version replaces the other one, or creates the scene again where it was deleted. */
   async keepMine(): Promise<void> {
     const snapshot = this.file.snapshot();
     if (snapshot) await this.#open.peek()?.keep(snapshot);
   }
 
-  /** Conflict: the other version is on screen now. */
+  /** Conflict: the other version is shown now. */
   tookTheirs(etag: string | null): void {
     this.#open.peek()?.tookTheirs(etag);
     this.#held.value = this.document.committed.peek()?.version ?? null;
@@ -160,7 +160,7 @@ export class Saving {
     void this.list.refresh().catch(() => undefined);
   }
 
-  /** A save whose reply was lost, or that the tab before sent late, is no other version. */
+  /** A save with a lost reply, or a late one of the previous tab, is not a foreign version. */
   #compare(theirs: SceneJson, { committed, map }: Snapshot): 'same' | 'ours' | 'theirs' {
     const there = isMapRef(theirs.map) ? map : theirs.map;
     if (!there) return 'theirs';
@@ -170,6 +170,6 @@ export class Saving {
   }
 }
 
-/** Ends when the work does, or so many milliseconds later. */
+/** Resolves with the work, or after this many milliseconds. */
 export const atMost = (ms: number, work: Promise<void>): Promise<void> =>
   Promise.race([work, new Promise<void>((resolve) => setTimeout(resolve, ms))]);

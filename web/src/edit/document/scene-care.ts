@@ -1,4 +1,4 @@
-// What one does with scenes as a whole: new ones, copies, names, removing and bringing back.
+// Operations on whole scenes: create, copy, rename, delete, restore.
 import { emptyScene, withoutRoadUsers } from '../../model/document/blank-scene';
 import { rename } from '../../model/document/commands';
 import { isMapRef, type SceneJson } from '../../model/document/scene-json';
@@ -10,7 +10,7 @@ import type { SceneList } from './scene-list';
 import type { Session } from './session';
 import { TEXTS } from '../../texts/editing/keeping';
 
-/** So long a deleted scene can be brought back from the toast. */
+/** Time in which a deleted scene can be restored from the toast. */
 const UNDELETE_MS = 20_000;
 
 export class SceneCare {
@@ -23,13 +23,13 @@ export class SceneCare {
     private readonly journal: Journal,
   ) {}
 
-  /** The road of the open scene with nobody on it. */
+  /** The road of the open scene without road users. */
   newOnThisRoad(): Promise<void> {
     const body = this.file.complete();
     return body ? this.#begin(withoutRoadUsers(body)) : Promise.resolve();
   }
 
-  /** A map that was made here, or a scene with another map. */
+  /** A map made in the editor, or a scene with another map. */
   newOnMap(body: SceneJson, name: string, more = ''): Promise<void> {
     const free = this.#freeName(name);
     return this.#create(body, free, more || TEXTS.mapAdded(free));
@@ -44,7 +44,7 @@ export class SceneCare {
     return this.#create(body, name, TEXTS.noRoadUsersYet(name));
   }
 
-  /** An own copy of what is on screen; from then on it saves itself. */
+  /** An own copy of the shown scene, saved from then on. */
   saveCopy(): Promise<void> {
     const scene = this.session.document.scene.peek();
     const body = this.file.complete();
@@ -73,7 +73,7 @@ export class SceneCare {
     }
   }
 
-  /** A copy of any scene; the open one is copied as it is on screen. */
+  /** Copies any scene; the open one in its shown state. */
   async duplicate(id: string): Promise<void> {
     if (id === this.session.document.scene.peek()?.id) return this.saveCopy();
     const name = this.#freeName(TEXTS.copyOf(this.list.find(id)?.name ?? TEXTS.scene));
@@ -104,7 +104,7 @@ export class SceneCare {
     }
   }
 
-  /** Removes a scene; the toast brings it back as it was, under its old address. */
+  /** Deletes a scene; the toast restores it unchanged, under its old address. */
   async remove(id: string): Promise<void> {
     const { session, library, list } = this;
     const name = list.find(id)?.name ?? id;
@@ -136,7 +136,7 @@ export class SceneCare {
     }
   }
 
-  /** The name, or with a number after it where it is taken. */
+  /** The name, with a number after it where it is taken. */
   #freeName(name: string): string {
     const taken = new Set(this.list.list.peek().map((s) => s.name));
     if (!taken.has(name)) return name;

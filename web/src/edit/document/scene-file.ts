@@ -1,4 +1,4 @@
-// The open scene as a file: as it came, and as it is written back with the committed changes in it.
+// The open scene as a file: as it was read, and written with the committed changes.
 import type { GeneratedJson, MapJson, SceneJson } from '../../model/document/scene-json';
 import type { MotionSet } from '../../model/document/futures';
 import type { Committed } from '../../model/document/history';
@@ -14,28 +14,28 @@ interface VariantTake {
   readonly set: MotionSet;
 }
 
-/** A committed document as it is written, whatever is opened or changed after it. */
+/** A committed document in its written form, independent of later changes. */
 export interface Snapshot {
   readonly committed: Committed;
   readonly map: MapJson | null;
-  /** With the futures that belong to it; the map by its hash where the server has it. */
+  /** With the futures of the document; the map by its hash where the server has it. */
   body(): SceneJson;
-  /** The same with the map inside: for files, and for servers that do not know the map. */
+  /** The same with the map inside: for files, and for servers without the map. */
   complete(): SceneJson;
 }
 
 export class SceneFile {
-  /** As it came from the server; null while nothing is open. */
+  /** As read from the server; null while no scene is open. */
   raw: SceneJson | null = null;
   map: MapJson | null = null;
-  /** Hash by which the server knows the map. */
+  /** Hash of the map on the server. */
   mapRef: string | null = null;
-  /** Does the server know this scene by its id? */
+  /** Does the server hold a scene under this id? */
   stored = false;
-  /** Variants whose motion is to be kept. */
+  /** Variants whose motions are stored with the scene. */
   variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
-  /** Who is in the version that the server holds. */
+  /** Road users of the version that the server holds. */
   #castKey: string | null = null;
 
   constructor(private readonly session: Session) {}
@@ -53,14 +53,16 @@ export class SceneFile {
     return this.stored && this.#castKey === scene.castKey;
   }
 
-  /** The server holds this version: who is in it, and whose conditions it knows: freed ones are sent as free. */
+  /**
+   * The server holds this version: remembers its road users, and those with conditions; released ones are sent as free.
+   */
   noteStored(json: SceneJson): void {
     this.#castKey = castKeyOfJson(json);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
   }
 
-  /** The scene for a question about its motions: by name where the server holds it, else with its cast. */
+  /** The scene of a request about its motions: by name where the server holds it, else with its road users. */
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
     const map = this.mapRef ? { ref: this.mapRef } : this.map!;
@@ -71,7 +73,7 @@ export class SceneFile {
     return this.#withConditions.has(id);
   }
 
-  /** The committed document as it is now; null while nothing is open. */
+  /** The committed document now; null while no scene is open. */
   snapshot(): Snapshot | null {
     const committed = this.session.document.committed.peek();
     const { raw, map, mapRef } = this;
@@ -88,7 +90,7 @@ export class SceneFile {
     return { committed, map, body, complete: () => (map ? { ...body(), map } : body()) };
   }
 
-  /** The futures that belong to the committed document; null while they are not known, and where there are none. */
+  /** The futures of the committed document; null while they are unknown, and where there are none. */
   answers(): GeneratedJson | null {
     const scene = this.session.document.scene.peek();
     const set = this.session.answers.motion.peek();
@@ -107,7 +109,7 @@ export class SceneFile {
   }
 }
 
-/** Kept variants go with the motions of all road users in them: another generator may not draw them again. */
+/** Kept variants are written with the motions of all their road users: another generator may not reproduce them. */
 function withVariants(json: SceneJson, takes: readonly VariantTake[]): SceneJson {
   const { generated, x_editor } = json;
   if (!generated || !takes.length) return json;

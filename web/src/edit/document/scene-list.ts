@@ -5,7 +5,7 @@ import { keep, recall } from '../../net/storage';
 import type { SceneListItem } from '../../net/types';
 import { TEXTS } from '../../texts/scene/reading';
 
-/** Examples in the order in which they are best met, last first. */
+/** Examples in order of rank, last first. */
 const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-roundabout', 'demo-crossing'];
 
 export const isExample = (id: string): boolean => id.startsWith('demo-');
@@ -14,7 +14,7 @@ export const isExample = (id: string): boolean => id.startsWith('demo-');
 export const countAll = (counts: SceneListItem['counts']): number =>
   Object.values(counts).reduce((sum, n) => sum + n, 0);
 
-/** So many scenes are remembered as opened last. */
+/** Number of recently opened scenes to remember. */
 const MOST_RECENT = 12;
 const RECENT = 'recent';
 
@@ -24,10 +24,10 @@ export class SceneList {
   readonly #recent = signal<readonly string[]>(recall<string[]>(RECENT) ?? []);
 
   readonly list: ReadonlySignal<readonly SceneListItem[]> = this.#list;
-  /** Has the server been asked yet? */
+  /** Has the server sent the list? */
   readonly listed: ReadonlySignal<boolean> = this.#listed;
 
-  /** Ids of the scenes opened last, the newest first. */
+  /** Ids of the last opened scenes, newest first. */
   readonly recent: ReadonlySignal<readonly string[]> = this.#recent;
 
   constructor(private readonly client: Client) {}
@@ -56,7 +56,7 @@ export class SceneList {
   }
 }
 
-/** Own scenes first, newest on top, then the examples, then what was recorded. */
+/** Own scenes first, newest on top, then examples, then recordings. */
 function inOrder(scenes: readonly SceneListItem[]): SceneListItem[] {
   const rank = (s: SceneListItem): number => (isExample(s.id) ? 1 : !s.readonly ? 0 : 2);
   const example = (s: SceneListItem): number => (isExample(s.id) ? -FIRST.indexOf(s.id) : 0);

@@ -1,4 +1,4 @@
-// What documents need of the editing session that they are opened in; the editor is one.
+// The part of the editing session that documents need; the editor implements it.
 import type { ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { MotionSet } from '../../model/document/futures';
@@ -10,7 +10,7 @@ export interface Toast {
   readonly text: string;
   readonly undo?: boolean;
   readonly action?: ToastAction;
-  /** Another way out beside it. */
+  /** A second action beside it. */
   readonly second?: ToastAction;
 }
 
@@ -23,7 +23,7 @@ export interface Session {
   readonly document: Document;
   readonly notices: { show(toast: Toast, ms?: number): void };
   readonly answers: {
-    /** What all road users do in the committed document, or in the one before it while it is stale. */
+    /** Motions of all road users in the committed document, or in the one before it while it is stale. */
     readonly motion: ReadonlySignal<MotionSet>;
     outdate(): void;
   };

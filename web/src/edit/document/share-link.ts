@@ -1,4 +1,4 @@
-// A scene inside a link: packed, deflated, and written in the part of an address that no browser sends anywhere.
+// A scene inside a link: packed, deflated, and written in the fragment, which browsers never send.
 import type { SceneJson } from '../../model/document/scene-json';
 import type { Camera } from '../../model/document/history';
 import { pack, PackError, unpack } from '../../model/document/pack';
@@ -7,11 +7,11 @@ import { TEXTS } from '../../texts/files/share';
 
 /** Longer links are cut by mail programs and chats. */
 export const MOST_LINK_BYTES = 60 * 1024;
-/** What a link may hold once it is unpacked: more than any that was made here. */
+/** Limit of the unpacked text: more than any link made here holds. */
 const MOST_TEXT_BYTES = 16 << 20;
 const VERSION = 1;
 
-/** How a film begins: when, and where the picture looks. */
+/** Start of a playback: time and camera. */
 export interface ShownAt {
   readonly time: number;
   readonly camera: Camera;
@@ -24,7 +24,7 @@ export interface Shared {
 
 export class LinkError extends Error {}
 
-/** The link's part after the address, and how many bytes it holds. */
+/** The fragment of the link, and its size in bytes. */
 export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: number }> {
   const text = JSON.stringify({ v: VERSION, at: shared.at, scene: pack(shared.scene) });
   const bytes = await through(new Blob([text]).stream(), new CompressionStream('deflate-raw'), MOST_TEXT_BYTES);
@@ -54,7 +54,7 @@ function readShownAt(v: unknown): ShownAt | null {
   return numbers.every((n) => Number.isFinite(n)) && camera!.z > 0 ? { time: time!, camera: camera! } : null;
 }
 
-/** All that comes through, up to a limit. */
+/** Reads a stream, up to a limit. */
 async function through(
   from: ReadableStream<Uint8Array>,
   by: GenericTransformStream,

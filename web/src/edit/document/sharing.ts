@@ -1,4 +1,4 @@
-// Links with a scene inside: what goes into one, and what is done with one that comes.
+// Links with a scene inside: what a link contains, and how one is opened.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Feedback } from '../../model/document/feedback';
 import { isMapRef, type EditorJson, type SceneJson } from '../../model/document/scene-json';
@@ -11,18 +11,18 @@ import type { ShownAt } from './share-link';
 import { isShareLink } from './share-mark';
 import { TEXTS } from '../../texts/editing/keeping';
 
-/** What of a scene goes into the link. */
+/** Parts of a scene that a link contains. */
 export interface Parts {
-  /** Goals, and the future that each follows. */
+  /** Goals, and the followed future of each. */
   readonly futures: boolean;
-  /** What people wrote: name, tags, notes. */
+  /** Texts by users: name, tags, notes. */
   readonly words: boolean;
-  /** The time and the place that are on screen. */
+  /** The shown time and place. */
   readonly start: boolean;
 }
 
 export interface Link {
-  /** Null where it would be too long. */
+  /** Null where the link would be too long. */
   readonly url: string | null;
   readonly bytes: number;
 }
@@ -31,7 +31,7 @@ export class Sharing {
   readonly #error = signal<string | null>(null);
   /** Why a link could not be opened. */
   readonly error: ReadonlySignal<string | null> = this.#error;
-  /** Shows what a link says is to be looked at. */
+  /** Called with the time and place to show. */
   onOpened: ((at: ShownAt | null) => void) | null = null;
 
   constructor(
@@ -55,14 +55,14 @@ export class Sharing {
     return { url: fits ? location.origin + location.pathname + hash : null, bytes };
   }
 
-  /** Opens the scene of a link to look at; nothing that is here is replaced. False where there is none. */
+  /** Opens the scene of a link read-only; no stored scene is replaced. False where the link has none. */
   async openFrom(hash: string): Promise<boolean> {
     if (!isShareLink(hash)) return false;
     this.#error.value = null;
     const { LinkError, readLink } = await import('./share-link');
     try {
       const { scene, at } = await readLink(hash);
-      // The server reads it as it reads a file, with the same limits.
+      // The server reads it like a file, with the same limits.
       const reply = await this.client.tryImport(scene);
       const read = reply.scenes[0]?.scene as SceneJson | undefined;
       if (!read || isMapRef(read.map)) throw new LinkError(TEXTS.thereIsNoWhole);
@@ -82,14 +82,14 @@ export class Sharing {
     }
   }
 
-  /** From now on it is one's own. */
+  /** From now on it is an own scene. */
   async #copy(name: string): Promise<void> {
     await this.care.saveAs(name);
     if (this.session.document.lock.peek() === null) history.replaceState(null, '', location.pathname + location.search);
   }
 }
 
-/** The scene without what is not to go into the link; of six futures the one that is followed. */
+/** The scene without the parts that stay out of the link; of six futures only the followed one. */
 export function reduced(scene: SceneJson, parts: Parts): SceneJson {
   const { generated } = scene;
   const sample = generated?.samples[generated.chosen_sample ?? 0];
@@ -120,14 +120,14 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
       pins: parts.futures ? (parts.words ? pins : unnamedPins(pins)) : undefined,
       feedback: parts.futures ? (parts.words ? feedback : unnamed(feedback)) : undefined,
       scene_feedback: parts.futures && whole ? (parts.words ? whole : withoutNames(whole)) : undefined,
-      // Their motion is worked out again where somebody looks at them.
+      // Their motion is computed again when they are shown.
       variants: parts.futures ? variants?.map((v) => ({ ...v, name: parts.words ? v.name : undefined })) : undefined,
     },
     generated: followed,
   };
 }
 
-/** What was said of futures, without what they were called. */
+/** Feedback on futures without their names. */
 const withoutNames = (f: Feedback): Feedback => ({ ...f, answers: f.answers.map((a) => ({ ...a, name: '' })) });
 const unnamed = (all: EditorJson['feedback']): EditorJson['feedback'] =>
   all && Object.fromEntries(Object.entries(all).map(([id, f]) => [id, withoutNames(f)]));

@@ -1,30 +1,30 @@
-// A change of the document that was committed, as the parts of the page need it: what kind of change, and of whom.
+// A committed change of the document, as parts of the page need it: its kind, and the changed road users.
 import type { Way } from '../../model/document/scene-diff';
 import { profileOf, type Agent, type Scene } from '../../model/document/scene';
 import type { Commit } from './document';
 
-/** A speed curve that a change put out of force: it still `fits` what is asked, or the new goal leaves it `open`. */
+/** A speed curve put out of force by a change: it still `fits` the conditions, or the new goal leaves it `open`. */
 export type LostCurve = 'fits' | 'open';
 
 export interface Step {
   readonly name: string;
-  /** The road user that it is about, where it is one. */
+  /** The changed road user, where it is one. */
   readonly agent: string | null;
-  /** The road users that it is about, where they are several. */
+  /** The changed road users, where they are several. */
   readonly several?: readonly string[];
-  /** It was made by undo, redo, or a way through the history. */
+  /** True for undo, redo, or a jump in the history. */
   readonly undo: boolean;
-  /** All road users are to be worked out anew. */
+  /** All road users are to be computed again. */
   readonly everybody?: boolean;
-  /** The motions stand, only what counts in them is another thing. */
+  /** The motions stay; only the thresholds or what is counted changed. */
   readonly counting?: boolean;
-  /** The seed or the diversity is another. */
+  /** The seed or the diversity changed. */
   readonly chance?: boolean;
-  /** The speed curve of its road user has gone out of force with it. */
+  /** The change put the speed curve of its road user out of force. */
   readonly curve?: LostCurve;
 }
 
-/** `way`: where one travelled in the history; null for a new step. `counting`: as in `Step`. */
+/** `way`: direction in the history; null for a new step. `counting`: as in `Step`. */
 export function stepOf({ before, after, name }: Commit, way: Way | 'there' | null, counting: boolean): Step {
   const undo = way !== null;
   const changed = changedAgents(before, after);
@@ -40,7 +40,7 @@ export function stepOf({ before, after, name }: Commit, way: Way | 'there' | nul
   };
 }
 
-/** Was nothing changed but the choice among the futures of a road user? */
+/** Did the step change only the choice among the futures of a road user? */
 export function onlyPicked({ before, after }: Commit, id: string): boolean {
   const a = before.agents.get(id),
     b = after.agents.get(id);
@@ -67,7 +67,7 @@ function changedAgents(before: Scene, after: Scene): string[] {
   return [...[...after.agents].filter(([id, a]) => before.agents.get(id) !== a).map(([id]) => id), ...gone];
 }
 
-/** What a change of a road user has done to its speed curve; null where nothing. */
+/** Effect of a change on the speed curve of its road user; null where there is none. */
 function lostCurve(was: Agent | undefined, now: Agent | undefined): LostCurve | null {
   if (!was || !now?.profile || !profileOf(was) || profileOf(now)) return null;
   const [p, q] = [was.goal, now.goal];

@@ -1,6 +1,6 @@
-// The pointer as a state chart: exactly one state is live, and it alone answers what the pointer does. States know
-// nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own. What states, tools and
-// what lies under the pointer look like stands here too, for each of them speaks of the others.
+// The pointer as a state chart: exactly one state is active and handles the pointer. States do not know the page;
+// `pointer.ts` or a test passes events in. The types of states, tools and hits are here too, since they refer to each
+// other.
 import type { Point } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
 import type { PlacedKind } from '../../model/base/kinds';
@@ -31,10 +31,10 @@ export interface PointerDown extends Point {
   readonly timeStamp?: number;
 }
 
-/** What a menu is asked for. */
+/** Targets of a context menu. */
 export type MenuOn = 'road-user' | 'several' | 'goal' | 'future' | 'ground';
 
-/** What a state is told and may do. Every method is optional: what is left out is not answered. */
+/** Events and actions of a state. Every method is optional: missing ones are ignored. */
 export interface State {
   readonly name: string;
   enter?(): void;
@@ -42,102 +42,102 @@ export interface State {
   /** The first button or finger went down. */
   down?(p: PointerDown): void;
   /**
-   * The pointer moved: called once a frame with the newest place in `chart.at`. Who asks the generator for each place
-   * does so when `asks` is set.
+   * The pointer moved: called once a frame with the newest place in `chart.at`. With `asks`, a state that sends a
+   * request for each place sends one.
    */
   move?(asks?: boolean): void;
-  /** Is it told of a move before the next frame comes? So what it asks is under way the sooner. */
+  /** Does the state handle a move before the next frame? Its request is sent sooner. */
   readonly hurries?: boolean;
   /** One of several fingers moved; called at once. */
   moveFinger?(from: Point, to: Point, other: Point): void;
   up?(timeStamp: number): void;
   /** The pointer is over a panel, or off the page. */
   outside?(): void;
-  /** Time for what goes on by itself; true when the picture moved under the pointer. */
+  /** Called with the seconds since the last frame; true when the picture moved under the pointer. */
   frame?(seconds: number): boolean;
   /** Does the state follow a wheel that moves the picture under the pointer? */
   readonly followsView?: boolean;
-  /** Does it answer to a change of the modifier keys? */
+  /** Does it react to a change of the modifier keys? */
   readonly followsModifiers?: boolean;
-  /** Esc, a second finger, a pointer taken away: true when there was something to put back. */
+  /** Esc, a second finger, a lost pointer: true when there was something to restore. */
   cancel?(): boolean;
 }
 
-/** What lies under the pointer. */
+/** The object under the pointer. */
 export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
-  /** A pinned one that is none of the futures. */
+  /** A pinned future that is none of the shown ones. */
   | { kind: 'pinned'; pin: Pin }
   | { kind: 'by-road' }
   | { kind: 'handle'; handle: ToolHandle }
-  /** `beside`: a finger came down near it, and not on it. */
+  /** `beside`: a finger touched near it, not on it. */
   | { kind: 'agent'; id: string; pile: string[]; beside?: true }
   | { kind: 'frame'; handle: FrameHandle }
-  /** The small flag at the goal of somebody who is not selected. */
+  /** The small flag at the goal of an unselected road user. */
   | { kind: 'pennant'; id: string }
   | { kind: 'none' };
 
-/** What one can do with the frame around several: move them, turn them, spread them. */
+/** Actions of the frame around several: move, turn, spread. */
 export type FrameHandle = 'move' | 'turn' | 'spread';
 
-/** What a tool painted to be taken hold of. */
+/** A handle painted by a tool. */
 export interface ToolHandle {
-  /** The pointer over it. */
+  /** The cursor over it. */
   readonly cursor: string;
-  /** What a press on it becomes once it moves. */
+  /** The state after a press on it that moves. */
   drag(chart: Chart, press: Press): State;
-  /** A press on it that did not move. */
+  /** A press on it without movement. */
   click(): void;
 }
 
 export const NOTHING: Hit = { kind: 'none' };
 
-/** A press, as the states after it need it. */
+/** A press, as later states need it. */
 export interface Press extends Point {
   readonly touch: boolean;
   readonly hit: Hit;
-  /** Where the picture looked at the press. */
+  /** The camera at the press. */
   readonly camera: Camera;
 }
 
-/** A button of the rail. Its key, its entry in the palette and its line in the shortcut sheet are made from it too. */
+/** A button of the rail, which also defines its key, its entry in the palette and its line in the shortcut sheet. */
 export interface RailEntry {
   readonly name: string;
   readonly label: string;
   readonly key: string;
   readonly icon: string;
   readonly help: Help;
-  /** What is placed by it; the rail keeps these together. */
+  /** The kind that it places; the rail groups these. */
   readonly places?: PlacedKind;
 }
 
-/** What the pointer does with a button of the rail chosen. */
+/** Behaviour of the pointer while a button of the rail is chosen. */
 export interface Tool extends RailEntry {
-  /** The pointer over the picture where nothing is under it; empty for the plain one. */
+  /** The cursor over the empty picture; empty for the default one. */
   readonly cursor: string;
-  /** Does a press take hold of what lies under it? */
+  /** Does a press take the object under it? */
   readonly picks: boolean;
-  /** The pointer moves over the picture with nothing pressed. */
+  /** The pointer moves over the picture without a pressed button. */
   hover?(chart: Chart): void;
-  /** What a press becomes once it moves. */
+  /** The state after a press that moves. */
   drag(chart: Chart, press: Press): State;
-  /** A press that did not move. */
+  /** A press without movement. */
   click(chart: Chart, press: Press, timeStamp: number): void;
 }
 
-/** Where the picture is, as gestures see it; the stage is one. */
+/** The picture as gestures see it; the stage implements it. */
 export interface Surface {
   readonly view: View;
   invalidate(...layers: ('map' | 'agents' | 'overlay')[]): void;
   viewChanged(): void;
-  /** The shape of the pointer over the picture; empty for the plain one. */
+  /** Sets the cursor over the picture; empty for the default one. */
   setCursor(name: string): void;
-  /** Shows the surroundings of a place larger, away from the finger that covers it; null for no longer. */
+  /** Magnifies the surroundings of a place, away from the covering finger; null ends it. */
   magnify(place: Point | null): void;
 }
 
-/** Live futures during a drag; the generation is one. */
+/** Live futures during a drag; the generation implements it. */
 export interface Previews {
   preview(id: string): void;
   cancelPreviews(): void;
@@ -148,31 +148,31 @@ export interface ChartParts {
   readonly editor: Editor;
   readonly placement: Placement;
   readonly previews: Previews;
-  /** The state in which nothing is pressed, and that of two fingers. */
+  /** The idle state, and that of two fingers. */
   idle(chart: Chart): State;
   twoFingers(chart: Chart, p1: Point, p2: Point): State;
   hitAt(p: Point, touch: boolean): Hit;
   agentsAt(p: Point): string[];
-  /** Is motion to be kept small? */
+  /** Is reduced motion preferred? */
   calm(): boolean;
-  /** A menu is asked for at a place of the picture. */
+  /** A menu is requested at a place of the picture. */
   menu(at: Point, on: MenuOn, future: number | null): void;
-  /** So many fingers were tapped at once: two, or three. */
+  /** Number of fingers tapped at once: two or three. */
   tapped(fingers: number): void;
-  /** Two short ticks under the finger. */
+  /** Two short vibrations. */
   ticks(): void;
   tool(name: string): Tool;
 }
 
-/** A hand that tells of itself once a frame is asked about each time, one that does so more often, once a frame. */
+/** Pointers that report once a frame get a request for each report; faster ones get one a frame. */
 const BETWEEN_QUESTIONS_MS = 12;
 
 export class Chart {
-  /** The newest place of the pointer, in pixels of the picture. */
+  /** The newest pointer position, in pixels of the picture. */
   at: Point = { x: 0, y: 0 };
   modifiers: Modifiers = { alt: false, shift: false, ctrl: false };
   spaceHeld = false;
-  /** How often the picture was taken hold of with Space held. */
+  /** Number of pans with Space held. */
   pannedWithSpace = 0;
   readonly pile = new Pile();
   readonly surface: Surface;
@@ -183,11 +183,11 @@ export class Chart {
   readonly #tap = new FingerTap();
   #state: State;
   #moved = false;
-  /** The state was told of the newest place ahead of the next frame. */
+  /** The state has handled the newest place before the next frame. */
   #ahead = false;
-  /** When a state that hurries asked last, milliseconds. */
+  /** Time of the last request of a hurrying state, milliseconds. */
   #askedAt = -Infinity;
-  /** The newest place was not asked about. */
+  /** No request was sent for the newest place. */
   #owes = false;
 
   constructor(readonly parts: ChartParts) {
@@ -202,12 +202,12 @@ export class Chart {
     return this.#state;
   }
 
-  /** Where the only finger is that is down. */
+  /** Place of the finger, if exactly one is down. */
   get finger(): Point | null {
     return this.#fingers.size === 1 ? this.#fingers.values().next().value! : null;
   }
 
-  /** The one way from state to state. */
+  /** The only transition between states. */
   go(next: State): void {
     this.#state.leave?.();
     this.#state = next;
@@ -221,13 +221,13 @@ export class Chart {
     this.go(this.parts.idle(this));
   }
 
-  /** A drag that changes the document is let go: what it came to is one step. */
+  /** Ends a drag that changes the document: its result is one step. */
   endDrag(command: Command | null): void {
     this.rest();
     this.editor.drag.end(command);
   }
 
-  /** The same is given up: everything as it was. */
+  /** Cancels the drag: everything is restored. */
   dropDrag(): true {
     this.editor.drag.cancel();
     this.previews.cancelPreviews();
@@ -235,7 +235,7 @@ export class Chart {
     return true;
   }
 
-  // -------------------------------------------------------------- what the pointer does
+  // -------------------------------------------------------------- pointer events
 
   down(p: PointerDown): void {
     this.#fingers.set(p.id, { x: p.x, y: p.y });
@@ -273,7 +273,7 @@ export class Chart {
     this.again();
   }
 
-  /** The same before the frame in which the page hears of it, unless there was a question just now. */
+  /** The same before the frame that delivers the event, unless a request was sent just now. */
   moveAhead(id: number, p: Point, modifiers: Modifiers, now: number): void {
     if (!this.#state.hurries || this.#fingers.size !== 1 || !this.#fingers.has(id) || !this.#mayAsk(now)) return;
     this.#fingers.set(id, p);
@@ -286,7 +286,7 @@ export class Chart {
     this.surface.invalidate();
   }
 
-  /** More questions than pictures would only take the time that the pictures need. */
+  /** Requests beyond one a frame would only take time from painting. */
   #mayAsk(now: number): boolean {
     return !this.#state.hurries || now - this.#askedAt >= BETWEEN_QUESTIONS_MS;
   }
@@ -298,7 +298,7 @@ export class Chart {
     this.#state.move?.(asks);
   }
 
-  /** The pointer's place is to be worked off with the next frame. */
+  /** Handles the pointer's place with the next frame. */
   again(): void {
     this.#moved = true;
     this.surface.invalidate();
@@ -313,7 +313,7 @@ export class Chart {
     this.surface.invalidate('agents', 'overlay');
   }
 
-  /** The page took the pointer away. */
+  /** The page cancelled the pointer. */
   lost(id: number): void {
     this.#fingers.delete(id);
     this.#tap.lost();
@@ -324,14 +324,14 @@ export class Chart {
     this.#state.outside?.();
   }
 
-  /** `now`: when the frame began, milliseconds, by the clock of the page's events. */
+  /** `now`: start of the frame, milliseconds, by the clock of the page's events. */
   frame(seconds: number, now: number): void {
     if (this.#state.frame?.(seconds)) this.#moved = true;
     this.#ahead = false;
     if (!this.#moved && !this.#owes) return;
     this.#moved = false;
     this.#tell(now);
-    // Without a frame no time passes.
+    // Without a frame the time of states does not advance.
     if (this.#owes) this.surface.invalidate();
   }
 
@@ -341,7 +341,7 @@ export class Chart {
     this.surface.viewChanged();
   }
 
-  /** True when a state answers to the modifier keys. */
+  /** True when a state reacts to the modifier keys. */
   modified(modifiers: Modifiers): boolean {
     if (!this.#state.followsModifiers) return false;
     this.modifiers = modifiers;
@@ -349,7 +349,7 @@ export class Chart {
     return true;
   }
 
-  /** Esc: everything back to where it was before the press. */
+  /** Esc: restores everything to before the press. */
   cancel(): boolean {
     const done = this.#state.cancel?.() ?? false;
     this.rest();

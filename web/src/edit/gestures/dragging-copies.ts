@@ -1,4 +1,4 @@
-// Alt drags copies away from where they were made; the originals stay.
+// Alt drags copies; the originals stay.
 import type { Agent } from '../../model/document/scene';
 import type { Vec } from '../../model/base/geometry';
 import { shifted, type Newcomer } from '../../model/document/newcomer';
@@ -44,7 +44,7 @@ export class DraggingCopies implements State {
     chart.surface.invalidate('overlay');
   }
 
-  /** One alone keeps to lanes; Shift lets go of them, for Alt is what made it a copy. */
+  /** A single copy snaps to lanes; Shift disables that, since Alt already means copy. */
   #snapped(n: Newcomer): Newcomer {
     const { chart } = this;
     if (chart.modifiers.shift) return n;

@@ -11,11 +11,11 @@ const EDGE_PX = 32;
 const EDGE_SPEED = 600;
 /** It scrolls no further past the map than this, metres. */
 const BEYOND_M = 30;
-/** A finger that rests so long at a kerb passes it, seconds; it trembles by less than this, pixels. */
+/** A finger that rests this long at a kerb passes it, seconds; it trembles by less than this, pixels. */
 const PASSES_AFTER_S = 0.4;
 const TREMBLE_PX = 8;
 
-/** What is dragged: a command for every place of the pointer. */
+/** A drag: gives a command for each pointer position. */
 export interface Move {
   readonly grip: Grip;
   readonly agent: Agent;
@@ -40,7 +40,7 @@ export class DraggingHandle implements State {
   readonly followsModifiers = true;
   readonly hurries = true;
   #command: Command | null = null;
-  /** Where and for how long a finger has rested at a kerb. */
+  /** Place and duration of a finger's rest at a kerb. */
   #rest: { readonly at: Point; seconds: number } | null = null;
 
   constructor(
@@ -62,7 +62,7 @@ export class DraggingHandle implements State {
     this.chart.surface.setCursor('');
   }
 
-  /** The page follows a step as a whole: the lane under the pointer, the document, the question. */
+  /** The page follows a step as a whole: lane under the pointer, document, request. */
   move(asks = true): void {
     const { chart } = this;
     const wasHeld = this.what.held;
@@ -76,7 +76,7 @@ export class DraggingHandle implements State {
     chart.surface.invalidate('overlay');
   }
 
-  /** What the finger covers: the box or flag that it moves, else the place under it. */
+  /** The place covered by the finger: the box or flag that it moves, else the place under it. */
   #inHand(): Point {
     const { editor, surface, at } = this.chart;
     const { grip } = this.what;
@@ -104,7 +104,7 @@ export class DraggingHandle implements State {
       this.#rest = { at, seconds: 0 };
     this.#rest.seconds += seconds;
     if (this.#rest.seconds < PASSES_AFTER_S) {
-      // A finger that rests moves nothing, and without a frame no time passes.
+      // A resting finger sends no moves, and without a frame time does not advance.
       chart.surface.invalidate();
       return false;
     }
@@ -136,7 +136,7 @@ export class DraggingHandle implements State {
   }
 }
 
-/** How hard an edge pulls: 0 away from both, up to 1 to the right or down and -1 to the left or up. */
+/** Strength of an edge's pull: 0 away from both, up to 1 to the right or down and -1 to the left or up. */
 function pull(at: number, size: number): number {
   const past = at < EDGE_PX ? EDGE_PX - at : at > size - EDGE_PX ? size - EDGE_PX - at : 0;
   return clamp(past / EDGE_PX, -1, 1);

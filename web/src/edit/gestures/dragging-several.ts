@@ -9,7 +9,7 @@ import { middleOf, moveAll, spreadAll, turnAll } from '../moves/several';
 import type { Chart, FrameHandle, Press, State } from './chart';
 
 const TURN_STEP_DEG = 15;
-/** Nobody is spread to nothing, nor out of the world. */
+/** Limits of the spread factor. */
 const SPREAD = [0.1, 10] as const;
 
 export class DraggingSeveral implements State {
@@ -19,9 +19,9 @@ export class DraggingSeveral implements State {
   #command: Command | null = null;
   readonly #grab: Vec;
   readonly #middle: Vec;
-  /** The picture at the press: left, right, up and down are its own. */
+  /** The picture at the press, which defines left, right, up and down. */
   readonly #view: View;
-  /** The corner across from the one in hand, about which they are spread. */
+  /** The corner opposite the dragged one, about which they are spread. */
   readonly #anchor: Vec;
 
   constructor(

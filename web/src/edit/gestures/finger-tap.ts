@@ -1,9 +1,9 @@
-// Several fingers that come down and go up again at once, without moving: two undo, three do again.
+// Several fingers that tap at once without moving: two undo, three redo.
 import type { Point } from '../../model/base/geometry';
 
-/** From the first finger that comes to the last that goes, milliseconds. */
+/** From the first touch to the last release, milliseconds. */
 const WITHIN_MS = 450;
-/** A finger that moves further is no tap, pixels. */
+/** Movement beyond this is not a tap, pixels. */
 const STILL_PX = 10;
 
 export class FingerTap {
@@ -29,7 +29,7 @@ export class FingerTap {
     this.#still = false;
   }
 
-  /** The last finger is gone: with how many it was tapped; 1 when it was no tap of several. */
+  /** The last finger is up: returns the number of tapped fingers; 1 when it was not a tap of several. */
   up(timeStamp: number): number {
     return this.#still && timeStamp - this.#since <= WITHIN_MS ? this.#from.size : 1;
   }

@@ -1,5 +1,4 @@
-// What dragging a handle to a place asks of the document: a command, made anew for every place from the state at the
-// beginning of the drag.
+// The command for a handle dragged to a place, computed for each place from the state at the start of the drag.
 import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../../model/base/geometry';
 import { setBoth, setGoal, setStart, type Command } from '../../model/document/commands';
 import { topSpeed } from '../../model/base/domain';
@@ -18,7 +17,7 @@ import { TEXTS } from '../../texts/desk/gestures';
 
 /** Pixels of drag on the time tag for one second. */
 const PX_PER_SECOND = 40;
-/** Nearer to a whole second than this, a dragged time is that second. */
+/** A dragged time within this of a whole second snaps to it. */
 const WHOLE_SECOND_S = 0.15;
 /** A goal further from the start than this prefers lanes that lead away from the start, in metres. */
 const LEADS_AWAY_M = 6;
@@ -36,11 +35,11 @@ export class HandleMove implements Move {
   readonly agent: Agent;
   readonly #start: Pose;
   readonly #goal: Pose;
-  /** Where the handle was taken, in metres. */
+  /** Where the handle was grabbed, in metres. */
   readonly #grab: Vec;
-  /** May a lane set the heading? One that was set by hand is never overwritten. */
+  /** May a lane set the heading? A heading set by the user is never overwritten. */
   readonly #laneSetsHeading: boolean;
-  /** Kerbs hold back the flag of whoever keeps to lanes. */
+  /** Kerbs hold back the flag of road users that keep to lanes. */
   readonly #resistance: Resistance | null;
   readonly #touch: boolean;
   #lane: string | null = null;
@@ -79,7 +78,7 @@ export class HandleMove implements Move {
     this.#resistance?.pass();
   }
 
-  /** The pose of the dragged part at the beginning. */
+  /** The pose of the dragged part at the start of the drag. */
   get #pose(): Pose {
     return this.grip.part === 'goal' ? this.#goal : this.#start;
   }
@@ -111,7 +110,7 @@ export class HandleMove implements Move {
     return { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: TEXTS.startOfMoved(a.name) };
   }
 
-  /** Turning a goal's tiller means that the goal is wanted here: a free position becomes fixed with it. */
+  /** Turning a goal's tiller fixes a free position too: the goal is wanted here. */
   #keptGoal(): Partial<GoalSpec> {
     if (this.grip.part !== 'goal' || this.agent.goal.pos) return {};
     return { pos: Object.freeze([this.#goal.x, this.#goal.y] as const) };
@@ -130,7 +129,7 @@ export class HandleMove implements Move {
     const at = stop ? { x: stop.x, y: stop.y, laneHeading: stop.heading } : s;
     this.#lane = s.lane?.id ?? null;
     const laneName = laneWords(scene.map, a, at.x, at.y, at.laneHeading);
-    // The hand holds the flag, not its foot.
+    // The pointer holds the flag, not its foot.
     const from: Vec = [wx + at.x - wanted[0], wy + at.y - wanted[1]];
     const lag = this.held ? { from, to: [wx, wy] as const, touch: this.#touch } : null;
     editor.drag.over({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
@@ -148,14 +147,14 @@ export class HandleMove implements Move {
     return { pos, ...leave };
   }
 
-  /** Alt passes all kerbs, also after it is let go; along the lane with Shift there are none. */
+  /** Alt passes all kerbs for the rest of the drag; along the lane with Shift there are none. */
   #heldBack(wanted: Vec, mods: Modifiers): Vec {
     if (mods.alt) this.passKerbs();
     if (!this.#resistance || (mods.shift && this.#lane)) return wanted;
     return this.#resistance.to(wanted, this.view.z);
   }
 
-  /** With Alt held it may go over what the shown future goes over on its way past the kerb. */
+  /** With Alt the goal may cross what the shown future crosses on its way past the kerb. */
   #leave(at: Vec, mods: Modifiers): Partial<GoalSpec> {
     if (!this.#resistance) return {};
     if (!mods.alt || !this.#resistance.passesKerb(at)) this.#mayCross = this.agent.goal.mayCross;
@@ -167,7 +166,7 @@ export class HandleMove implements Move {
     return { mayCross: this.#mayCross };
   }
 
-  /** Shift keeps to the lane, Alt lets go of all lanes, else the best lane near by. */
+  /** Shift keeps to the lane, Alt disables snapping, else the best lane near by. */
   #snapped(x: number, y: number, mods: Modifiers): Snapped {
     const { agent: a, grip } = this;
     const map = this.editor.scene.peek()!.map;
@@ -175,7 +174,7 @@ export class HandleMove implements Move {
     if (kept) return kept;
     if (mods.alt) return { x, y, laneHeading: null, lane: null };
     const start = startPose(a)!;
-    // A start prefers lanes in its own direction; a goal may lie on any lane, best one that leads away from the start.
+    // A start prefers lanes in its own direction; a goal takes any lane, best one that leads away from the start.
     const away = grip.part === 'goal' && Math.hypot(x - start.x, y - start.y) > LEADS_AWAY_M;
     const travel = away ? Math.atan2(y - start.y, x - start.x) : null;
     const ownHeading = !this.#laneSetsHeading || grip.part === 'start';

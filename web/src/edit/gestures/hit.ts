@@ -1,4 +1,4 @@
-// What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
+// The object under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
 import { insideBox, type OnLine, type Vec } from '../../model/base/geometry';
 import type { Motion } from '../../model/base/motion';
 import { canChange, startPose, type Agent } from '../../model/document/scene';
@@ -22,13 +22,13 @@ const near = (p: readonly [number, number], x: number, y: number, r: number): bo
 export const inRect = (r: Rect, x: number, y: number): boolean =>
   x >= r.x && x <= r.x + r.w && y >= r.y && y <= r.y + r.h;
 
-/** A finger takes hold of what lies within so many pixels of it. */
+/** A finger takes objects within this many pixels. */
 const FINGER_PX = 24;
 
-/** On a flag with its foot at a place. */
+/** Is a place on a flag with this foot? */
 const onFlag = (v: View, foot: Vec, x: number, y: number): boolean => flagAway(v, foot, x, y) === 0;
 
-/** How far a place is from a flag, in pixels. */
+/** Distance of a place from a flag, in pixels. */
 function flagAway({ grip: k }: View, [fx, fy]: Vec, x: number, y: number): number {
   const dx = Math.max(fx - 6 - x, 0, x - (fx + 26 * k));
   const dy = Math.max(fy - (FLAG_HEIGHT + 2) * k - y, 0, y - (fy + 5));
@@ -41,7 +41,7 @@ export interface HitContext {
   chips: readonly Chip[];
   timeTag: Rect | null;
   roadSign: RoadSign | null;
-  /** What a tool has painted there to be taken hold of. */
+  /** The tool handle painted at a place. */
   toolHandleAt(x: number, y: number): ToolHandle | null;
   pennants: readonly Pennant[];
   touch: boolean;
@@ -52,9 +52,9 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   if (a && canChange(a)) {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by-road' };
     const held = gripAt(c, a, x, y);
-    // The flag of one that is locked is there to be seen: whoever takes hold of it is told.
+    // The flag of a locked road user is still shown: dragging it explains the lock.
     const grip = a.locked && !(held?.part === 'goal' && held.handle === 'body') ? null : held;
-    // It is small, and a flag or a box behind it can be taken elsewhere.
+    // The tool handle is small; a flag or a box behind it has other places to press.
     const handle = a.locked || (grip && grip.handle !== 'body') ? null : c.toolHandleAt(x, y);
     if (handle) return { kind: 'handle', handle };
     if (grip) return { kind: 'grip', grip };
@@ -118,7 +118,7 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   return onBox(v, a, start, x, y) ? { part: 'start', handle: 'body' } : null;
 }
 
-/** The diamond of a via point, or its ring where that is not the same place. */
+/** The diamond of a via point, or its ring where that is elsewhere. */
 function viaAt(v: View, a: Agent, x: number, y: number): Grip | null {
   const away = a.goal.via.map((via) => v.away(via.pos, { x, y }));
   const at = away.findIndex((d) => d <= 10);
@@ -127,7 +127,7 @@ function viaAt(v: View, a: Agent, x: number, y: number): Grip | null {
   return ring < 0 ? null : { part: 'goal', handle: 'ring', index: ring };
 }
 
-/** The handle nearest to a finger: it covers more than one, and what it is on is nearer than what lies beside. */
+/** The handle nearest to a finger: it covers several, and one under it wins over one beside it. */
 function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   const { view: v, editor } = c;
   let best: Grip | null = null;
@@ -167,7 +167,7 @@ function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | nu
 const rectAway = (r: Rect, x: number, y: number): number =>
   Math.hypot(Math.max(r.x - x, 0, x - r.x - r.w), Math.max(r.y - y, 0, y - r.y - r.h));
 
-/** How far a place is from the box of somebody, in pixels. */
+/** Distance of a place from the box of a road user, in pixels. */
 function boxAway(v: View, a: Agent, p: OnLine, x: number, y: number): number {
   const [l, w] = sizeOnScreen(a, v.z);
   const [px, py] = v.to(p.x, p.y);
@@ -178,7 +178,7 @@ function boxAway(v: View, a: Agent, p: OnLine, x: number, y: number): number {
   return Math.hypot(Math.max(0, ahead), Math.max(0, aside));
 }
 
-/** Whose box is nearest to a finger that is on none. */
+/** The road user whose box is nearest to a finger on the empty picture. */
 function nearestTo(c: HitContext, x: number, y: number): string | null {
   let best: string | null = null;
   let least = FINGER_PX;
@@ -198,7 +198,7 @@ function onBox(v: View, a: Agent, p: { x: number; y: number; heading: number }, 
   return insideBox(p, Math.max(l, 16) / v.z, Math.max(w, 16) / v.z, wx, wy, 4 / v.z);
 }
 
-/** Everybody under the pointer, moving before parked, small before large. */
+/** All road users under the pointer, moving before parked, small before large. */
 export function agentsAt(c: HitContext, x: number, y: number): string[] {
   const scene = c.editor.scene.value;
   if (!scene) return [];
@@ -229,7 +229,7 @@ function wayAt(c: HitContext, m: Motion, x: number, y: number): boolean {
   return false;
 }
 
-/** How far a place is from a line, in pixels. */
+/** Distance of a place from a line, in pixels. */
 export function awayFrom([[px, py], [qx, qy]]: readonly [Vec, Vec], x: number, y: number): number {
   const [dx, dy] = [qx - px, qy - py];
   const len2 = dx * dx + dy * dy;

@@ -1,4 +1,4 @@
-// Nothing is pressed: what the pointer is over lights up.
+// No button is pressed: highlights the object under the pointer.
 import { NOTHING, type Chart, type Hit, type PointerDown, type State, type Tool } from './chart';
 import { ASK } from './menu';
 import { Pressed } from './pressed';
@@ -35,7 +35,7 @@ export class Idle implements State {
     chart.go(new Pressed(chart, tool, { x: p.x, y: p.y, touch: p.touch, hit, camera: chart.surface.view.camera }));
   }
 
-  /** The middle button and Space move the picture, whatever tool is chosen; so does the right one, or it asks. */
+  /** The middle button and Space always move the picture; the right one does too, or opens a menu. */
   #toolFor(p: PointerDown): Tool {
     const { chart } = this;
     if (p.button === 2) return ASK;

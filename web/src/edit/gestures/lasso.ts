@@ -5,7 +5,7 @@ import { click } from './select';
 import { Sweeping } from './sweeping';
 import { TEXTS } from '../../texts/desk/gestures';
 
-/** The line takes a further point after so many metres; it has this many at most. */
+/** The line takes a further point after this many metres; it has this many at most. */
 const STEP_M = 0.3;
 const MOST_POINTS = 2000;
 

@@ -1,4 +1,4 @@
-// A line is drawn and its length shown.
+// Draws a line and shows its length.
 import type { Chart, Press, State, Tool } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 

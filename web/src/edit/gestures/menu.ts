@@ -1,8 +1,8 @@
-// The right button, and a finger that rests: a menu for what lies there. Dragged, the right button moves the picture.
+// The right button, and a resting finger: a menu for the object there. Dragged, the right button moves the picture.
 import type { Chart, Press, Tool } from './chart';
 import { PAN } from './panning';
 
-/** Asks for the menu of what was pressed, which is selected first. */
+/** Selects the pressed object and opens its menu. */
 export function ask(chart: Chart, { x, y, hit }: Press): void {
   const { editor } = chart;
   const id = hit.kind === 'agent' || hit.kind === 'pennant' ? hit.id : null;

@@ -1,11 +1,11 @@
-// Boxes on top of each other: a second click soon after the first takes the next one below.
+// Overlapping boxes: a second click soon after the first takes the next one below.
 
 const AGAIN_WITHIN_MS = 800;
 
 export class Pile {
   #last: { ids: string[]; index: number; timeStamp: number } | null = null;
 
-  /** Which of those under the pointer a click takes. */
+  /** The road user that a click takes. */
   take(ids: string[], timeStamp: number): string {
     const last = this.#last;
     const again = last && last.ids.join() === ids.join() && timeStamp - last.timeStamp < AGAIN_WITHIN_MS;

@@ -1,19 +1,19 @@
-// Two fingers pan, zoom and turn at once; the one that stays goes on moving the picture.
+// Two fingers pan, zoom and turn at once; a single remaining finger still moves the picture.
 import { rad, wrapAngle, type Point } from '../../model/base/geometry';
 import { NOTHING, type Chart, type State } from './chart';
 import { Panning } from './panning';
 
-/** Less than this is a pinch that is not quite straight. */
+/** A turn below this is an imprecise pinch. */
 const STRAIGHT_RAD = rad(8);
-/** So near to north the picture sticks to it. */
+/** Within this of north the picture snaps to it. */
 const STICKS_RAD = rad(5);
 
 export class Pinching implements State {
   readonly name = 'pinching';
-  /** How far the fingers have turned about each other, counter-clockwise, until the picture turns with them. */
+  /** Turn of the fingers about each other, counter-clockwise, until the picture turns with them. */
   #fingers = 0;
   #turning = false;
-  /** The picture's turn, did it not stick to north. */
+  /** The picture's turn without the snap to north. */
   #turn: number;
 
   constructor(private readonly chart: Chart) {
@@ -37,7 +37,7 @@ export class Pinching implements State {
       this.#fingers += angle;
       if (Math.abs(this.#fingers) < STRAIGHT_RAD) return;
       this.#turning = true;
-      // It begins to turn where it is; from north where it comes loose.
+      // The turn starts at the current angle; from north at the snap limit.
       if (!this.#turn) this.#turn = Math.sign(this.#fingers) * STICKS_RAD;
     }
     const turn = wrapAngle(this.#turn);
@@ -53,7 +53,7 @@ export class Pinching implements State {
   }
 }
 
-/** By how much a finger has turned about the other, counter-clockwise. */
+/** Turn of one finger about the other, counter-clockwise. */
 export function turnOf(from: Point, to: Point, other: Point): number {
   const angle = (a: Point): number => Math.atan2(a.y - other.y, a.x - other.x);
   // Pixels count downwards.

@@ -1,4 +1,4 @@
-// Putting road users into the scene: one a click, or many with one drag.
+// Places road users: one with a click, or many with one drag.
 import type { Vec } from '../../model/base/geometry';
 import { KIND_WORDS, countWords, type PlacedKind } from '../../model/base/kinds';
 import type { Newcomer } from '../../model/document/newcomer';
@@ -13,7 +13,7 @@ import { shifted } from '../../model/document/newcomer';
 import type { Chart, Press, State, Tool } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
-/** The ghost of somebody of a kind under the pointer. */
+/** The ghost of a kind under the pointer. */
 export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading?: number): void => {
   const { editor, placement, surface } = chart;
   const scene = editor.scene.peek();
@@ -25,14 +25,14 @@ export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading
   surface.invalidate('overlay');
 };
 
-/** On who was just put there no other is meant: a hand that rests there need not be told that it is taken. */
+/** A pointer that rests on the road user just placed needs no "occupied" hint. */
 function isOnSelected(editor: Editor, [x, y]: Vec): boolean {
   const a = editor.agent.peek();
   const p = a?.placed ? startPose(a) : null;
   return !!a && !!p && Math.hypot(x - p.x, y - p.y) < a.length / 2;
 }
 
-/** Puts the ghost into the scene. Where somebody stands it asks first, and names the nearest free place. */
+/** Places the ghost. If the place is taken it offers the nearest free one. */
 export function placeGhost(editor: Editor, placement: Placement): void {
   const scene = editor.scene.peek();
   const ghost = placement.ghosts.peek()?.all[0];
@@ -47,7 +47,7 @@ export function placeGhost(editor: Editor, placement: Placement): void {
   const put = (who: Newcomer): void => {
     const now = editor.scene.peek();
     if (now) editor.commits.run(addThem(now, [who], 'placed'));
-    // Until the pointer moves on, a ghost would only cover the new one.
+    // Until the pointer moves, a ghost would only cover the new road user.
     placement.show(null);
   };
   if (ghost.fits) {
@@ -88,7 +88,7 @@ function furtherOn(editor: Editor, n: Newcomer): Newcomer | null {
   return shift && shifted(n, shift[0], shift[1]);
 }
 
-/** Held down, the ghost stays and turns towards the pointer. */
+/** While pressed, the ghost stays and turns towards the pointer. */
 class TurningGhost implements State {
   readonly name = 'turning';
   readonly followsModifiers = true;
@@ -122,7 +122,7 @@ class TurningGhost implements State {
   }
 }
 
-/** Many along the line that is drawn, or over the rectangle. */
+/** Many along the drawn line, or over the rectangle. */
 class Spreading implements State {
   readonly name = 'spreading';
   readonly followsView = true;

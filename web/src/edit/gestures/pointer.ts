@@ -1,4 +1,4 @@
-// The page's pointer and keys, handed to the state chart. Moves are gathered and worked off once a frame.
+// The page's pointer and keys, passed to the state chart. Moves are collected and handled once a frame.
 import type { Point } from '../../model/base/geometry';
 import type { Stage } from '../../draw/stage';
 import type { Placement } from '../moves/placement';
@@ -12,7 +12,7 @@ import { Idle } from './idle';
 import { twoFingers } from './turning';
 
 const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
-/** Zoom a pixel of wheel; pinching on a trackpad arrives as a wheel with Ctrl. */
+/** Zoom for each pixel of wheel; pinching on a trackpad arrives as a wheel with Ctrl. */
 const WHEEL_ZOOM = 0.0016;
 const TRACKPAD_ZOOM = 0.006;
 const PX_PER_LINE = 33;
@@ -26,13 +26,13 @@ const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
   ctrl: e.ctrlKey || e.metaKey,
 });
 
-/** What a feature has for the pointer. */
+/** Pointer behaviour of a feature. */
 export interface PointerTools {
-  /** With its buttons of the rail. */
+  /** Tools of its rail buttons. */
   readonly tools?: readonly Tool[];
-  /** What the pointer does whatever is chosen in the rail; null while that holds. */
+  /** Overrides the chosen tool; null for no override. */
   takesOver?(): Tool | null;
-  /** What it has painted at a place, in pixels, to be taken hold of. */
+  /** Its handle painted at a place, in pixels. */
   handleAt?(x: number, y: number, touch: boolean): ToolHandle | null;
 }
 
@@ -46,14 +46,14 @@ function firstOf<T, R>(all: readonly T[], of: (each: T) => R | null | undefined)
 
 export class Gestures {
   readonly chart: Chart;
-  /** A menu is asked for. */
+  /** A menu is requested. */
   onMenu: ((at: Point, on: MenuOn, future: number | null) => void) | null = null;
   /** Several fingers were tapped at once. */
   onTap: ((fingers: number) => void) | null = null;
-  /** Did the finger that is down ask for a menu? */
+  /** Did the finger that is down open a menu? */
   #asked = false;
   #inside = false;
-  /** Where the picture lies on the page while a pointer is down; measuring it at every move would lay out the page. */
+  /** Position of the picture on the page while a pointer is down; measuring it at every move would force a layout. */
   #held: DOMRect | null = null;
   #lastFrame = 0;
 
@@ -96,7 +96,7 @@ export class Gestures {
     return (chosen !== PAN && this.#takenOver()) || chosen;
   }
 
-  /** What the pointer does whatever is chosen in the rail. */
+  /** The tool of a feature that overrides the chosen one. */
   #takenOver(): Tool | null {
     return firstOf(this.tools, (t) => t.takesOver?.());
   }
@@ -123,14 +123,14 @@ export class Gestures {
       this.#held = null;
       chart.outside();
     });
-    // The menu opens under the finger: without this its lifting would press what lies there now.
+    // The menu opens under the finger: without this its release would press the entry there.
     el.addEventListener('touchend', (e) => {
       if (this.#asked && e.cancelable) e.preventDefault();
     });
     el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
-    // The menu is the editor's own; it opens with the release, for the right button also moves the picture.
+    // The menu is the editor's own; it opens on release, since the right button also moves the picture.
     el.addEventListener('contextmenu', (e) => e.preventDefault());
-    // The middle button moves the picture; on Linux the browser would paste with it as well.
+    // The middle button moves the picture; on Linux the browser would also paste.
     for (const up of ['mouseup', 'auxclick'] as const)
       el.addEventListener(up, (e) => {
         if (e.button === 1) e.preventDefault();
@@ -140,7 +140,7 @@ export class Gestures {
     addEventListener('keyup', (e) => this.#key(e, false));
   }
 
-  /** The hand as it moves, ahead of the frame in which the page is told: heard while something is held alone. */
+  /** Raw pointer moves, before the frame that delivers them; used only while an object is held. */
   readonly #hurry = (e: Event): void => {
     const p = e as PointerEvent;
     if (this.#held) this.chart.moveAhead(p.pointerId, this.#place(p), modifiersOf(p), p.timeStamp);
@@ -157,7 +157,7 @@ export class Gestures {
     this.chart.frame(seconds, now);
   }
 
-  /** How often the picture was taken hold of with Space held. */
+  /** Number of pans with Space held. */
   get pannedWithSpace(): number {
     return this.chart.pannedWithSpace;
   }
@@ -194,7 +194,7 @@ export class Gestures {
     try {
       this.stage.element.setPointerCapture(e.pointerId);
     } catch {
-      // The pointer may be gone already.
+      // The pointer may already be released.
     }
     this.#asked = false;
     this.stage.element.addEventListener('pointerrawupdate', this.#hurry);
@@ -218,7 +218,7 @@ export class Gestures {
       const { x, y } = this.#place(e);
       const pixels = e.deltaY * (e.deltaMode === 1 ? PX_PER_LINE : 1);
       const factor = Math.exp(-pixels * (e.ctrlKey ? TRACKPAD_ZOOM : WHEEL_ZOOM));
-      // A trackpad is smooth by itself; the notches of a wheel are not.
+      // A trackpad is smooth already; the notches of a wheel are not.
       if (e.ctrlKey || Math.abs(pixels) < NOTCH_PX) v.zoomAt(x, y, factor);
       else this.stage.glide.by((end) => end.zoomAt(x, y, factor));
     }
@@ -226,7 +226,7 @@ export class Gestures {
   }
 
   #doubleClick(e: MouseEvent): void {
-    // Whoever places or measures clicks fast; on a map that is being made it adds an arm.
+    // Placing and measuring use fast clicks; on a map being made a double click adds an arm.
     if (this.#takenOver()) return;
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
@@ -239,7 +239,7 @@ export class Gestures {
     const { chart } = this;
     if (e.key === ' ') {
       chart.spaceHeld = down;
-      // Space would press the button that has the focus, or scroll.
+      // Space would press the focused button, or scroll.
       if (down && chart.state.followsModifiers) e.preventDefault();
     }
     if (MODIFIER_KEYS.includes(e.key) && chart.modified(modifiersOf(e))) e.preventDefault();

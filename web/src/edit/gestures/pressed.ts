@@ -1,11 +1,11 @@
-// Pressed and not yet moved: the release is a click, a movement becomes what the tool makes of it.
+// Pressed and not yet moved: the release is a click, a movement becomes the gesture of the tool.
 import { ask } from './menu';
 import type { Chart, Press, State, Tool } from './chart';
 
-/** A movement shorter than this is a click's. A finger is less steady than a mouse. */
+/** A movement shorter than this is a click. A finger is less steady than a mouse. */
 const START_PX = 3;
 const START_PX_TOUCH = 8;
-/** A finger that rests so long asks for a menu, seconds. */
+/** A finger that rests this long opens a menu, seconds. */
 const ASKS_AFTER_S = 0.5;
 
 export class Pressed implements State {
@@ -18,7 +18,7 @@ export class Pressed implements State {
   ) {}
 
   enter(): void {
-    // Time passes with frames, and a finger that rests asks for none.
+    // Time advances with frames, and a resting finger requests none.
     if (this.press.touch) this.chart.surface.invalidate();
   }
 
@@ -29,7 +29,7 @@ export class Pressed implements State {
       this.chart.go(new Asked(this.chart));
       ask(this.chart, this.press);
     }
-    // A finger that rests moves nothing, and without a frame no time passes.
+    // A resting finger sends no moves, and without a frame time does not advance.
     else this.chart.surface.invalidate();
     return false;
   }
@@ -48,7 +48,7 @@ export class Pressed implements State {
   }
 }
 
-/** A menu is open; the finger that asked for it is still down. */
+/** A menu is open; the finger that opened it is still down. */
 class Asked implements State {
   readonly name = 'asked';
   constructor(private readonly chart: Chart) {}

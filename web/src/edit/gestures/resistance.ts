@@ -1,15 +1,15 @@
-// A kerb holds a flag back: while one lies between it and the lane it comes from, the flag lags behind the hand.
+// A kerb holds a flag back: while one lies between it and the lane it comes from, the flag lags behind the pointer.
 import type { Point, Pose, Vec } from '../../model/base/geometry';
 import { firstKerb, laneLeadsTo } from '../../model/physics/kerbs';
 import type { Lane, LaneMap } from '../../model/document/lanemap';
 
-/** The furthest that the flag lags behind, in pixels. */
+/** Longest lag of the flag, in pixels. */
 const LONGEST_LAG_PX = 24;
 
 export class Resistance {
-  /** The last place on this side of all kerbs, metres. */
+  /** The last place before the first kerb, metres. */
   #home: Vec;
-  /** Did a lane lead to where the flag came from? What stands behind a kerb already is not held back again. */
+  /** Did a lane lead to the flag's starting place? A flag that is already behind a kerb is not held back again. */
   #led: boolean | null = null;
   #held = false;
   #passes = false;
@@ -28,18 +28,18 @@ export class Resistance {
     return this.#held;
   }
 
-  /** Is the flag let past a kerb that lies between it and where it comes from? */
+  /** May the flag pass a kerb between it and its starting place? */
   passesKerb([x, y]: Vec): boolean {
     return this.#passes && firstKerb(this.map, this.#home, [x, y]) !== null;
   }
 
-  /** No kerb holds it back any more, as long as the drag goes on. */
+  /** Disables kerbs for the rest of the drag. */
   pass(): void {
     this.#passes = true;
     this.#held = false;
   }
 
-  /** Where the flag goes when the hand would have it at a place. `zoom` in pixels a metre. */
+  /** Position of the flag for a pointer position. `zoom` in pixels per metre. */
   to(place: Vec, zoom: number): Vec {
     const kerb = this.#passes ? null : firstKerb(this.map, this.#home, place);
     this.#held = kerb !== null && this.#comesFromLane() && !this.#leads(place);

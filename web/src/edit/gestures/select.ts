@@ -1,4 +1,4 @@
-// The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
+// The default tool: clicks select, drags move handles and boxes, and elsewhere the picture.
 import { takePin } from '../../model/document/pins';
 import { canChange, startPose, type Agent } from '../../model/document/scene';
 import { freeOnes, lockedWords } from '../moves/copying';
@@ -17,7 +17,7 @@ import { rectangle, Sweeping } from './sweeping';
 import { TEXTS } from '../../texts/desk/gestures';
 import { ViaMove } from './via-move';
 
-/** How far ahead of a road user without futures its goal is taken to be, in metres. */
+/** Assumed distance of the goal ahead of a road user without futures, in metres. */
 const GOAL_AHEAD_M = 20;
 
 export const SELECT: Tool = {
@@ -33,7 +33,7 @@ export const SELECT: Tool = {
   click,
 };
 
-/** On a map with nobody on it a car is offered wherever there is a lane. */
+/** On a map without road users a car is offered on any lane. */
 function hover(chart: Chart): void {
   const { editor, placement } = chart;
   if (editor.scene.peek()?.agents.size !== 0) {
@@ -73,8 +73,8 @@ function several(chart: Chart, press: Press, what: FrameHandle): State {
 }
 
 /**
- * At the start of the scene a road user itself is the handle of its start. A finger beside it moves the picture: there
- * is always somebody near.
+ * At the start of the scene the box of a road user is the handle of its start. A finger beside the box moves the
+ * picture, since some road user is always near.
  */
 function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
   if (editor.playhead.time.peek() >= 0.05) return null;
@@ -83,7 +83,7 @@ function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
   return start ? editor.selection.peek() : null;
 }
 
-/** What is locked stays where it is, and says so. */
+/** A locked road user does not move; a notice explains why. */
 class Refused implements State {
   readonly name = 'refused';
   constructor(
@@ -116,7 +116,7 @@ function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): Move 
   return new HandleMove(editor, surface.view, { grip, agent, start, goal, press });
 }
 
-/** A via point where the future was pressed. */
+/** Adds a via point at the pressed place of the future. */
 function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: number): void {
   const added = addVia(editor, a, surface.view.from(press.x, press.y), future);
   const room = roomForVia(a);
@@ -131,7 +131,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
   const { hit } = press;
   const a = editor.agent.peek();
   const adds = chart.modifiers.shift;
-  // Whoever adds to what is selected means the road user, not what of the selected one lies over it.
+  // When adding to the selection, a road user wins over handles and futures of the selected one.
   const over = adds && (hit.kind === 'grip' || hit.kind === 'future');
   const other = over ? chart.parts.agentsAt(press).find((id) => id !== a?.id) : undefined;
   if (other !== undefined) {

@@ -1,4 +1,4 @@
-// Taking many at once: a frame drawn over the ground, or a line drawn round them. Whose middle lies inside is taken.
+// Selects many at once: by a marquee, or a lasso. Road users with their centre inside are selected.
 import { insidePolygon, type Vec } from '../../model/base/geometry';
 import type { View } from '../../draw/view';
 import { kindsWords } from '../../model/base/kinds';
@@ -6,7 +6,7 @@ import { poseShown } from '../overlay/frame';
 import type { Chart, Press, State } from './chart';
 import { TEXTS } from '../../texts/desk/gestures';
 
-/** Makes the outline longer, or anew, for the newest place. */
+/** Extends or replaces the outline for the newest place. */
 export type Outline = (from: Vec, to: Vec, before: readonly Vec[], v: View) => readonly Vec[];
 
 export const rectangle: Outline = (from, to, _, v) => v.frame(from, to);
@@ -44,7 +44,7 @@ export class Sweeping implements State {
     chart.editor.sweepOver({ outline: this.#outline, ids: this.#taken() });
   }
 
-  /** Shift adds to those who were selected, Alt takes away from them. */
+  /** Shift adds to the former selection, Alt removes from it. */
   #taken(): readonly string[] {
     const inside = this.#inside();
     const { alt, shift } = this.chart.modifiers;

@@ -1,5 +1,5 @@
-// Two fingers on the selected road user, or on its goal: turned about each other they turn it; drawn apart or moved
-// they zoom and move the picture, as anywhere else.
+// Two fingers on the selected road user, or on its goal: a twist turns it; a pinch or a move zooms and moves the
+// picture.
 import { wrapAngle, type Point } from '../../model/base/geometry';
 import { setGoal, setStart, type Command } from '../../model/document/commands';
 import { canMove, startPose, type Agent } from '../../model/document/scene';
@@ -8,9 +8,9 @@ import type { Chart, State } from './chart';
 import { Pinching, turnOf } from './pinching';
 import { TEXTS } from '../../texts/desk/gestures';
 
-/** The middle of the two fingers lies so near to what they turn, pixels. */
+/** Largest distance of the fingers' middle from the turned object, pixels. */
 const NEAR_PX = 44;
-/** What they do is known after so much turning, or so much drawing apart or moving. */
+/** The gesture is decided after this much turn, pinch or move. */
 const TURNS_RAD = 0.14;
 const DRAWS = 1.2;
 const MOVES_PX = 28;
@@ -21,7 +21,7 @@ interface Turned {
   readonly heading: number;
 }
 
-/** What two fingers would turn; null where none of it lies between them. */
+/** The object that two fingers would turn; null where none lies between them. */
 function between({ editor, surface }: Chart, p: Point, q: Point): Turned | null {
   const agent = editor.agent.peek();
   if (!agent || !canMove(agent)) return null;
@@ -38,7 +38,7 @@ function between({ editor, surface }: Chart, p: Point, q: Point): Turned | null 
   return null;
 }
 
-/** What two fingers do that have just come down. */
+/** The state for two fingers that have just touched. */
 export function twoFingers(chart: Chart, p: Point, q: Point): State {
   const what = between(chart, p, q);
   return what ? new Turning(chart, what, p, q) : new Pinching(chart);

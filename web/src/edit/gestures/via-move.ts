@@ -1,4 +1,4 @@
-// What dragging a via point, or its ring, to a place asks of the document.
+// The command for a via point, or its ring, dragged to a place.
 import type { Point, Vec } from '../../model/base/geometry';
 import type { Command } from '../../model/document/commands';
 import type { Agent } from '../../model/document/scene';
@@ -12,7 +12,7 @@ import type { Modifiers, Press } from './chart';
 import type { Move } from './dragging-handle';
 
 export class ViaMove implements Move {
-  /** Kerbs hold back goals alone: a via point is there to lead over something, too. */
+  /** Kerbs hold back only goals: a via point may lead over one. */
   readonly held = false;
   readonly #grab: Vec;
   readonly #from: Vec;
@@ -39,7 +39,7 @@ export class ViaMove implements Move {
     if (this.grip.handle === 'ring') {
       const away = ([px, py]: Vec): number => Math.hypot(px - this.#from[0], py - this.#from[1]);
       const metres = this.agent.goal.via[this.#index].tolerance + away([x, y]) - away(this.#grab);
-      // As a hand goes: to half a decimetre, or to what is a step to who reads it.
+      // As the pointer moves: to 5 cm, or to half a unit of display with Shift.
       const held = Math.round(metres * 20) / 20;
       return widenVia(this.agent, this.#index, mods.shift ? inHalves(metres) : held)!;
     }

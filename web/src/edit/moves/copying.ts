@@ -1,4 +1,4 @@
-// Copy, cut, paste, duplicate. What is copied travels as text, so that it can be put into another tab's scene.
+// Copy, cut, paste, duplicate. Copies are text, so that they can be pasted into another tab's scene.
 import type { Vec } from '../../model/base/geometry';
 import { copiesText, readCopies, shifted, type Newcomer } from '../../model/document/newcomer';
 import { wrapAngle } from '../../model/base/geometry';
@@ -8,7 +8,7 @@ import { snapNewcomer } from './placing';
 import { TEXTS } from '../../texts/editing/moves';
 
 export class Copying {
-  /** What was copied here last, for pages that may not read the clipboard. */
+  /** The last copy made here, for pages without clipboard access. */
   #last: string | null = null;
 
   constructor(private readonly editor: Editor) {}
@@ -17,7 +17,7 @@ export class Copying {
     return this.#last;
   }
 
-  /** Text of who is selected; null where nobody is that could be copied. */
+  /** The selected road users as text; null where none can be copied. */
   copy(): string | null {
     const { editor } = this;
     const all = copiesOf(editor.chosenOnes);
@@ -35,7 +35,7 @@ export class Copying {
     return text;
   }
 
-  /** Puts what a text holds into the scene, its middle at a place; false where the text holds nobody. */
+  /** Pastes the road users of a text, centred at a place; false where the text has none. */
   paste(text: string, at: Vec | null, zoom: number): boolean {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -72,7 +72,7 @@ export class Copying {
   }
 }
 
-/** Those who are selected go; who is locked stays. */
+/** Removes the selected road users; locked ones stay. */
 export function removeSelected(editor: Editor): void {
   const scene = editor.scene.peek();
   const all = editor.chosenOnes;
@@ -91,10 +91,10 @@ export function removeSelected(editor: Editor): void {
   }
 }
 
-/** What is said where only locked ones were meant. */
+/** Notice where all selected road users are locked. */
 export const lockedWords = (n: number): string => TEXTS.allAreLocked(n);
 
-/** Says how many of the selected are locked, where some are. */
+/** Notifies how many of the selected are locked, if any. */
 export function sayLocked(editor: Editor): void {
   const all = editor.chosenOnes;
   const locked = all.filter((a) => a.locked).length;
@@ -103,7 +103,7 @@ export function sayLocked(editor: Editor): void {
   editor.notices.show({ text: some ? TEXTS.onlyLocked(locked) : lockedWords(locked) });
 }
 
-/** Those of the selected that may be moved; says so where some of them are locked. */
+/** The selected road users that may be moved; notifies where some are locked. */
 export function freeOnes(editor: Editor): ReturnType<typeof movable> {
   sayLocked(editor);
   return movable(editor.chosenOnes);

@@ -1,4 +1,4 @@
-// What can be done about an event: a future of one of the two that does not meet the other, or a slower start.
+// Remedies for an event: a future of one of the two without the conflict, or a slower start.
 import { markOf } from '../../model/document/future-facts';
 import { choose } from '../../model/document/commands';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -9,11 +9,11 @@ import type { Editor } from '../session/editor';
 import { withField, type Remedy } from './moves';
 import { TEXTS } from '../../texts/editing/moves';
 
-/** Who starts slower comes so much later to the place, seconds. */
+/** A slower start delays the arrival at the place by this, seconds. */
 const LATER_S = 2;
-/** Slower than this there is nothing to be taken away, m/s. */
+/** A start below this speed is not slowed further, m/s. */
 const LEAST_MPS = 1;
-/** Nothing that happens sooner is mended by a slower start, seconds. */
+/** An event earlier than this is not prevented by a slower start, seconds. */
 const SOON_S = 0.5;
 
 export function eventRemedies(e: Editor, ev: TrafficEvent): Remedy[] {
@@ -22,10 +22,10 @@ export function eventRemedies(e: Editor, ev: TrafficEvent): Remedy[] {
   return both.flatMap((a) => [otherFuture(e, a), slowerStart(e, a, ev)].flatMap((r) => r ?? []));
 }
 
-/** Is nothing worse wrong with it than that it is short of its goal? */
+/** Is it without faults other than a missed goal? */
 const isFine = ({ about }: Future): boolean => !!about && ['ok', 'short'].includes(markOf(about));
 
-/** The likeliest of its futures that nothing is wrong with. */
+/** The likeliest of its futures without faults. */
 function otherFuture(e: Editor, a: Agent): Remedy | null {
   const f = e.answers.motion.value.futures.get(a.id);
   if (!f || f.sketch || e.answers.motion.value.stale) return null;
@@ -43,7 +43,7 @@ function otherFuture(e: Editor, a: Agent): Remedy | null {
   };
 }
 
-/** The speed at the start at which it would come to the place later, were it to keep it. */
+/** The start speed that, held constant, reaches the place later. */
 function slowerStart(e: Editor, a: Agent, ev: TrafficEvent): Remedy | null {
   const v = startPose(a)?.speed ?? 0;
   if (v < LEAST_MPS || ev.time < SOON_S) return null;

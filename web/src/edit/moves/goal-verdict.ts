@@ -1,4 +1,4 @@
-// Can the goal of a road user be reached? The generator's verdict where it is known, the quick one while it is not.
+// Is the goal of a road user reachable? The generator's verdict where known, otherwise a quick estimate.
 import { markOf } from '../../model/document/future-facts';
 import type { Point } from '../../model/base/geometry';
 import { isBlocked, type Reach } from '../../model/document/futures';
@@ -8,16 +8,16 @@ import { metres } from '../../model/base/units';
 import type { Editor } from '../session/editor';
 import { TEXTS } from '../../texts/editing/picture';
 
-/** Why a goal cannot be reached, and the nearest place that can. */
+/** Why a goal is unreachable, and the nearest reachable place. */
 export interface OutOfReach {
   readonly title: string;
   readonly words: string;
   readonly nearest: (Point & { readonly heading: number }) | null;
-  /** Something worse is to be said first. */
+  /** A more serious fault is reported first. */
   readonly outranked?: boolean;
 }
 
-/** What the generator said of the goal as it is now; during a drag, of the goal as it is dragged. */
+/** The generator's verdict on the current goal; during a drag, on the dragged goal. */
 export function knownReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): Reach | null {
   const live = e.answers.liveReach.value;
   if (live?.id === a.id && !live.moved) return live.reach;
@@ -25,24 +25,24 @@ export function knownReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'sce
   return e.drag.active.value || m.stale ? null : (m.reach.get(a.id) ?? null);
 }
 
-/** Are the futures on screen an answer to the document as it is? In a drag those from before it are none. */
+/** Do the shown futures answer the current document? During a drag, futures from before it do not. */
 export const verdictsHold = (e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): boolean =>
   !e.reading.outdated.value &&
   !e.reading.futures.value?.sketch &&
   !e.reading.futures.value?.unjudged &&
   (!e.drag.active.value || e.answers.draft.value !== null);
 
-/** Does the shown future run into somebody? That says more than that somebody is in the way. */
+/** Does the shown future collide? That is more specific than a blocked goal. */
 function collides(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): boolean {
   const about = verdictsHold(e) ? e.reading.futures.value?.modes[e.reading.chosen.value]?.about : null;
   return !!about && markOf(about) === 'collision';
 }
 
-/** Whom the shown future stands to first: who is in the way, where the verdict on the goal does not say. */
+/** The road user that the shown future yields to; used where the verdict on the goal does not name the blocking one. */
 const waitsFor = (e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>): string | null =>
   verdictsHold(e) ? (e.reading.futures.value?.modes[e.reading.chosen.value]?.about?.relations[0]?.with ?? null) : null;
 
-/** Null when the goal can be reached, as far as anybody knows. */
+/** Null when the goal is reachable or nothing is known. */
 export function outOfReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): OutOfReach | null {
   const known = knownReach(e, a);
   if (known) {
@@ -54,25 +54,25 @@ export function outOfReach(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'sce
   return local && local.kind !== 'ok' ? local : null;
 }
 
-/** The nearest goal by the road, and where it lies from the one that is set. */
+/** The nearest goal by the road, and its offset from the set one. */
 export interface RoadGoal extends Point {
   readonly heading: number;
   readonly words: string;
 }
 
-/** Less than this beside the goal is no other goal, metres. */
+/** An offset below this is the same goal, metres. */
 const LEAST_M = 1;
 
 export function roadGoal(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene'>, a: Agent): RoadGoal | null {
-  // The road stays where it is: what was said a moment ago holds until the next answer.
+  // The road does not move: the last verdict holds until the next answer.
   const live = e.answers.liveReach.value;
   const to = (live?.id === a.id ? live.reach : knownReach(e, a))?.byRoad;
   if (!to || !a.goal.pos) return null;
   const dx = to.x - a.goal.pos[0],
     dy = to.y - a.goal.pos[1];
-  // In a drag the goal has moved on since the answer.
+  // During a drag the goal has moved since the answer.
   const distance = Math.hypot(dx, dy);
-  // That near it is the goal itself.
+  // Within this distance it is the goal itself.
   if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
   const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.short : TEXTS.aside;

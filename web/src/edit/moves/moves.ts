@@ -1,4 +1,4 @@
-// Changes of start and goal, said once and used by handles, keys and typed values alike.
+// Changes of start and goal, shared by handles, keys and typed values.
 import { deg, rad, wrapAngle, type Pose, type Vec } from '../../model/base/geometry';
 import { nearestLanes } from '../../model/document/lanemap';
 import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
@@ -22,7 +22,7 @@ import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
 import { TEXTS } from '../../texts/editing/moves';
 
-/** The goal where it was recorded at the goal time; null where it was not there, or did not go anywhere. */
+/** The goal at the recorded position at the goal time; null where it was absent, or did not move. */
 export function goalFromLog(a: Agent): Command | null {
   const p = logEnd(a);
   return (
@@ -33,7 +33,7 @@ export function goalFromLog(a: Agent): Command | null {
   );
 }
 
-/** Is its goal where it was recorded? */
+/** Is its goal at the recorded position? */
 export function isGoalOfLog(a: Agent): boolean {
   const p = a.goal.pos && logEnd(a);
   return !!p && Math.hypot(p.x - a.goal.pos![0], p.y - a.goal.pos![1]) < 0.05;
@@ -45,12 +45,12 @@ function logEnd(a: Agent): Pose | null {
   return start && p && Math.hypot(p.x - start.x, p.y - start.y) > 1 ? p : null;
 }
 
-/** Seconds at which a goal may be due: up to the end of what is worked out. */
+/** Possible goal times in seconds: up to the end of the planned time. */
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
 const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.headingWithin, speed: TEXTS.speedWithin } as const;
 
-/** That a field of somebody, or of several, is fixed now, or free. */
+/** Words for a field of one or several that is now fixed, or free. */
 export function fixedWords(part: HandlePart, field: Field, who: string, fixed: boolean): string {
   const word = FIELD_WORDS[field];
   if (part === 'goal') return fixed ? TEXTS.goalOfFixed(word, who) : TEXTS.goalOfFree(word, who);
@@ -59,7 +59,7 @@ export function fixedWords(part: HandlePart, field: Field, who: string, fixed: b
 
 const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
 
-/** The pose of a part as shown: fixed values, and for free ones what the generator chose. */
+/** The shown pose of a part: fixed values, and the generator's for free ones. */
 export const shownPose = (e: Editor, a: Agent, part: HandlePart): Pose | null =>
   part === 'start' ? startPose(a) : e.reading.goalPose(a);
 
@@ -83,13 +83,13 @@ export function withField(a: Agent, part: HandlePart, patch: Partial<GoalSpec>, 
   return { ...c, name: TEXTS.of(words, a.name, done), fold: fold ? `${part}:${field}:${a.id}` : undefined };
 }
 
-/** Switches one field between Fixed, at the value shown, and Free. */
+/** Switches one field between Fixed, at the shown value, and Free. */
 export function toggleField(e: Editor, a: Agent, part: HandlePart, field: Field): Command | null {
   const spec = part === 'goal' ? a.goal : a.start;
   const shown = shownPose(e, a, part);
   e.touchField(part, field);
   const free = spec[field] !== null;
-  // Nobody but the user knows where somebody is who was put here.
+  // The start position of a placed road user is known only from the user.
   if (free && a.placed && part === 'start' && field === 'pos') return null;
   const value = free || !shown ? null : field === 'pos' ? freeze([shown.x, shown.y]) : shown[field];
   if (!free && value === null) return null;
@@ -100,7 +100,7 @@ export function toggleField(e: Editor, a: Agent, part: HandlePart, field: Field)
   };
 }
 
-/** A goal where the chosen future ends: the keyboard's way to take the flag. */
+/** A goal at the end of the chosen future: for the keyboard. */
 export function goalHere(e: Editor, a: Agent): Command | null {
   const p = e.reading.goalPose(a);
   return p ? { ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]) }), name: TEXTS.goalOfSet(a.name) } : null;
@@ -133,7 +133,7 @@ export function nudgeAlong(e: Editor, a: Agent, part: HandlePart, metres: number
   return withField(a, part, on ? { pos: freeze([on.x, on.y]), heading: on.heading } : { pos: freeze([x, y]) }, true);
 }
 
-/** To the lane beside this one, on the left or on the right. */
+/** Moves to the adjacent lane, on the left or on the right. */
 export function toNextLane(e: Editor, a: Agent, part: HandlePart, side: 1 | -1): Command | null {
   const p = shownPose(e, a, part),
     fits = lanesFor(a);
@@ -173,13 +173,13 @@ export function later(e: Editor, a: Agent, by: number): Command {
 
 export function pickFuture(e: Editor, a: Agent, index: number | null): Command | null {
   const f = e.reading.futures.peek();
-  // Cards are taken, not picked: they are nobody's futures yet.
+  // Preference cards are taken, not picked: no road user follows them yet.
   if (!f || f.sketch || a.locked || e.reading.cards.hand.peek() || (index !== null && index >= f.modes.length))
     return null;
   return choose(a, index, LETTERS[index ?? 0]);
 }
 
-/** Another future is taken, where it is another; of who is locked it is said why not. */
+/** Picks another future; for a locked road user a notice explains why not. */
 export function takeFuture(e: Editor, a: Agent, index: number): void {
   const command = a.chosen === index ? null : pickFuture(e, a, index);
   if (command) e.commits.run(command);
@@ -188,7 +188,7 @@ export function takeFuture(e: Editor, a: Agent, index: number): void {
 
 export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
 
-/** The three ways out of a goal that cannot be reached. */
+/** One of three remedies for an unreachable goal. */
 export interface Remedy {
   readonly label: string;
   readonly note: string;
@@ -213,7 +213,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     const speed = a.goal.speed === null ? null : nearest.speed;
     out.push({
       label: TEXTS.useNearestReachable,
-      // A speed that was fixed goes with it: that is said.
+      // A fixed speed changes too, so the note reports it.
       note: [TEXTS.afterWay(metres(gets, 0)), ...(speed === null ? [] : [speedLabel(speed, unit)])].join(', '),
       icon: 'flag',
       primary: true,

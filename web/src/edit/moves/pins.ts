@@ -11,11 +11,11 @@ import { TEXTS } from '../../texts/editing/pins';
 export interface ShownPin {
   readonly pin: Pin;
   readonly motion: Motion;
-  /** Why it fits no more; null where it does. */
+  /** Why it no longer fits; null where it does. */
   readonly why: string | null;
 }
 
-/** Those that are none of the futures that are shown: these carry the mark themselves. */
+/** Pinned futures that are none of the shown ones; a shown one carries the mark itself. */
 export function pinsApart(editor: Pick<Editor, 'agent' | 'reading' | 'view'>): readonly ShownPin[] {
   const a = editor.agent.value;
   if (!a?.pins.length || editor.reading.cards.ofAgent(a.id)) return [];
@@ -24,7 +24,7 @@ export function pinsApart(editor: Pick<Editor, 'agent' | 'reading' | 'view'>): r
   return apart.map((pin) => ({ pin, motion: motionOfPin(pin), why: misfit(a, pin, editor.view.unitOf(a)) }));
 }
 
-/** The pinned one that a future is. */
+/** The pin of a future. */
 export function pinnedAt(editor: Pick<Editor, 'agent' | 'reading' | 'view'>, index: number): Pin | null {
   const a = editor.agent.value;
   return a?.pins.length && !editor.reading.cards.ofAgent(a.id)
@@ -32,7 +32,7 @@ export function pinnedAt(editor: Pick<Editor, 'agent' | 'reading' | 'view'>, ind
     : null;
 }
 
-/** Pins a future, or lets it go; words say why that cannot be. */
+/** Pins or unpins a future; returns why that is not possible. */
 export function togglePin(
   editor: Pick<Editor, 'agent' | 'reading' | 'view'>,
   a: Agent,

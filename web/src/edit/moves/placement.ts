@@ -1,4 +1,4 @@
-// What is about to be placed: the size and the way of placing for each kind, and the ghosts under the pointer.
+// Settings for placing: size and spread for each kind, and the ghosts under the pointer.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { wrapAngle, type Vec } from '../../model/base/geometry';
 import type { PlacedKind } from '../../model/base/kinds';
@@ -10,9 +10,9 @@ import { firstChoice, ghostAt, ghostsFor, placeWords, type Ghosts, type PlacingC
 export class Placement implements Part {
   readonly #choices = signal<Readonly<Partial<Record<PlacedKind, PlacingChoice>>>>({});
   readonly #ghosts = signal<Ghosts | null>(null);
-  /** A heading that was set by hand stays for those who come next. */
+  /** A heading set by the user stays for the next ones. */
   #heading: number | null = null;
-  /** Where the one ghost was asked for, so that keys can move it. */
+  /** Requested place of the single ghost, so that keys can move it. */
   #at: Vec | null = null;
   #last: { kind: PlacedKind; zoom: number; free: boolean } | null = null;
 
@@ -31,7 +31,7 @@ export class Placement implements Part {
       this.show(null);
   }
 
-  /** How road users of a kind are placed; read in a component, it follows. */
+  /** How road users of a kind are placed; tracked when read in a component. */
   choice(kind: PlacedKind): PlacingChoice {
     return this.#choices.value[kind] ?? firstChoice(kind);
   }
@@ -52,7 +52,7 @@ export class Placement implements Part {
     this.#ghosts.value = ghostsFor(scene, [who], placeWords(scene, who), who.lane?.id ?? null);
   }
 
-  /** The ghost again, after a key. */
+  /** Shows the ghost again after a key. */
   again(scene: Scene, dx: number, dy: number): boolean {
     if (!this.#at || !this.#last) return false;
     const { kind, zoom, free } = this.#last;
@@ -71,7 +71,7 @@ export class Placement implements Part {
     this.#ghosts.value = ghosts;
   }
 
-  /** Nobody is about to be placed any more. */
+  /** Ends placing. */
   stop(): void {
     batch(() => {
       this.#ghosts.value = null;

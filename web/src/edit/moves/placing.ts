@@ -1,4 +1,4 @@
-// Where somebody new would stand: snapped to the lane under the pointer, with its heading and its speed.
+// Pose of a new road user: snapped to the lane under the pointer, with its heading and its speed.
 import {
   insidePolygon,
   makeLine,
@@ -20,21 +20,21 @@ import type { Footprint } from '../../model/physics/boxes';
 import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
 
-/** What is about to be placed. */
+/** A road user about to be placed. */
 export interface Ghost {
   readonly who: Newcomer;
-  /** Does it touch nobody? */
+  /** Is it free of overlaps? */
   readonly fits: boolean;
 }
 
-/** Ghosts on the picture, and a word beside the last of them. */
+/** The shown ghosts, and a word beside the last one. */
 export interface Ghosts {
   readonly all: readonly Ghost[];
   readonly words: string;
   readonly lane: string | null;
 }
 
-/** How road users are spread by one gesture. */
+/** How one gesture spreads road users. */
 export type Spread = 'one' | 'line' | 'area';
 
 export interface PlacingChoice {
@@ -54,11 +54,11 @@ export const firstChoice = (kind: PlacedKind): PlacingChoice => ({
   count: 20,
 });
 
-/** Whoever is placed is drawn to a lane from further away than whoever is dragged, metres. */
+/** Snapping distance when placing, larger than when dragging, metres. */
 const SNAP_M = 4;
 const SNAP_PX = 14;
 
-/** Nearest lane, its heading, and the speed that is driven there. */
+/** Nearest lane, its heading, and the speed driven there. */
 export function snapNewcomer(
   scene: Scene,
   n: Pick<Newcomer, 'kind' | 'pose'>,
@@ -77,20 +77,20 @@ export function snapNewcomer(
   return { x: s.x, y: s.y, heading: s.laneHeading ?? heading, lane: s.lane };
 }
 
-/** A lane has its limit; who rides or walks there keeps to the own pace. */
+/** A lane has its limit; cyclists and pedestrians keep their own speed. */
 function speedOn(lane: Lane | null, { kind, size }: PlacingChoice): number {
   const own = size.speed;
   const on = typeOfKind(kind) === 'vehicle' ? (lane?.limit ?? own) : own;
   return Math.min(on, topSpeed({ type: typeOfKind(kind), subtype: size.subtype }));
 }
 
-/** Behind somebody one is no faster than what this braking stops in time, m/s². */
+/** The speed behind another road user allows a stop in time with this deceleration, m/s². */
 const EASY_BRAKING = 3;
-/** So far ahead one looks for somebody, and so far aside he may be, metres. */
+/** Range of the search for road users ahead, and its half width, metres. */
 const AHEAD_M = 60;
 const ASIDE_M = 1.5;
 
-/** The speed with which one does not run into whoever is ahead on the lane. */
+/** The speed without a collision with the road user ahead on the lane. */
 function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: number): number {
   const c = Math.cos(heading),
     s = Math.sin(heading);
@@ -109,13 +109,13 @@ function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: numb
 
 interface Wish {
   readonly zoom: number;
-  /** Set by hand. */
+  /** Set by the user. */
   readonly heading?: number | null;
-  /** Lets go of lanes. */
+  /** Disables snapping to lanes. */
   readonly free?: boolean;
 }
 
-/** Who would stand at a place. */
+/** The road user to be placed at a position. */
 export function ghostAt(
   scene: Scene,
   choice: PlacingChoice,
@@ -134,10 +134,10 @@ export function ghostAt(
   return { ...newcomer(choice.kind, choice.size, pose), lane: s.lane };
 }
 
-/** This near to a crosswalk one is on the way over it, metres. */
+/** Within this distance of a crosswalk a pedestrian walks over it, metres. */
 const NEAR_CROSSWALK_M = 4;
 
-/** On a crosswalk and at its ends one walks across the road, else along the pavement where there is one. */
+/** On a crosswalk and at its ends pedestrians walk across the road, else along the pavement where there is one. */
 function onFootHeading(map: LaneMap, kind: PlacedKind, x: number, y: number): number {
   if (kind !== 'pedestrian') return 0;
   const near = map.crosswalks
@@ -168,7 +168,7 @@ export const placeWords = (scene: Scene, n: Newcomer): string => {
   return `${areaText(n.length, n.width, (m) => lengthText(m, 1))} · ${where}`;
 };
 
-/** Each with whether it touches somebody, also one of those before it. */
+/** Marks each that overlaps a present one or one before it in the list. */
 function fitted(there: readonly Footprint[], all: readonly Newcomer[]): Ghost[] {
   const taken: Footprint[] = [...there];
   return all.map((who) => {
@@ -184,10 +184,10 @@ export function ghostsFor(scene: Scene, all: readonly Newcomer[], words: string,
 
 // -------------------------------------------------------------- several at once
 
-/** Where there is no room for all of them along a line, places are looked for at this distance, metres. */
+/** Spacing of candidate places along a line without room for all, metres. */
 const LOOK_M = 0.4;
 
-/** Evenly along a line from one place to another; as many as there is room for where that is not enough for all. */
+/** Evenly along a line; where not all fit, as many as fit. */
 export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zoom: number): Newcomer[] {
   const line = makeLine([a, b]);
   const way = Math.atan2(b[1] - a[1], b[0] - a[0]);
@@ -210,15 +210,15 @@ export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, z
   return out;
 }
 
-/** Spread over a rectangle: always the same for the same rectangle. */
+/** Spread over a rectangle, deterministically. */
 export function overArea(scene: Scene, choice: PlacingChoice, area: Quad, zoom: number): Newcomer[] {
   const [[x, y], [ax, ay], , [bx, by]] = area;
-  /** A place of it, from 0 to 1 along each of its sides. */
+  /** A point of it, from 0 to 1 along each of its sides. */
   const at = (u: number, w: number): Vec => [x + (ax - x) * u + (bx - x) * w, y + (ay - y) * u + (by - y) * w];
   const middle = at(0.5, 0.5);
   const taken: Footprint[] = standing(scene);
   const out: Newcomer[] = [];
-  // Points that keep clear of each other better than chance does; those that have no room are passed over.
+  // Halton points keep clear of each other better than random ones; occupied ones are skipped.
   for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {
     const on = ghostAt(scene, choice, at(radicalInverse(k, 2), radicalInverse(k, 3)), { zoom });
     if (!insidePolygon(on.pose.x, on.pose.y, area)) continue;
@@ -243,7 +243,7 @@ function radicalInverse(k: number, base: number): number {
   return v;
 }
 
-/** Those on foot come from both sides, and pass each other as those who drive do. */
+/** Pedestrians come from both sides, and pass each other on the driving side. */
 function bothWays(map: LaneMap, kind: PlacedKind, { x, y, heading }: Pose, mx: number, my: number): number {
   const left = -(x - mx) * Math.sin(heading) + (y - my) * Math.cos(heading);
   const wrong = drivingSide(map) === 'left-hand' ? left < 0 : left > 0;

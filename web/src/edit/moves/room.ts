@@ -1,10 +1,10 @@
-// Room for road users: who stands where somebody is to be put, and where there is place instead.
+// Space for road users: what occupies a place, and where there is room instead.
 import { touching, type Footprint } from '../../model/physics/boxes';
 import type { Vec } from '../../model/base/geometry';
 import type { Newcomer } from '../../model/document/newcomer';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
 
-/** Everybody who is there at the start of a scene, as boxes. */
+/** Boxes of all road users present at the start of a scene. */
 export function standing(scene: Scene): (Footprint & { readonly agent: Agent })[] {
   return [...scene.agents.values()].flatMap((agent) => {
     const pose = startPose(agent);
@@ -12,16 +12,16 @@ export function standing(scene: Scene): (Footprint & { readonly agent: Agent })[
   });
 }
 
-/** Who stands in the way of a box. */
+/** The box that overlaps this one. */
 export const inTheWay = (f: Footprint, taken: readonly Footprint[]): Footprint | undefined =>
   taken.find((o) => touching(f, o));
 
-/** How far one looks for a free place, metres. */
+/** Range of the search for a free place, metres. */
 const LOOK_M = 60;
 
 /**
- * How far all of them are to be moved so that they touch nobody: the nearest such place behind the first of them,
- * before it, or beside it. Null where all is full.
+ * The shift that frees all of them from overlaps: the nearest place behind the first of them, before it, or beside it.
+ * Null where all is full.
  */
 export function freeShift(all: readonly Newcomer[], taken: readonly Footprint[], step = 2): Vec | null {
   const first = all[0];

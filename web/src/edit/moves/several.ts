@@ -1,4 +1,4 @@
-// Changes of one road user or of many at once, each one step of the history.
+// Changes of one road user or many, each one step of the history.
 import { wrapAngle, type Vec } from '../../model/base/geometry';
 import {
   addAgents,
@@ -30,22 +30,22 @@ import { shifted } from '../../model/document/newcomer';
 import { TEXTS } from '../../texts/editing/moves';
 import { inSentence } from '../../texts/language';
 
-/** The server works out the motion of no more at once. */
+/** The server computes no more at once. */
 export const MOST_AT_ONCE = 128;
 
-/** `Car 7`, or `10 road users`; of one kind alone `10 pedestrians`. */
+/** `Car 7`, or `10 road users`; where all are of one kind, `10 pedestrians`. */
 export function whoWords(all: readonly Pick<Agent, 'name' | 'kind'>[]): string {
   if (all.length === 1) return all[0].name;
   const { kind } = all[0] ?? {};
   return kind && all.every((a) => a.kind === kind) ? countWords(kind, all.length) : TEXTS.roadUsers(all.length);
 }
 
-/** Those of them that may be moved and changed. */
+/** The road users that may be moved and changed. */
 export const movable = (all: readonly Agent[]): Agent[] => all.filter(canMove);
 
 type Make = (a: Agent) => AgentPatch | null;
 
-/** One change for all of them; null where it changes nobody. `fold`: repeats within a short time are one step. */
+/** One change for all of them; null where no road user changes. `fold`: repeats within a short time are one step. */
 function changeAll(all: readonly Agent[], name: string, make: Make, fold?: string): Command | null {
   const patches = new Map(all.flatMap((a) => (make(a) ? [[a.id, make(a)!] as const] : [])));
   if (!patches.size) return null;
@@ -54,7 +54,7 @@ function changeAll(all: readonly Agent[], name: string, make: Make, fold?: strin
 
 const at = (x: number, y: number): Vec => Object.freeze([x, y] as const);
 
-/** New demands make an earlier pick among six futures meaningless. */
+/** New conditions make an earlier pick among six futures meaningless. */
 const started = (a: Agent, patch: Partial<StartSpec>): AgentPatch => ({
   start: Object.freeze({ pos: a.start.pos, heading: a.start.heading, speed: a.start.speed, ...patch }),
   chosen: null,
@@ -64,9 +64,9 @@ const aimed = (a: Agent, patch: Partial<GoalSpec>): AgentPatch => ({
   chosen: null,
 });
 
-// -------------------------------------------------------------- where they are
+// -------------------------------------------------------------- positions
 
-/** All by the same way; their goals too where that is wanted. */
+/** Moves all by the same distance; on request their goals too. */
 export function moveAll(all: readonly Agent[], dx: number, dy: number, goals = false, fold?: string): Command | null {
   return changeAll(
     all,
@@ -84,14 +84,14 @@ export function moveAll(all: readonly Agent[], dx: number, dy: number, goals = f
   );
 }
 
-/** The middle of the box around where they start. */
+/** Centre of the bounding box of their starts. */
 export function middleOf(all: readonly Agent[]): Vec {
   const ps = all.flatMap((a) => startPose(a) ?? []);
   const mid = (v: number[]): number => (Math.min(...v) + Math.max(...v)) / 2;
   return ps.length ? [mid(ps.map((p) => p.x)), mid(ps.map((p) => p.y))] : [0, 0];
 }
 
-/** All about one point, or each about itself. */
+/** Turns all about one point, or each about itself. */
 export function turnAll(
   all: readonly Agent[],
   angle: number,
@@ -122,8 +122,8 @@ export function turnAll(
 }
 
 /**
- * Left and right change sides, as seen by the first of them, about the middle of all; goals come along. One alone stays
- * where it is, and its goal changes sides.
+ * Left and right change sides, as seen by the first of them, about the centre of all; goals too. A single one stays,
+ * and only its goal changes sides.
  */
 export function mirrorAll(all: readonly Agent[]): Command | null {
   const axis = all[0] && startPose(all[0])?.heading;
@@ -148,7 +148,7 @@ export function mirrorAll(all: readonly Agent[]): Command | null {
   });
 }
 
-/** Two change places: each starts where the other did, facing as the other did. */
+/** Swaps two: each starts at the other's place, with its heading. */
 export function swapTwo([a, b, ...more]: readonly Agent[]): Command | null {
   const [p, q] = [a && startPose(a), b && startPose(b)];
   if (!p || !q || more.length) return null;
@@ -158,7 +158,7 @@ export function swapTwo([a, b, ...more]: readonly Agent[]): Command | null {
   });
 }
 
-/** Nearer to a point or further from it, along two axes: east and north where nothing says. */
+/** Moves them nearer to a point or further from it, along two axes: east and north by default. */
 export function spreadAll(
   all: readonly Agent[],
   kx: number,
@@ -179,10 +179,10 @@ export function spreadAll(
 // -------------------------------------------------------------- values
 
 export type Part = 'start' | 'goal';
-/** What a field of the shared inspector is about. */
+/** A field of the shared inspector. */
 export type SharedField = 'heading' | 'speed' | 'time' | 'length' | 'width';
 
-/** A value for all of them, each made from its own. */
+/** A value for all of them, each derived from its own. */
 export function setAll(
   all: readonly Agent[],
   part: Part,
@@ -204,7 +204,7 @@ export function setAll(
   );
 }
 
-/** Fixes a field of all at what each one has now; where all are fixed already, frees it. */
+/** Fixes a field of all at its current value; where all are fixed already, frees it. */
 export function fixAll(
   all: readonly Agent[],
   part: Part,
@@ -219,7 +219,7 @@ export function fixAll(
   });
 }
 
-/** Faster or slower by steps of what one types for its kind. */
+/** Faster or slower by speed steps of its kind. */
 export function fasterAll(all: readonly Agent[], steps: number): Command | null {
   return changeAll(
     all,
@@ -248,7 +248,7 @@ export const lockAll = (all: readonly Agent[], locked: boolean): Command | null 
 const DOES: Record<Others, string> = { react: TEXTS.reacts, log: TEXTS.replaysTheLog, still: TEXTS.holdsStill };
 const DO: Record<Others, string> = { react: TEXTS.react, log: TEXTS.replayTheLog, still: TEXTS.holdStill };
 
-/** What they do while others change. The scene's own way needs no word of theirs. */
+/** Their behaviour when others change. The scene's default is not stored. */
 export const setDoes = (scene: Scene, all: readonly Agent[], does: Others): Command | null =>
   changeAll(all, `${whoWords(all)} ${all.length === 1 ? DOES[does] : DO[does]}`, (a) => {
     const own = does === scene.others ? null : does;
@@ -265,7 +265,7 @@ const plainName = (a: Agent): string => nameAs({ called: null, name: /\d+$/.exec
 export const noteOn = (a: Agent, note: string): Command =>
   patchAgents(TEXTS.noteOn(a.name), new Map([[a.id, { note }]]));
 
-/** Of another kind, in its usual size; the generator takes the expert of that kind. */
+/** Changes the kind, in its usual size; the generator uses the expert of that kind. */
 export function setKind(all: readonly Agent[], kind: PlacedKind, size: Preset = PRESETS[kind][0]): Command | null {
   const type = typeOfKind(kind);
   const { label, subtype, length, width } = size;
@@ -278,7 +278,7 @@ export function setKind(all: readonly Agent[], kind: PlacedKind, size: Preset = 
   });
 }
 
-// -------------------------------------------------------------- who is there
+// -------------------------------------------------------------- adding and removing
 
 export function removeThem(scene: Scene, all: readonly Agent[]): Command {
   return removeAgents(
@@ -288,28 +288,28 @@ export function removeThem(scene: Scene, all: readonly Agent[]): Command {
   );
 }
 
-/** Why so many more cannot be put into a scene; null where they can. */
+/** Why this many more cannot be added to a scene; null where they can. */
 export function tooMany(scene: Scene, n: number): string | null {
   const room = MOST_AGENTS - scene.agents.size;
   if (n <= room) return null;
   return room > 0 ? TEXTS.aSceneHoldsRoad(MOST_AGENTS, room) : TEXTS.aSceneHoldsRoadUsers(MOST_AGENTS);
 }
 
-/** They come into the scene; `done`: what happened to them, such as `placed`. `name` of the step where more is said. */
+/** Adds them to the scene; `done`: the participle in the step's title, such as `placed`. `name` replaces the title. */
 export function addThem(scene: Scene, all: readonly Newcomer[], done: string, name: string | null = null): Command {
   const ids = newIds(scene, all.length);
   const agents = all.map((n, i) => settle(n, ids[i]));
   return addAgents(scene, agents, name ?? `${whoWords(agents)} ${done}`);
 }
 
-/** Copies of road users as they stand at the start. */
+/** Copies of road users in their start state. */
 export const copiesOf = (all: readonly Agent[]): Newcomer[] =>
   all.flatMap((a) => {
     const pose = startPose(a);
     return (pose && copyOf(a, pose)) ?? [];
   });
 
-/** The same at the nearest place where they touch nobody. */
+/** The same at the nearest place without overlaps. */
 export function withRoom(scene: Scene, all: readonly Newcomer[]): readonly Newcomer[] {
   const shift = freeShift(all, standing(scene));
   return shift && (shift[0] || shift[1]) ? all.map((n) => shifted(n, shift[0], shift[1])) : all;

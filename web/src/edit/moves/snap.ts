@@ -1,4 +1,4 @@
-// Snapping to lanes and angles. It shows itself and lets go with Alt.
+// Snapping to lanes and angles, with a visible sign; Alt disables it.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../../model/base/geometry';
 import { armWords } from '../../model/words/arm-names';
 import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
@@ -15,7 +15,7 @@ export interface Snapped {
 const RADIUS_M = 1.8;
 const RADIUS_PX = 14;
 const AGAINST = 2.1;
-/** The lane one is on already is preferred by this much, so that the box does not flicker between two. */
+/** The current lane is preferred by this much, so that the box does not flicker between two. */
 const STAY_BONUS_M = 0.6;
 
 export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null {
@@ -25,8 +25,8 @@ export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null 
 }
 
 /**
- * The best lane under a point. `travel` is the line from the start to a goal: lanes that lead back against it are
- * left alone, or a goal a little beyond the middle line would turn the car round. Alt puts it anywhere.
+ * The best lane under a point. `travel` is the line from the start to a goal: lanes back against it are ignored, or a
+ * goal a little beyond the middle line would turn the car round. Alt places it anywhere.
  */
 export function snapToLane(
   map: LaneMap,
@@ -57,7 +57,7 @@ export function snapToLane(
   return best ? { x: best.x, y: best.y, laneHeading: best.heading, lane: best.lane } : free;
 }
 
-/** Where traffic stops on a lane: at a stop line with the nose on it, and 2 m behind the last of a queue. */
+/** Where traffic stops on a lane: nose at a stop line, and 2 m behind the last of a queue. */
 export interface SoftStop {
   readonly s: number;
   readonly x: number;
@@ -87,7 +87,7 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
   return s === undefined ? null : { s, ...pointAt(lane.line, s) };
 }
 
-/** Along one lane only: the nearest point of it, however far the pointer strays. */
+/** Along one lane only: its nearest point, however far the pointer strays. */
 export function alongLane(map: LaneMap, laneId: string | null, x: number, y: number): Snapped | null {
   const lane = laneId ? map.lanes.get(laneId) : undefined;
   if (!lane) return null;
@@ -124,7 +124,7 @@ export function snapHeading(
   return wrapAngle(rad(Math.round(deg(heading))));
 }
 
-/** What was said of places of a map last: several parts of the page say it of the same few. */
+/** Cached words for places of a map: several parts of the page need the same few. */
 const said = new WeakMap<LaneMap, Map<string, string>>();
 const MOST_SAID = 64;
 

@@ -6,7 +6,7 @@ import type { Editor } from '../session/editor';
 import { changeVia } from './vias';
 import { TEXTS } from '../../texts/editing/via';
 
-/** When the future in force passes it, seconds; null where nothing is known. */
+/** Time at which the followed future passes it, seconds; null where unknown. */
 export function viaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i: number): number | null {
   const f = e.reading.futures.value;
   const m = f?.modes[e.reading.chosen.value]?.motion;
@@ -14,14 +14,14 @@ export function viaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i: numbe
   return at ? Math.round(at.time * 10) / 10 : null;
 }
 
-/** A time that it may have, to the tenth of a second; null where none is left between its neighbours. */
+/** A possible time, to the tenth of a second; null where none is left between its neighbours. */
 export function heldTime(a: Agent, i: number, time: number, latest: number): number | null {
   const due = a.goal.pos ? a.goal.time : latest + 0.1;
   const [from, to] = timesOf(a.goal.via, i, due);
   return from > to + 1e-6 ? null : Math.round(Math.min(to, Math.max(from, time)) * 10) / 10;
 }
 
-/** Fixes the time at what is shown, or frees it. */
+/** Fixes the shown time, or frees it. */
 export function toggleViaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i: number): Command | null {
   const v = a.goal.via[i];
   if (!v) return null;
@@ -31,7 +31,7 @@ export function toggleViaTime(e: Pick<Editor, 'reading' | 'scene'>, a: Agent, i:
   return time === null ? null : changeVia(a, i, { time });
 }
 
-/** Two neighbours that the future in force would pass the other way round: the first of them. */
+/** The first of two neighbours that the followed future would pass in reverse order. */
 export function outOfOrder(e: Pick<Editor, 'reading' | 'scene'>, a: Agent): number | null {
   const m = e.reading.futures.value?.modes[e.reading.chosen.value]?.motion;
   const all = a.goal.via;
@@ -42,7 +42,7 @@ export function outOfOrder(e: Pick<Editor, 'reading' | 'scene'>, a: Agent): numb
   return i < 0 ? null : i;
 }
 
-/** The neighbours change places in the order; times stay in order. */
+/** Swaps the neighbours; times stay in order. */
 export function swapVias(a: Agent, i: number): Command {
   const all = [...a.goal.via];
   const [p, q] = [all[i], all[i + 1]];

@@ -1,5 +1,5 @@
-// Places on the way of the selected road user: added on a path, moved, widened, given a time, taken away. Said once and
-// used by handles, keys, fields and menus alike.
+// Via points of the selected road user: added on a path, moved, widened, timed, removed. Shared by handles, keys,
+// fields and menus.
 import { setVias, type Command } from '../../model/document/commands';
 import type { Vec } from '../../model/base/geometry';
 import { poseAt, type Motion } from '../../model/base/motion';
@@ -17,14 +17,14 @@ import {
 import type { Editor } from '../session/editor';
 import { TEXTS } from '../../texts/editing/via';
 
-/** So far along its path somebody gets a via point where no place was pointed at, as a share of the time. */
+/** Where no place is given, a via point goes to this share of the time along the path. */
 const HALF_WAY = 0.5;
 
-/** The motion in force of the selected road user, or one of its futures. */
+/** The followed motion of the selected road user, or one of its futures. */
 const motionOf = (e: Pick<Editor, 'reading'>, index = e.reading.chosen.peek()): Motion | null =>
   e.reading.futures.peek()?.modes[index]?.motion ?? null;
 
-/** Via points are counted from 1; one alone has no number. */
+/** Via points are counted from 1; a single one has no number. */
 export const viaName = (a: Agent, i: number): string =>
   a.goal.via.length > 1 ? TEXTS.viaPointOf(i + 1) : TEXTS.viaPoint;
 
@@ -36,7 +36,7 @@ export interface Added {
   readonly index: number;
 }
 
-/** A via point at the place of a future that is nearest to `near`; without one, half way along the one in force. */
+/** A via point at the place of a future that is nearest to `near`; without one, half way along the followed one. */
 export function addVia(e: Pick<Editor, 'reading'>, a: Agent, near: Vec | null, future?: number): Added | null {
   const m = motionOf(e, future);
   if (!m || roomForVia(a) !== true) return null;
@@ -45,7 +45,7 @@ export function addVia(e: Pick<Editor, 'reading'>, a: Agent, near: Vec | null, f
   return addViaAt(e, a, Math.min(time, end - 0.5), future);
 }
 
-/** The same where a future is at a time. */
+/** The same at a time of the future. */
 export function addViaAt(e: Pick<Editor, 'reading'>, a: Agent, time: number, future?: number): Added | null {
   const m = motionOf(e, future);
   const at = m && poseAt(m, Math.max(0.5, time));
@@ -56,7 +56,7 @@ export function addViaAt(e: Pick<Editor, 'reading'>, a: Agent, time: number, fut
   return { index, command: setVias(a, withNew(a.goal.via, index, via(pos)), TEXTS.added(a.name)) };
 }
 
-/** One of them in another way; `fold` where it is one of many changes that follow each other. */
+/** Changes one of them; `fold` joins a series of changes. */
 export function changeVia(a: Agent, i: number, patch: Partial<Via>, fold = false): Command | null {
   if (!a.goal.via[i]) return null;
   const done = 'tolerance' in patch ? TEXTS.toleranceChanged : 'time' in patch ? TEXTS.timeChanged : TEXTS.moved;

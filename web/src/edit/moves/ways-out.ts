@@ -1,4 +1,4 @@
-// Ways out of a goal that is reached against the rules: by the road, or with leave to go over what is in the way.
+// Remedies for a goal that is reached only by breaking rules: by the road, or with permission to cross an edge.
 import { leavesRoad, markOf, type Fault } from '../../model/document/future-facts';
 import { goalStep, type Command } from '../../model/document/commands';
 import { LETTERS, type Future } from '../../model/document/futures';
@@ -12,25 +12,25 @@ import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
 import { TEXTS } from '../../texts/editing/moves';
 
-/** The way by the road: to the nearest goal that it leads to, else the future that gets to the goal by it. */
+/** The route by the road: to the nearest goal it leads to, else the future that reaches the goal by it. */
 export interface RoadWay {
   readonly words: string;
   readonly note: string;
-  /** The goal that it leads to; null where it leads to the goal that is set. */
+  /** The goal that it leads to; null where it is the set one. */
   readonly to: OnLine | null;
-  /** The way there, in metres; empty where nobody knows one. */
+  /** The route, in metres; empty where unknown. */
   readonly path: readonly Vec[];
   readonly command: Command;
 }
 
-/** A future that passes a place nearer than this gets there, metres. */
+/** A future within this distance of a place passes it, metres. */
 const PASSES_M = 4;
 
-/** What is wrong with the future that is shown, when it reaches the goal against the rules. */
+/** Faults of the shown future, when it reaches the goal by breaking rules. */
 function brokenRules(e: Editor, a: Agent): readonly Fault[] {
   const about = a.goal.pos && verdictsHold(e) ? e.reading.futures.value?.modes[e.reading.chosen.value]?.about : null;
   const mark = about && markOf(about);
-  // Leave to break a rule does not bring a goal within reach.
+  // Permission to cross an edge does not make a missed goal reachable.
   if (about?.faults.some((f) => f.kind === 'goal_missed')) return [];
   return mark === 'rule' || mark === 'collision' ? about!.faults : [];
 }
@@ -45,7 +45,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
     const command = goalStep(a, goal, TEXTS.goalOfMovedOntoRoad(a.name));
     return { words: to.words, note: '', to, path: pathBy(e, a, modes, to), command };
   }
-  // A pick is one of the futures at rest; those of a drag are gone when it ends.
+  // A pick refers to the futures at rest; those of a drag disappear at its end.
   const good = e.drag.active.value ? -1 : modes.findIndex((m) => m.about && !m.about.faults.length);
   const command = good >= 0 ? pickFuture(e, a, good) : null;
   if (!command) return null;
@@ -53,7 +53,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   return { words: TEXTS.byRoad(LETTERS[good]), note: name, to: null, path: pointsOf(motion.x, motion.y), command };
 }
 
-/** Along the future that gets there without leaving the road, else along the lanes, else as far as a future leads. */
+/** Along the future that reaches it on the road, else along the lanes, else as far as a future leads. */
 function pathBy(e: Editor, a: Agent, modes: readonly Future[], to: OnLine): readonly Vec[] {
   const [best] = modes
     .filter((m) => m.about && !m.about.faults.some(leavesRoad))
@@ -65,7 +65,7 @@ function pathBy(e: Editor, a: Agent, modes: readonly Future[], to: OnLine): read
   return way?.onLanes ? way.line.pts : (best?.path ?? []);
 }
 
-/** A motion up to where it is nearest to a place, and how far that is from it, metres. */
+/** A motion up to its nearest point to a place, and the remaining distance, metres. */
 function towards({ x, y }: Motion, to: OnLine): { path: Vec[]; short: number } {
   const d = x.map((v, i) => Math.hypot(v - to.x, y[i] - to.y));
   const short = Math.min(...d);
@@ -74,20 +74,20 @@ function towards({ x, y }: Motion, to: OnLine): { path: Vec[]; short: number } {
 
 const pointsOf = (x: Float64Array, y: Float64Array): Vec[] => Array.from(x, (v, i): Vec => [v, y[i]]);
 
-// -------------------------------------------------------------- leave to go over an edge
+// -------------------------------------------------------------- permission to cross an edge
 
 export interface Leave {
   readonly words: string;
   readonly command: Command;
 }
 
-/** Ids of the road edges that the shown future goes over without leave; none where the generator names none. */
+/** Ids of the road edges that the shown future crosses without permission; none where the generator names none. */
 export function edgesInTheWay(e: Editor, a: Agent): readonly string[] {
   const over = brokenRules(e, a).flatMap((f) => (f.edge !== null && leavesRoad(f) ? [f.edge] : []));
   return [...new Set(over)].filter((id) => !a.goal.mayCross.includes(id));
 }
 
-/** Leave to go over what the shown future goes over, for this goal alone. */
+/** Permission to cross the edges of the shown future, for this goal only. */
 export function leaveToCross(e: Editor, a: Agent): Leave | null {
   const edges = edgesInTheWay(e, a);
   if (!edges.length) return null;
@@ -96,7 +96,7 @@ export function leaveToCross(e: Editor, a: Agent): Leave | null {
   return { words: words.allow, command: goalStep(a, goal, `${a.name} ${words.may}`) };
 }
 
-/** What it may go over, and the command that takes this back; null where there is nothing. */
+/** The edges that the goal may cross, and the command that withdraws this; null where there are none. */
 export function leaveGiven(e: Editor, a: Agent): Leave | null {
   if (!a.goal.mayCross.length) return null;
   const { may, mayNot } = crossingWords(e.scene.value!.map, a.goal.mayCross);

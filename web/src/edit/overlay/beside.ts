@@ -1,4 +1,4 @@
-// Another way that the scene could go, dashed: whoever does another thing there, and the way that it takes.
+// An alternative motion of the scene, dashed: each road user that differs, and its path.
 import { motionOf } from '../../model/physics/playback';
 import { poseAt } from '../../model/base/motion';
 import { sameSpec, startPose, type Agent, type Scene } from '../../model/document/scene';
@@ -16,16 +16,16 @@ const WAY_DASH = [6, 5];
 const BOX_DASH = [4, 3];
 const TRIED_DASH = [8, 6];
 const TRIED_ALPHA = 0.22;
-/** Those in a moment are ringed for so long before and after it. */
+/** The road users of a moment are ringed for this long before and after it. */
 const NOW_S = 0.45;
 
-/** Ways that were tried, all in one thin pale stroke: where a search has looked. */
+/** Paths tried by a search, all in one thin pale stroke. */
 export function paintTries(g: Pen, v: View, tries: Tries): void {
   if (!tries.length) return;
   g.beginPath();
   for (const way of tries) traceLine(g, v, way);
   g.strokeStyle = colours()['ink-2'];
-  // Thinner ones lie over each other one by one, and many would be black.
+  // Thinner separate strokes overlap, and many would look black.
   g.lineWidth = 1.25;
   g.lineCap = 'round';
   g.lineJoin = 'round';
@@ -45,11 +45,11 @@ export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, tim
   }
 }
 
-/** The moment of it that is pointed out: rings around those in it, and its words at the place. */
+/** The pointed-out moment: rings around its road users, and its words at the place. */
 export function paintMeeting(g: Pen, v: View, labels: Labels, { scene, set, meeting }: Beside, time: number): void {
   if (!meeting) return;
   const c = colours();
-  // Who is in it stands there in full, with its whole way; everybody else of the case is dashed.
+  // Road users of the moment are drawn in full with their whole path; all others of the case are dashed.
   for (const id of meeting.who) {
     const a = scene.agents.get(id);
     const m = a && motionOf(scene, set, a);
@@ -74,7 +74,7 @@ export function paintMeeting(g: Pen, v: View, labels: Labels, { scene, set, meet
   });
 }
 
-/** What the document there says otherwise: start and goal of whoever is changed, dashed, with the new values. */
+/** What the tried document changes: start and goal of each changed road user, dashed, with the new values. */
 export function paintTried(
   g: Pen,
   v: View,

@@ -1,4 +1,4 @@
-// What the overlay shows of everybody: who changed since the last change.
+// Part of the overlay about all road users: reactions to the last change.
 import type { Pen } from '../../draw/pen';
 import type { Pose } from '../../model/base/geometry';
 import { poseAt } from '../../model/base/motion';
@@ -11,7 +11,7 @@ import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 
-/** More labels than these would hide what they are about; the list has them all. */
+/** More labels would cover the road users; the list is complete. */
 export const LABELS = 3;
 
 export class ChangesOverlay {
@@ -21,7 +21,7 @@ export class ChangesOverlay {
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {}
 
-  /** Dashed: where the others would have gone before the last change. */
+  /** Dashed: paths of the others before the last change. */
   paintBefore(g: Pen, v: View): void {
     const { editor: e } = this;
     const scene = e.scene.value!;

@@ -1,4 +1,4 @@
-// Events on the overlay: rings around those in one at the playhead, and a label at the one that is picked.
+// Events on the overlay: rings around their road users at the playhead, and a label at the selected one.
 import type { Pen } from '../../draw/pen';
 import type { TrafficEvent } from '../../model/words/event-words';
 import type { Pose } from '../../model/base/geometry';
@@ -16,7 +16,7 @@ import { TEXTS } from '../../texts/editing/picture';
 
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;
-/** So many events of another time are shown beside the one that is picked. */
+/** Number of events at other times that are shown beside the selected one. */
 const MOST_ELSEWHERE = 3;
 
 const isNow = (ev: TrafficEvent, t: number): boolean =>
@@ -36,7 +36,7 @@ export class EventsOverlay {
     const pose = (a: Agent): Pose | null => this.poseNow(this.now(a));
     if (picked) this.paintPicked(g, v, picked);
     for (const ev of e.reading.events.value) {
-      // What is in the log shows itself only when somebody asks.
+      // An event of the recording appears only when selected.
       if (ev !== picked && (ev.inLog || !isNow(ev, t))) continue;
       paintMarks(g, v, this.labels, ev, isNow(ev, t) ? pose : null);
       if (!this.saidOnLine(ev)) paintLabel(g, v, this.labels, ev);
@@ -47,14 +47,14 @@ export class EventsOverlay {
     return this.editor.scene.value!.agents.get(a.id) ?? a;
   }
 
-  /** How those in the picked event come to it and go on, and who is in others, where they are then. */
+  /** The paths of both before and after the selected event, and the road users of other events at their poses then. */
   private paintPicked(g: Pen, v: View, picked: TrafficEvent): void {
     const { editor: e } = this;
     for (const [who, width] of [
       [picked.b, 1.6],
       [picked.a, 2.5],
     ] as const) {
-      // The futures of who is selected are there already.
+      // The futures of the selected road user are drawn already.
       if (!who || (who.id === e.selection.value && e.view.layers.value.futures)) continue;
       const a = this.now(who);
       trail(g, v, e.reading.motionFor(a), { colour: colours()[colourKey(a)], width, halo: true, dots: width > 2 });
@@ -74,7 +74,7 @@ export class EventsOverlay {
     }
   }
 
-  /** The words stand on the line of the selected road user already. */
+  /** The words are on the line of the selected road user already. */
   private saidOnLine(ev: TrafficEvent): boolean {
     const { editor: e } = this;
     if (!e.view.layers.value.futures || (ev.a.id !== e.selection.value && ev.b?.id !== e.selection.value)) return false;
@@ -83,7 +83,7 @@ export class EventsOverlay {
   }
 }
 
-/** What happens at a time, with its words. */
+/** Events at a time, with their words. */
 export function paintEventsAt(
   g: Pen,
   v: View,
@@ -99,7 +99,7 @@ export function paintEventsAt(
   }
 }
 
-/** Rings around those in it, and a cross where they meet. */
+/** Rings around the road users, and a cross where they meet. */
 function paintMarks(
   g: Pen,
   v: View,

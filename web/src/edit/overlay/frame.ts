@@ -1,4 +1,4 @@
-// The frame around several selected road users, and where everybody is at the playhead.
+// The frame around several selected road users, and poses at the playhead.
 import type { Pose, Vec } from '../../model/base/geometry';
 import { poseAt } from '../../model/base/motion';
 import { startPose, type Agent } from '../../model/document/scene';
@@ -7,7 +7,7 @@ import { boxOnScreen } from '../../draw/sprites';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 
-/** Where somebody is at the playhead. */
+/** Pose of a road user at the playhead. */
 export function poseShown(e: Pick<Editor, 'chosenOnes' | 'playhead' | 'reading' | 'selected'>, a: Agent): Pose | null {
   const t = e.playhead.time.value;
   return (t < 0.05 ? startPose(a) : null) ?? poseAt(e.reading.motionFor(a), t);
@@ -23,7 +23,7 @@ export interface Frame {
 
 const MARGIN_PX = 10;
 const STALK_PX = 26;
-/** Null where fewer than two are selected and to be seen. */
+/** Null where fewer than two selected ones are visible. */
 export function frameAround(
   e: Pick<Editor, 'chosenOnes' | 'playhead' | 'reading' | 'selected'>,
   v: View,

@@ -1,4 +1,4 @@
-// What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
+// Reactions of the others during a drag: where each would wait or be slowest if the drag ended now.
 import type { Pen } from '../../draw/pen';
 import type { Change } from '../../model/words/change-words';
 import type { Pose } from '../../model/base/geometry';
@@ -13,7 +13,7 @@ import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import { LABELS } from './changes';
 
-/** Nearer to its own box than this share of its length, a ghost is an outline only. */
+/** Nearer to its own box than this share of its length, a ghost is only an outline. */
 const OVER_ITSELF = 0.6;
 
 export class GhostOverlay {
@@ -36,7 +36,7 @@ export class GhostOverlay {
     return this.editor.scene.value?.agents.get(c.id);
   }
 
-  /** Ways, real boxes and ghosts, those most affected on top. */
+  /** Paths, real boxes and ghosts, the most affected on top. */
   paint(g: Pen, v: View): void {
     const { editor: e } = this;
     const foreseen = e.view.showPreviewed.value ? (e.answers.previewed.value ?? []) : [];
@@ -53,10 +53,10 @@ export class GhostOverlay {
         brakes: c.reaction?.kind === 'waits' || c.reaction?.kind === 'slows',
         filled: away > OVER_ITSELF * a.length,
       };
-      // Who comes in later goes from where it is first seen.
+      // A late arrival moves from where it first appears.
       paintWay(g, v, c.after, Math.max(t, (c.after.valid[0]?.[0] ?? 0) * STEP_S), c.at, style);
       if (now && here) {
-        // The real box stays where it is, at full strength.
+        // The real box stays in place, at full strength.
         stamp(g, v, a, now);
         g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
         this.block(v, a, now);
@@ -71,7 +71,7 @@ export class GhostOverlay {
     this.labels.block(x - 2, y - 2, w + 4, h + 4);
   }
 
-  /** One small cause for each of those most affected, and their names at their own boxes. */
+  /** A short cause for each of the most affected, and their names at their own boxes. */
   paintLabels(g: Pen, v: View): void {
     const first = this.shown.filter((s) => s.here).slice(0, LABELS);
     for (const { ghost: c, alpha } of first) {

@@ -1,4 +1,4 @@
-// The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
+// The goal of the selected road user on the overlay: flag, handles, reach, and labels of a drag.
 import type { Pen } from '../../draw/pen';
 import type { Pose } from '../../model/base/geometry';
 import { reachableWays, reachBetween, shortfall } from '../../model/physics/reach';
@@ -16,13 +16,13 @@ import { outOfReach, type OutOfReach } from '../moves/goal-verdict';
 import { TEXTS } from '../../texts/editing/picture';
 
 export class GoalOverlay {
-  /** Where the time tag was painted, for the pointer. */
+  /** Painted place of the time tag, for the pointer. */
   timeTag: { x: number; y: number; w: number; h: number } | null = null;
 
   constructor(
     private readonly editor: Editor,
     private readonly labels: Labels,
-    /** Is the future in force the only answer? */
+    /** Is the followed future the only answer? */
     private readonly isDecided: () => boolean,
   ) {}
 
@@ -49,7 +49,7 @@ export class GoalOverlay {
     }
   }
 
-  /** Where it can be at the goal time, whatever its goal is. */
+  /** All places it can reach by the goal time, whatever its goal. */
   paintAllReach(g: Pen, v: View, a: Agent): void {
     const { map } = this.editor.scene.value!;
     const start = startPose(a);
@@ -59,7 +59,7 @@ export class GoalOverlay {
     else paintWays(g, v, reachableWays(map, a, start, t));
   }
 
-  /** How far it gets, and what lies beyond. */
+  /** The limit of its reach, and the part of the way beyond. */
   paintReach(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const r = e.reading.localReach.value;
@@ -109,7 +109,7 @@ export class GoalOverlay {
     const said = bad && !bad.outranked;
     const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(a.goal.time)) : TEXTS.goalFree;
     if (drag?.part === 'goal' && drag.handle === 'body') return;
-    // Beside the words of a stop there is no room for what nobody asked for.
+    // A free goal has no label beside the words of a stop.
     if (!goal.set && this.isDecided()) return;
     const r = pill(
       g,
@@ -148,7 +148,7 @@ export class GoalOverlay {
     paintFlag(g, this.labels, v.to(nearest.x, nearest.y), c.goal, true, v.grip);
   }
 
-  /** After the handles, which would cover it. */
+  /** Painted after the handles, which would cover it. */
   labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
     const c = colours();
     const [x, y] = v.to(nearest.x, nearest.y);
@@ -175,7 +175,7 @@ export class GoalOverlay {
       );
   }
 
-  /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
+  /** A dotted line from the flag to the pointer, while a kerb holds the flag back. */
   private paintLag(g: Pen, v: View, { from, to, touch }: Lag): void {
     const hand = v.to(to[0], to[1]);
     paintString(g, v.to(from[0], from[1]), hand);

@@ -1,4 +1,4 @@
-// The future under the pointer, played in place: a box runs along it, again and again, while everybody else stands.
+// The future under the pointer, replayed in place: a box runs along it in a loop, while all others stand.
 import type { Pen } from '../../draw/pen';
 import { endPose, lastStep, poseAt, STEP_S, type Motion } from '../../model/base/motion';
 import type { Agent } from '../../model/document/scene';
@@ -7,12 +7,12 @@ import { colours, modeColour } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 
-/** Scene seconds a second. */
+/** Scene seconds per second. */
 const RATE = 4;
-/** It stands at the end so long before it starts again, seconds. */
+/** Pause at the end before the next run, seconds. */
 const REST_S = 0.6;
 
-/** Seconds of the scene that the box shows so many after the pointer came. */
+/** Scene time of the box, this many seconds after the pointer entered. */
 export function replayed(seconds: number, end: number): number {
   const round = end / RATE + REST_S;
   return Math.min(end, (seconds % round) * RATE);
@@ -25,7 +25,7 @@ export class HoveredOverlay {
 
   constructor(private readonly editor: Pick<Editor, 'drag' | 'hoverFuture' | 'playhead' | 'reading'>) {}
 
-  /** Does a box run? It is to be painted again then. */
+  /** Does a box run? Then the overlay needs another frame. */
   get running(): boolean {
     return this.of !== null && !this.calm.matches;
   }
@@ -52,7 +52,7 @@ export class HoveredOverlay {
     g.globalAlpha = 1;
   }
 
-  /** Nobody is selected: nothing runs. */
+  /** No road user is selected: nothing runs. */
   stop(): void {
     this.of = null;
   }

@@ -1,4 +1,4 @@
-// The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
+// The overlay: selection, handles, futures, labels, ghosts, events. A drag frame paints only this canvas.
 import type { Pen } from '../../draw/pen';
 import type { Pose } from '../../model/base/geometry';
 import { endPose, endsBefore, poseAt } from '../../model/base/motion';
@@ -29,16 +29,16 @@ import { paintVias } from './via';
 import { pinsApart } from '../moves/pins';
 import { TEXTS } from '../../texts/editing/picture';
 
-/** Alpha of the refinement steps left behind, newest first. */
+/** Alpha of earlier refinement steps, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
-/** The rail of tools down to its end, pixels; what is left of the picture says whether there is one, and a drawer. */
+/** Lower end of the tool rail, pixels; the free part of the picture shows whether the rail and a drawer are open. */
 const RAIL_H = 484;
 const RAIL_W = 62;
 const DRAG_HELP_W = 650;
-/** Above the zoom control, or above the thumb on a small page. */
+/** Above the zoom control, or above the lower edge on a small page. */
 const COMPASS_PX = 84;
-/** The ring around the handle that keys move, outside of what the handle is. */
+/** The ring around the handle that keys move, outside the handle itself. */
 const KEYED_PX = 15;
 const RAIL_LEAST = 40;
 const RAIL_MOST = 140;
@@ -46,7 +46,7 @@ const RAIL_MOST = 140;
 const TOAST_W = 420;
 
 export class Overlay {
-  /** Where the letters were painted, for the pointer. */
+  /** Painted places of the letters, for the pointer. */
   chips: Chip[] = [];
   private readonly labels = new Labels();
   private readonly goal: GoalOverlay;
@@ -61,7 +61,7 @@ export class Overlay {
     private readonly editor: Editor,
     private readonly tools: readonly ToolOverlay[],
     private readonly poseNow: (a: Agent) => Pose | null,
-    /** What is on the picture under it and better left to be seen. */
+    /** Areas of the picture underneath to be kept free. */
     private readonly below: () => Taken,
   ) {
     this.goal = new GoalOverlay(editor, this.labels, () => this.isDecided);
@@ -73,17 +73,17 @@ export class Overlay {
     this.hovered = new HoveredOverlay(editor);
   }
 
-  /** Where the time tag was painted, for the pointer. */
+  /** Painted place of the time tag, for the pointer. */
   get timeTag(): GoalOverlay['timeTag'] {
     return this.goal.timeTag;
   }
 
-  /** Where the way by the road was painted, for the pointer. */
+  /** Painted place of the road route's sign, for the pointer. */
   get roadSign(): VerdictOverlay['roadSign'] {
     return this.verdicts.roadSign;
   }
 
-  /** Does something fade, run or come? It is to be painted again then. */
+  /** Is an animation running or a part still loading? Then the overlay needs another frame. */
   get moving(): boolean {
     return this.ghosts.fading || this.hovered.running || this.tools.some((t) => t.coming);
   }
@@ -126,7 +126,7 @@ export class Overlay {
     this.paintHover(g, v);
     const a = e.agent.value;
     const beside = e.view.beside.value;
-    // A hand that moves comes first: they are many.
+    // The many tries are hidden during a drag, which goes first.
     if (!e.drag.info.value) paintTries(g, v, e.view.tries.value);
     if (beside) paintBeside(g, v, beside, e.playhead.time.value);
     if (e.view.showBefore.value && !beside) this.changes.paintBefore(g, v);
@@ -148,18 +148,18 @@ export class Overlay {
   /** Rectangles of the panels over the picture, which labels keep clear of. */
   private panels(v: View): (readonly [number, number, number, number])[] {
     const { left, right, bottom } = v.inset;
-    // Above a sheet they stand higher.
+    // Above a sheet they are higher.
     const y = v.h - (bottom > 60 ? bottom + 44 : 52);
     const drawer = left > RAIL_MOST ? left - 12 : 0;
     // On a small page there is no rail.
     const rail = left < RAIL_LEAST ? 0 : drawer ? RAIL_W : left - 6;
     return [
       [drawer, y, 400, v.h - y],
-      // The help of a drag is longer than what stands there otherwise.
+      // The help of a drag is longer than the usual content.
       ...(this.editor.drag.info.value ? ([[v.w - DRAG_HELP_W, y, DRAG_HELP_W, v.h - y]] as const) : []),
       [v.w - 160, y, 160, v.h - y],
       [v.w - 260, 0, 260, 52],
-      // The compass, while it is there.
+      // The compass, while visible.
       ...(v.turn ? ([[v.w - right - COMPASS_PX, y - COMPASS_PX, COMPASS_PX, COMPASS_PX]] as const) : []),
       [0, 0, rail, RAIL_H],
       [drawer ? RAIL_W : 0, 0, drawer, drawer ? v.h : 0],
@@ -275,7 +275,7 @@ export class Overlay {
     g.stroke();
   }
 
-  /** Are the futures of the selected road user shown? While cards are scenes they are not what is looked at. */
+  /** Are the futures of the selected road user shown? While whole-scene cards are shown, they are not. */
   private get six(): boolean {
     return this.editor.view.layers.value.futures && !this.editor.reading.cards.shownSet();
   }
@@ -284,7 +284,7 @@ export class Overlay {
     return this.tools.some((t) => t.isDecided);
   }
 
-  /** Is a change tried? What is now steps back behind it. */
+  /** Is a change being tried? The current state is dimmed behind it. */
   private get trying(): boolean {
     return this.editor.view.beside.value?.tried === true;
   }
@@ -323,7 +323,7 @@ export class Overlay {
     }
   }
 
-  /** Those whose verdicts are shown: of futures from before a change nothing is said. */
+  /** Futures with shown verdicts; none for futures from before a change. */
   private judged(a: Agent, f: Futures): readonly number[] {
     const { editor: e } = this;
     if (!verdictsHold(e) || this.trying) return [];
@@ -333,17 +333,17 @@ export class Overlay {
     return f.modes.map((_, i) => i);
   }
 
-  /** Its goal cannot be reached, and nothing worse is to be said: the futures end where it gets. */
+  /** Its goal is unreachable without a more serious fault: the futures end at the reachable place. */
   private tooFar(a: Agent): boolean {
     const bad = a.goal.pos ? outOfReach(this.editor, a) : null;
     return bad !== null && !bad.outranked && bad.nearest !== null;
   }
 
-  /** Away from the start only the future in force is shown: it is what happens. */
+  /** Away from the start only the followed future is shown, since it is the motion of the scene. */
   private committed(a: Agent): boolean {
     const { editor: e } = this;
     if (!touched(a) || e.reading.cards.ofAgent(a.id) || e.drag.info.value || e.hoverFuture.value !== null) return false;
-    // Of a speed drawn by hand the others are no answer.
+    // With a drawn speed profile the other futures do not apply.
     return e.playhead.time.value > 0.05 || this.isDecided;
   }
 
@@ -368,7 +368,7 @@ export class Overlay {
       );
   }
 
-  /** With a goal all futures end together, so only those that miss it carry their letter. */
+  /** With a goal all futures end together, so only those that miss it have their letter. */
   private chipIndexes(a: Agent, n: number, committed: boolean): number[] {
     const { editor: e } = this;
     const hovered = e.hoverFuture.value;

@@ -1,4 +1,4 @@
-// What is on the canvases for the present state of the editor. A drag frame paints the overlay alone.
+// Paints the canvases for the current state of the editor. A drag frame paints only the overlay.
 import type { Pen } from '../../draw/pen';
 import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../../model/base/geometry';
@@ -27,9 +27,9 @@ const REACT_MS = 320;
 
 export class Picture {
   private map: MapPicture | null = null;
-  /** Where road users and their names were painted last, in pixels: words over the picture keep off them. */
+  /** Last painted places of road users and their names, in pixels: labels avoid them. */
   taken = new Taken([]);
-  /** Where pennants were painted last, for the pointer. */
+  /** Last painted places of pennants, for the pointer. */
   pennants: Pennant[] = [];
   private zones: { map: LaneMap; scene: Scene; set: MotionSet; all: readonly Zone[] } | null = null;
   private reactFrom: { motion: MotionSet; at: number } | null = null;
@@ -55,7 +55,7 @@ export class Picture {
         stage.invalidate('map');
       }
       stage.invalidate('overlay');
-      // While a handle is dragged the others do not move, so their canvas is left alone.
+      // During a drag the others do not move, so their canvas is not repainted.
       if (!e.drag.info.peek()) stage.invalidate('agents');
     });
     effect(() => {
@@ -123,7 +123,7 @@ export class Picture {
     }
   }
 
-  /** Where a road user stands at the playhead; moving over from the old answer to the new one within 320 ms. */
+  /** Pose of a road user at the playhead; blends from the old answer to the new one within 320 ms. */
   poseNow(a: Agent): Pose | null {
     const { editor: e } = this;
     const t = e.playhead.time.value;
@@ -136,7 +136,7 @@ export class Picture {
       return p;
     }
     const old = poseAt(motionOf(e.scene.value!, this.reactFrom.motion, a), t);
-    // Rings and labels go along.
+    // Rings and labels move too.
     this.stage.invalidate('agents', 'overlay');
     return old ? mixPose(old, p, 1 - (1 - k) ** 3) : p;
   }
@@ -162,7 +162,7 @@ export class Picture {
       const p = this.poseNow(a);
       if (p && v.shows(p.x, p.y, 40)) shown.push([a, p]);
     }
-    // Parked below, large before small, so that nobody on foot hides under a bus.
+    // Parked below, large before small, so that no pedestrian is hidden under a bus.
     shown.sort(
       (p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width,
     );
@@ -177,7 +177,7 @@ export class Picture {
     this.taken = new Taken([...shown.map(([a, p]) => boxOnScreen(v, a, p)), ...names]);
   }
 
-  /** Worked out anew when somebody does something else; while a hand moves they stay as they were. */
+  /** Computed again when a motion changes; during a drag they stay. */
   private conflicts(scene: Scene): readonly Zone[] {
     const { answers, drag } = this.editor;
     const set = answers.motion.peek();
@@ -187,7 +187,7 @@ export class Picture {
     return this.zones.all;
   }
 
-  /** Pennants at the goals of all who are not selected alone, and locks. */
+  /** Pennants at the goals of all except the single selected one, and locks. */
   private paintMarks(g: Pen, v: View, shown: [Agent, Pose][]): void {
     const { editor: e } = this;
     this.pennants = [];
@@ -204,7 +204,7 @@ export class Picture {
     for (const [a, p] of shown) if (a.locked) paintLock(g, ...v.to(p.x, p.y));
   }
 
-  /** One that was parked in the log, and drives now. */
+  /** Parked in the recording, and driving now. */
   private drives(a: Agent): boolean {
     const m = this.editor.reading.motionFor(a);
     return m !== a.log && !isStill(m);

@@ -1,5 +1,5 @@
-// Pinned futures that are none of those that are drawn now: in ink, with the pin at their end; dashed, with the reason,
-// where they fit no more.
+// Pinned futures that are none of the drawn ones: in ink, with the pin at their end; dashed, with the reason, where
+// they no longer fit.
 import { pill, type Labels } from '../../draw/labels';
 import type { Pen } from '../../draw/pen';
 import { lastInView, trail } from '../../draw/strokes';

@@ -1,4 +1,4 @@
-// What the overlay shows of several: the frame around them, and whom a sweep takes.
+// Overlay of several: the frame around them, and the road users inside a sweep.
 import type { Pose, Vec } from '../../model/base/geometry';
 import { kindsWords } from '../../model/base/kinds';
 import type { Agent } from '../../model/document/scene';
@@ -13,9 +13,9 @@ import type { Editor } from '../session/editor';
 import { frameAround, type Frame } from './frame';
 
 const CORNER_PX = 8;
-/** Beyond so many each one's own way would hide the others'. */
+/** Beyond this number each one's path would hide the others'. */
 const MOST_WAYS = 24;
-/** More than these are a crowd, whose arrows are kept short, pixels. */
+/** Beyond this number arrows are kept short, pixels. */
 const CROWD = 8;
 const SHORT_PX = 14;
 

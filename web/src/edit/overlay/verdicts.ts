@@ -1,5 +1,4 @@
-// What is wrong with the futures of the selected road user, on the lines themselves: stretches, ground, and a word
-// at each place.
+// Faults of the selected road user's futures on the lines themselves: stretches, ground, and a word at each place.
 import type { Pen } from '../../draw/pen';
 import type { Fault } from '../../model/document/future-facts';
 import { faultPlaces, type FaultPlace } from '../../model/physics/fault-places';
@@ -17,11 +16,11 @@ import type { Editor } from '../session/editor';
 import { roadWay } from '../moves/ways-out';
 import { TEXTS } from '../../texts/editing/picture';
 
-/** More places than these are counted, not named. */
+/** Places beyond this number are counted, not named. */
 const NAMED = 3;
 
 export class VerdictOverlay {
-  /** Where the way by the road was painted, for the pointer. */
+  /** Painted place of the road route's sign, for the pointer. */
   roadSign: RoadSign | null = null;
 
   constructor(
@@ -29,7 +28,7 @@ export class VerdictOverlay {
     private readonly labels: Labels,
   ) {}
 
-  /** Under the paths: the ground that the shown one crosses and should not. */
+  /** Under the paths: ground that the shown one crosses against the rules. */
   paintGround(g: Pen, v: View, a: Agent, f: Futures, visible: readonly number[], until = Infinity): void {
     const crossed = ({ kind, time }: Fault): boolean =>
       (kind === 'over_median' || kind === 'off_road') && time <= until;
@@ -63,7 +62,7 @@ export class VerdictOverlay {
     }
   }
 
-  /** One word at each place; a red path never goes without. */
+  /** One word at each place; a red path always has one. */
   paintWords(g: Pen, v: View, f: Futures, visible: readonly number[], most = NAMED): void {
     const inView = (p: FaultPlace): boolean => !this.labels.outside(...v.to(p.fault.at[0], p.fault.at[1]));
     const places = faultPlaces(f, visible, this.editor.reading.chosen.value).filter(inView);
@@ -75,7 +74,7 @@ export class VerdictOverlay {
     places.slice(0, most).forEach((p) => {
       const [x, y] = v.to(p.fault.at[0], p.fault.at[1]);
       const words = placeWord(p.fault, nameOf);
-      // Of others than the shown one it is said which: the panel tells of the shown one.
+      // Words on other futures name their letters; the panel covers the shown one.
       const of = p.futures.includes(this.editor.reading.chosen.value) ? '' : `${lettersOf(p.futures)} · `;
       pill(g, this.labels, x, y, `${of}${words}`, pillStyle(p));
     });
@@ -87,18 +86,18 @@ export class VerdictOverlay {
     }
   }
 
-  /** Under the paths: the way by the road, out of a goal that is reached against the rules. */
+  /** Under the paths: the route by the road, for a goal reached by breaking rules. */
   paintRoadBand(g: Pen, v: View, a: Agent): void {
     const way = roadWay(this.editor, a);
     if (!way) return;
     polyline(g, v, way.path, colours().goal, Math.max(6, a.width * 1.5 * v.z), 0.2, [], 'round');
-    // Labels that are placed before the flag is painted leave it room.
+    // Labels placed before the flag is painted leave space for it.
     if (!way.to) return;
     const [x, y] = v.to(way.to.x, way.to.y);
     this.labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
   }
 
-  /** Where it leads to, hollow: a click takes it. */
+  /** The goal of that route, hollow: a click takes it. */
   paintRoadWay(g: Pen, v: View, a: Agent): void {
     const way = roadWay(this.editor, a);
     if (!way) return;
@@ -121,7 +120,7 @@ export class VerdictOverlay {
   }
 }
 
-/** The sign of the way by the road on the picture: its label, and the foot of its flag. */
+/** The sign of the road route on the picture: its label, and the foot of its flag. */
 export interface RoadSign {
   readonly label: Rect | null;
   readonly flag: Vec | null;
@@ -154,7 +153,7 @@ const stretchOf = (f: Futures, i: number, fault: Fault): Stretch => ({
 const stretchesOf = (f: Futures, visible: readonly number[], want: (fault: Fault) => boolean): Stretch[] =>
   visible.flatMap((i) => (f.modes[i].about?.faults ?? []).filter(want).map((fault) => stretchOf(f, i, fault)));
 
-/** Small boxes along the paths, which words keep clear of. */
+/** Small boxes along the paths, which labels avoid. */
 function pathBoxes(v: View, f: Futures, visible: readonly number[]): Rect[] {
   const out: Rect[] = [];
   for (const i of visible) {

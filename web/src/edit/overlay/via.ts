@@ -11,7 +11,7 @@ import type { Editor } from '../session/editor';
 import { verdictsHold } from '../moves/goal-verdict';
 import { TEXTS } from '../../texts/editing/via';
 
-/** Diamonds of those that are missed are hollow, and say by how much. */
+/** Diamonds of missed via points are hollow, and their label has the distance. */
 export function paintVias(g: Pen, labels: Labels, v: View, e: Editor, a: Agent): void {
   const all = a.goal.via;
   if (!all.length) return;

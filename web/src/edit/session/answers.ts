@@ -1,5 +1,5 @@
-// What the generator has answered, and how far it is: the motion in force, the draft on its way, who changed, the
-// status line, and whether the generator is there at all.
+// Answers of the generator: the motion in force, the current draft, reactions, the status line, and whether the
+// generator is reachable.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { findChanges, type Change } from '../../model/words/change-words';
 import {
@@ -20,14 +20,14 @@ import { onlyPicked, type Step } from '../document/step';
 export type Status =
   | { kind: 'loading' }
   | { kind: 'ready' }
-  /** `part`: the seconds that a later window is about. */
+  /** `part`: the seconds of a later planning window. */
   | { kind: 'refining'; step: number; steps: number; ms: number; part?: string }
   | { kind: 'slow'; ms: number }
   | { kind: 'settled'; ms: number; adapted: number | null }
   | { kind: 'away' }
   | { kind: 'refused'; words: string };
 
-/** Futures on their way: the latest draft and the ones before it, which stay behind as trails. */
+/** Drafts: the latest and the ones before it, which remain as trails. */
 export interface Draft {
   readonly id: string;
   readonly futures: Futures;
@@ -64,19 +64,19 @@ export class Answers {
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
   readonly #cache = new ByDocument<MotionSet>();
-  /** Who else changed with the step that led to a document. */
+  /** Reactions to the step that led to a document. */
   readonly #told = new ByDocument<{ readonly key: string; readonly changes: readonly Change[] }>();
 
-  /** Everything worked out for the document, or for the one before it when `stale`. */
+  /** All answers for the document, or for the one before it when `stale`. */
   readonly motion: ReadonlySignal<MotionSet> = this.#motion;
   readonly draft: ReadonlySignal<Draft | null> = this.#draft;
-  /** Who else does something else since the last change. */
+  /** Road users that changed their motion because of the last change. */
   readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
-  /** Who else would change if one let go now; null where nobody has asked, or nobody has answered yet. */
+  /** Road users that would change if the drag ended now; null where not requested or not answered yet. */
   readonly previewed: ReadonlySignal<readonly Change[] | null> = this.#previewed;
-  /** The generator's verdict on the goal as it is being dragged. */
+  /** The generator's verdict on the dragged goal. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
-  /** Why another future is shown than the one that was bold in the drag. */
+  /** Why the shown future is not the one that was bold in the drag. */
   readonly remark: ReadonlySignal<Remark | null> = this.#remark;
   readonly status: ReadonlySignal<Status> = this.#status;
   /** Null while the generator answers. */
@@ -92,14 +92,14 @@ export class Answers {
       this.#liveReach.value = null;
       this.#remark.value = null;
       const known = saved ?? emptyMotion(sceneKey(scene));
-      // What a pinned future is stands in the document, also where its answer was not kept.
+      // The document stores taken pinned futures, even where their answer was not stored.
       this.#motion.value = { ...known, futures: withTaken(scene, known.futures) };
       if (saved) this.#cache.put(this.#motion.value);
       this.#status.value = { kind: 'ready' };
     });
   }
 
-  /** Somebody else is selected: what was said about the last one is over. */
+  /** Another selection: verdict and draft of the last one end. */
   forgetLook(): void {
     batch(() => {
       this.#draft.value = null;
@@ -108,7 +108,7 @@ export class Answers {
     });
   }
 
-  /** A drag begins: who changed the last time is no longer of interest. */
+  /** A drag begins: reactions to the last change are no longer of interest. */
   dragBegan(): void {
     batch(() => {
       this.#changes.value = [];
@@ -138,21 +138,20 @@ export class Answers {
     }
   }
 
-  /** What is on screen no longer answers the document; it stays, marked. */
+  /** The shown answers no longer fit the document; they stay, marked as stale. */
   outdate(): void {
     this.#motion.value = { ...this.#motion.peek(), stale: true };
   }
 
   /**
-   * The document changed. Known answers appear at once; otherwise the old ones stay, marked as out of date. `fresh`
-   * is the one road user whose futures still hold. Done `again`,
-   * whether by redo or anew, a step says once more who else changed with it.
+   * The document changed. Known answers appear at once; otherwise the old ones stay, marked as stale. `fresh`: the one
+   * road user whose futures still hold. `again` (redo or repeat): the known reactions to the step are reported again.
    */
   #documentChanged(scene: Scene, fresh: string | null, again: boolean): void {
     const key = sceneKey(scene);
     const known = this.#cache.get(key);
     const now = this.#motion.peek();
-    // A name or a note is nothing that the generator knows of.
+    // Names and notes do not reach the generator.
     if (now.key === key && !now.stale) return;
     batch(() => {
       this.#forgetGone(scene);
@@ -173,7 +172,9 @@ export class Answers {
     });
   }
 
-  /** Other things count: everybody goes on as they do. Looks that nobody follows are judged when asked anew. */
+  /**
+   * Only what is counted changed: all motions stay. Futures that no road user follows are judged at the next request.
+   */
   #countsOtherwise(scene: Scene): void {
     const key = sceneKey(scene);
     const m = this.#motion.peek();
@@ -181,7 +182,7 @@ export class Answers {
     this.#motion.value = this.#cache.get(key) ?? { ...m, key, futures };
   }
 
-  /** Who has gone from the scene has no motion any more. */
+  /** A removed road user has no motion any more. */
   #forgetGone(scene: Scene): void {
     const m = this.#motion.peek();
     const d = this.#draft.peek();
@@ -192,7 +193,7 @@ export class Answers {
     this.#motion.value = { ...m, futures: here(m.futures), reach: here(m.reach), driving };
   }
 
-  /** Takes over what was worked out for the document as it is now; says who changed, but for those in `except`. */
+  /** Takes over the answer for the current document; reports the reactions, except those of ids in `except`. */
   settle(scene: Scene, set: MotionSet, except: ReadonlySet<string> | null, unit?: SpeedUnit): void {
     const before = this.#motion.peek();
     batch(() => {
@@ -206,12 +207,12 @@ export class Answers {
     });
   }
 
-  /** Takes note of what belongs to another document than the one on screen; it appears when that is taken. */
+  /** Caches answers for another document than the shown one; they appear when it is shown. */
   know(set: MotionSet): void {
     this.#cache.put(set);
   }
 
-  /** What the others would do; null when it is not known any more. */
+  /** Reactions of the others during a drag; null when no longer known. */
   preview(changes: readonly Change[] | null): void {
     this.#previewed.value = changes;
   }
@@ -224,7 +225,7 @@ export class Answers {
     this.#draft.value = null;
   }
 
-  /** A look at the six futures of one: kept beside the others', nobody follows them yet. */
+  /** Stores the six futures of one road user beside the others' motions; none is followed yet. */
   look(id: string, futures: Futures, reach: Reach | null): void {
     const m = this.#motion.peek();
     const next: MotionSet = {
@@ -243,7 +244,7 @@ export class Answers {
     this.#liveReach.value = { id, reach, moved: false };
   }
 
-  /** The verdict of the whole answer takes the place of the one during the drag. */
+  /** The verdict of the whole answer replaces the one during the drag. */
   dropLiveReach(): void {
     this.#liveReach.value = null;
   }

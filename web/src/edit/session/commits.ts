@@ -1,4 +1,4 @@
-// Changes of the document, and everything that follows from one: whoever follows a change does so at once with it.
+// Commits changes of the document; every joined part follows in the same batch.
 import { batch } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { Scene } from '../../model/document/scene';
@@ -13,13 +13,13 @@ export class Commits {
   constructor(
     private readonly document: Document,
     private readonly notices: Notices,
-    /** Who follows, in this order. */
+    /** Parts that follow, in this order. */
     private readonly parts: readonly Part[],
-    /** Are the answers those of the document? */
+    /** Do the answers belong to the document? */
     private readonly isAnswered: () => boolean,
   ) {}
 
-  /** Does a command as one undo step. A drag that goes on is released first: the command may go on from its preview. */
+  /** Runs a command as one undo step. A running drag is released first: the command may build on its preview. */
   run(command: Command): void {
     this.#commit(null, () => this.document.run(command));
   }
@@ -32,7 +32,7 @@ export class Commits {
     this.#travel('forth', () => this.document.redo());
   }
 
-  /** To any step of the history; null for how the scene was before the first. */
+  /** Goes to any step of the history; null for the scene before the first. */
   goTo(id: number | null): void {
     if (id === this.document.history?.head && !this.document.trial.peek()) return;
     const name = this.document.history?.step(id)?.name ?? TEXTS.backToTheBeginning;
@@ -43,19 +43,19 @@ export class Commits {
     if (commit) this.notices.say(TEXTS.nowAt(name));
   }
 
-  /** Another version of the same scene takes the place of this one; undo brings this one back. */
+  /** Replaces the document with another version of the same scene; undo restores this one. */
   adopt(name: string, scene: Scene): void {
     this.#commit('there', () => this.document.adopt(name, scene));
   }
 
-  /** Ends the drag that goes on with a command as its step, or without one. */
+  /** Ends the running drag with a command as its step, or without one. */
   release(command: Command | null): void {
     if (command) this.#follow(null, () => this.document.commit(command));
     else this.document.cancel();
     this.document.settle();
   }
 
-  /** A change was tried that cannot be made now: says why. */
+  /** A change was tried that is not possible now: reports why. */
   refused(): boolean {
     const lock: Lock | null = this.document.lock.peek();
     if (lock) this.notices.show({ text: lock.words, action: lock });
@@ -72,8 +72,8 @@ export class Commits {
   }
 
   /**
-   * `way`: where one travels in the history; null for a new step. A drag that goes on is released before `move`, so
-   * that nothing of it is lost.
+   * `way`: direction in the history; null for a new step. A running drag is released before `move`, so that its change
+   * is kept.
    */
   #commit<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
     if (!this.document.scene.peek() || this.refused()) return null;
@@ -82,7 +82,7 @@ export class Commits {
     return this.#follow(way, move);
   }
 
-  /** Everything else follows a commit, all at once. */
+  /** All parts follow a commit in one batch. */
   #follow<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
     const done = batch(() => {
       const commit = move();

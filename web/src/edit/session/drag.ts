@@ -1,4 +1,4 @@
-// A handle in the hand: what the document would be is previewed, and the release is one step.
+// A handle drag: previews the resulting document; the release is one step.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { Agent } from '../../model/document/scene';
@@ -15,18 +15,18 @@ export type HandleName = 'body' | 'heading' | 'speed' | 'time' | 'via' | 'ring';
 export interface Grip {
   readonly part: HandlePart;
   readonly handle: HandleName;
-  /** Which of the via points. */
+  /** Index of the via point. */
   readonly index?: number;
 }
 
-/** How far the flag lags behind the hand while a kerb holds it back: from where it is held to the pointer, metres. */
+/** Lag of the flag behind the pointer while a kerb holds it back: from the flag to the pointer, metres. */
 export interface Lag {
   readonly from: Vec;
   readonly to: Vec;
   readonly touch: boolean;
 }
 
-/** The lane under what is dragged, in words and by id, the stop line it holds to, and what holds it back. */
+/** The lane under the dragged handle, in words and by id, the stop line it snaps to, and the lag at a kerb. */
 export interface DragPlace {
   readonly laneName: string | null;
   readonly laneId: string | null;
@@ -37,7 +37,7 @@ export interface DragInfo extends DragPlace {
   readonly grip: Grip;
 }
 
-/** What a drag acts on. */
+/** The parts of the session that a drag uses. */
 export interface Dragged {
   readonly document: Document;
   readonly answers: Answers;
@@ -79,7 +79,7 @@ export class Drag {
     });
   }
 
-  /** A frame of the drag: the document as it would be. Nothing, where the drag has ended without the hand. */
+  /** A frame of the drag: previews the document. No effect once the drag has ended. */
   preview(command: Command): void {
     batch(() => {
       if (this.of.document.preview(command)) this.of.answers.dragMoved();
@@ -100,7 +100,7 @@ export class Drag {
     this.of.commits.release(command);
   }
 
-  /** Everything back to where it was before the drag. */
+  /** Restores everything to before the drag. */
   cancel(): void {
     const { answers, document, notices } = this.of;
     if (!document.trial.peek()) return;
@@ -112,7 +112,7 @@ export class Drag {
     document.settle();
   }
 
-  /** May a lane set this heading? It may where a lane set it before. */
+  /** May a lane set this heading? It may if a lane set it before. */
   headingFollows(part: HandlePart, a: Agent): boolean {
     return this.#snappedHeadings.has(`${part}:${a.id}`);
   }

@@ -1,5 +1,5 @@
-// The editing session: what is selected and pointed at, and the parts that everybody shares. What a panel shows is a
-// signal, to be read; it changes by named methods alone.
+// The editing session: selection, pointer target, and the shared parts. Panels read signals; only named methods change
+// them.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { KeptHistory } from '../../model/document/history';
 import type { Agent, Scene } from '../../model/document/scene';
@@ -25,7 +25,7 @@ export interface Keyed {
 
 export type Field = 'pos' | 'heading' | 'speed';
 
-/** What the pointer is over: one of the three, or nothing. */
+/** The pointer's target: one of the three, or none. */
 export interface Pointed {
   readonly agent?: string | null;
   readonly future?: number | null;
@@ -37,7 +37,7 @@ export interface MeasuredLine {
   readonly b: Vec;
 }
 
-/** What a marquee or a lasso goes round, in metres, and whom it takes. */
+/** Outline of a marquee or a lasso, in metres, and the ids inside. */
 export interface Sweep {
   readonly outline: readonly Vec[];
   readonly ids: readonly string[];
@@ -61,11 +61,11 @@ export class Editor {
 
   readonly document = new Document();
   readonly scene: ReadonlySignal<Scene | null> = this.document.shown;
-  /** The committed one: while a hand moves it stays as it was, and so does what is worked out from it. */
+  /** The committed scene: during a drag it stays unchanged, and so do all values computed from it. */
   readonly resting: ReadonlySignal<Scene | null> = this.document.scene;
-  /** Is there a scene? It changes less often than the scene does. */
+  /** Is a scene open? Changes less often than the scene does. */
   readonly isOpen = computed(() => this.resting.value !== null);
-  /** Ids of all that are selected, in the order in which they were taken. */
+  /** Ids of all selected ones, in the order of selection. */
   readonly selected: ReadonlySignal<readonly string[]> = this.#selected;
   /** Id of the selected road user; null where none is selected, or several. */
   readonly selection = computed(() => (this.selected.value.length === 1 ? this.selected.value[0] : null));
@@ -73,7 +73,7 @@ export class Editor {
     const id = this.selection.value;
     return (id && this.scene.value?.agents.get(id)) || null;
   });
-  /** The same as it was before the drag that goes on, for what a drag does not change. */
+  /** The same before the running drag, for values that a drag does not change. */
   readonly restingAgent = computed<Agent | null>(() => {
     const id = this.selection.value;
     return (id && this.resting.value?.agents.get(id)) || null;
@@ -81,17 +81,17 @@ export class Editor {
   readonly hover: ReadonlySignal<string | null> = this.#hover;
   readonly hoverFuture: ReadonlySignal<number | null> = this.#hoverFuture;
   readonly hoverGrip: ReadonlySignal<Grip | null> = this.#hoverGrip;
-  /** The handle that keys move now: it has the focus, and one sees where it is. */
+  /** The handle that keys move now: it has the focus, which is visible. */
   readonly keyed: ReadonlySignal<Keyed | null> = this.#keyed;
   /** The part that keys move. */
   readonly focusPart: ReadonlySignal<HandlePart> = this.#focusPart;
-  /** The via point that keys are about; null where there is none. */
+  /** The via point that keys act on; null where there is none. */
   readonly viaInHand = computed<number | null>(() => {
     const i = this.#viaInHand.value;
     return i !== null && i < (this.agent.value?.goal.via.length ?? 0) ? i : null;
   });
   readonly lastField: ReadonlySignal<{ part: HandlePart; field: Field }> = this.#lastField;
-  /** Name of the tool of the rail that is in hand. */
+  /** Name of the active tool of the rail. */
   readonly tool: ReadonlySignal<string> = this.#tool;
   /** Ends of the measuring line, in metres. */
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
@@ -102,13 +102,13 @@ export class Editor {
   readonly notices = new Notices();
   readonly view = new ViewSettings();
   readonly playhead = new Playhead(() => this.scene.peek()?.duration ?? null);
-  /** Who follows what happens here, in this order. */
+  /** The parts that follow the session, in this order. */
   readonly #parts: Part[] = [{ followed: ({ before, after }) => this.#follow(before, after) }, this.answers];
   readonly commits = new Commits(this.document, this.notices, this.#parts, () => !this.answers.motion.peek().stale);
   readonly drag = new Drag(this);
   readonly reading = new Reading(this);
 
-  /** A part follows what happens here from now on. */
+  /** A part follows the session from now on. */
   join(part: Part): void {
     this.#parts.push(part);
   }
@@ -132,13 +132,13 @@ export class Editor {
     });
   }
 
-  /** The document is only to be looked at from now on; a drag that goes on is put back. */
+  /** Makes the document read-only; a running drag is cancelled. */
   lockWith(lock: Lock | null): void {
     if (lock) this.drag.cancel();
     this.document.lockWith(lock);
   }
 
-  /** Who has come is selected, who has gone is not. */
+  /** Selects added road users, deselects removed ones. */
   #follow(before: Scene, after: Scene): void {
     this.#selectedEvent.value = null;
     // A scene may have become shorter.
@@ -152,7 +152,7 @@ export class Editor {
     if (hovered && !after.agents.has(hovered)) this.#hover.value = null;
   }
 
-  // -------------------------------------------------------------- what is selected
+  // -------------------------------------------------------------- selection
 
   select(id: string | null): void {
     this.selectAll(id === null ? NOBODY : [id]);
@@ -177,18 +177,18 @@ export class Editor {
     for (const part of this.#parts) part.selected?.(this.selection.peek());
   }
 
-  /** Adds one to those that are selected, or takes it away. */
+  /** Adds one to the selection, or removes it. */
   toggleSelected(id: string): void {
     const now = this.#selected.peek();
     this.selectAll(now.includes(id) ? now.filter((o) => o !== id) : [...now, id]);
   }
 
-  /** The road users that are selected, as the document has them. */
+  /** The selected road users, as the document has them. */
   get chosenOnes(): Agent[] {
     return this.#chosenIn(this.scene.value);
   }
 
-  /** The same as they were before the drag that goes on. */
+  /** The same before the running drag. */
   get restingOnes(): Agent[] {
     return this.#chosenIn(this.resting.value);
   }
@@ -201,7 +201,7 @@ export class Editor {
     this.#selectedEvent.value = event;
   }
 
-  // -------------------------------------------------------------- what is pointed at, and what keys move
+  // -------------------------------------------------------------- pointer target, and the part that keys move
 
   pointAt({ agent = null, future = null, grip = null }: Pointed): void {
     batch(() => {
@@ -211,7 +211,7 @@ export class Editor {
     });
   }
 
-  /** A handle has the focus of keys; null when none has. */
+  /** A handle has the keyboard focus; null when none has. */
   focusHandle(handle: Keyed | null): void {
     this.#keyed.value = handle;
   }
@@ -222,7 +222,7 @@ export class Editor {
     this.#viaInHand.value = null;
   }
 
-  /** Keys are about this via point from now on, or about none. */
+  /** Keys act on this via point from now on, or on none. */
   takeVia(index: number | null): void {
     this.#viaInHand.value = index;
   }
@@ -232,7 +232,7 @@ export class Editor {
     this.takeVia(index);
   }
 
-  /** The field that "fixed or free" is about from now on. */
+  /** The field that "fixed or free" acts on from now on. */
   touchField(part: HandlePart, field: Field): void {
     this.#lastField.value = { part, field };
   }

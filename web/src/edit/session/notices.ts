@@ -1,10 +1,10 @@
-// What the editor tells the user beside the picture: the toast, the voice for screen readers, the report of a crash.
+// Notices beside the picture: the toast, the voice for screen readers, the report of a crash.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Toast } from '../document/session';
 
 export interface Spoken {
   readonly text: string;
-  /** Said at once, over anything else. */
+  /** Spoken at once, interrupting anything else. */
   readonly urgent: boolean;
 }
 
@@ -18,7 +18,7 @@ export class Notices {
 
   readonly toast: ReadonlySignal<Toast | null> = this.#toast;
   readonly spoken: ReadonlySignal<Spoken> = this.#spoken;
-  /** Something broke: what to save for whoever mends it. */
+  /** Text of an internal error, to be saved for a bug report. */
   readonly crash: ReadonlySignal<string | null> = this.#crash;
 
   show(toast: Toast, ms = TOAST_MS): void {
@@ -36,7 +36,7 @@ export class Notices {
     this.#spoken.value = { text, urgent };
   }
 
-  /** Why something cannot be done: said, and in sight unless a way out of something else stands there. */
+  /** Reports why an action is not possible: spoken, and shown unless a toast with a remedy is visible. */
   refuse(why: string): void {
     this.say(why);
     const shown = this.#toast.peek();

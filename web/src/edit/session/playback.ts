@@ -1,4 +1,4 @@
-// The playhead. Runs on the stage's frames; with reduced motion it only runs when asked.
+// The playhead. Runs on the stage's frames; with reduced motion only on request.
 import { effect } from '@preact/signals-core';
 import type { Editor } from './editor';
 import type { Stage } from '../../draw/stage';

@@ -1,7 +1,7 @@
-// Where playback is and how it runs. `playback.ts` moves it on with the frames.
+// Playback position and state. `playback.ts` advances it with the frames.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 
-/** Playback speeds, in scene seconds a second. */
+/** Playback speeds, in scene seconds per second. */
 export const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8] as const;
 
 export class Playhead {
@@ -30,13 +30,13 @@ export class Playhead {
     this.#playing.value = false;
   }
 
-  /** Not beyond the ends of the scene. */
+  /** Limited to the scene's duration. */
   moveTo(seconds: number): void {
     const duration = this.duration();
     if (duration !== null) this.#time.value = Math.min(duration, Math.max(0, seconds));
   }
 
-  /** To the beginning, standing still. */
+  /** To the start, paused. */
   rewind(): void {
     batch(() => {
       this.#playing.value = false;
@@ -44,7 +44,7 @@ export class Playhead {
     });
   }
 
-  /** The next rate up or down; at the ends it stays, or goes round. */
+  /** The next rate up or down; stops at the ends, or wraps with `round`. */
   changeRate(step: 1 | -1, round = false): void {
     const at = RATES.indexOf(this.#rate.peek() as (typeof RATES)[number]) + step;
     const next = RATES[round ? (at + RATES.length) % RATES.length : Math.min(RATES.length - 1, Math.max(0, at))];

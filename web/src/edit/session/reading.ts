@@ -1,5 +1,5 @@
-// What follows from the document, what is selected, and what is answered: the futures of the selected road user, the
-// one in force, and the events.
+// Values derived from document, selection and answers: the futures of the selected road user, the one in force, and the
+// events.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Verdict } from '../../model/document/feedback';
 import type { Futures, MotionSet } from '../../model/document/futures';
@@ -14,21 +14,21 @@ import type { Drag } from './drag';
 import { Throttle } from './throttle';
 import type { ViewSettings } from './view-settings';
 
-/** Cards on the table: futures that are looked at in place of the answers, and that nobody follows yet. */
+/** Preference cards: futures shown in place of the answers; no road user follows them yet. */
 export interface Cards {
-  /** Futures of one road user, or what everybody does by card; null where no cards lie there. */
+  /** Futures of one road user, or the motions of all by card; null where there are no cards. */
   readonly hand: ReadonlySignal<
     | { readonly id: string; readonly futures: Futures }
     | { readonly id: null; readonly sets: readonly MotionSet[] }
     | null
   >;
-  /** Index of the card that is looked at. */
+  /** Index of the viewed card. */
   readonly current: ReadonlySignal<number>;
-  /** The cards, where they are those of this road user. */
+  /** The cards, if they belong to this road user. */
   ofAgent(id: string): { readonly futures: Futures } | null;
-  /** What everybody does on the card that is looked at, where the cards are of everybody. */
+  /** The motions of all on the viewed card, for whole-scene cards. */
   shownSet(): MotionSet | null;
-  /** What was said of each; null where it is open. */
+  /** Verdict on each; null where it is open. */
   verdicts(): readonly (Verdict | null)[];
   point(index: number): void;
 }
@@ -44,7 +44,7 @@ const NO_CARDS: Cards = {
 
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
-/** What it follows from. */
+/** The signals it derives from. */
 export interface Sources {
   readonly scene: ReadonlySignal<Scene | null>;
   /** Id of the selected road user. */
@@ -65,12 +65,12 @@ export class Reading {
     });
   }
 
-  /** Cards on the table; read in a computation, it follows. */
+  /** The cards in use; tracked when read in a computation. */
   get cards(): Cards {
     return this.#cards.value;
   }
 
-  /** Cards are laid from here from now on. */
+  /** Takes the cards from here from now on. */
   layCards(cards: Cards): void {
     this.#cards.value = cards;
   }
@@ -83,7 +83,7 @@ export class Reading {
     const d = this.of.answers.draft.value;
     return d && d.id === id ? d.futures : (this.of.answers.motion.value.futures.get(id) ?? null);
   });
-  /** The quick verdict on the goal of the selected road user, worked out here without asking anybody. */
+  /** A local estimate of whether the selected road user's goal is reachable, without the generator. */
   readonly localReach = computed<LocalReach | null>(() => {
     const a = this.of.agent.value;
     const s = this.of.scene.value;
@@ -99,22 +99,22 @@ export class Reading {
     if (this.cards.ofAgent(a.id)) return this.cards.current.value;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
-  /** The selected one does what was recorded: of its futures none is in force. */
+  /** The selected road user replays the recording: none of its futures is in force. */
   readonly replays = computed(() => {
     const a = this.of.agent.value;
     return a !== null && !touched(a) && !this.of.answers.motion.value.driving.has(a.id) && !this.cards.ofAgent(a.id);
   });
-  /** Index of the future that stands out on the picture and in the plot; -1 where none is in force. */
+  /** Index of the emphasised future on the picture and in the plot; -1 where none is in force. */
   readonly bold = computed(() => (this.replays.value ? -1 : this.chosen.value));
-  /** What panels say follows a drag now and then. */
+  /** Panels follow a drag at a reduced rate. */
   readonly throttle: Throttle;
-  /** The futures and the one in force, as panels say them. */
+  /** The futures and the one in force, at the panels' rate. */
   readonly toldFutures = computed(() => this.throttle.read(() => this.futures.value));
   readonly toldChosen = computed(() => this.throttle.read(() => this.chosen.value));
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.of.scene.value;
     if (!s || this.of.drag.active.value) return NO_EVENTS;
-    // On the table lies something else than the scene does.
+    // Cards replace the answers of the scene.
     const hand = this.cards.hand.value;
     const card = this.cards.current.value;
     const motion = this.of.answers.motion.value;
@@ -122,10 +122,7 @@ export class Reading {
     if (hand && hand.id !== null) return eventsOf(s, motion, hand.id, hand.futures, card, unit);
     return readEvents(s, hand?.sets[card] ?? motion, unit);
   });
-  /**
-   * What the timeline shows: the events, while a hand moves what is wrong with the future that is shown, and of a case
-   * that is looked at what happens in it.
-   */
+  /** Events on the timeline; during a drag the faults of the shown future, and for a viewed case its events. */
   readonly shownEvents = computed<readonly TrafficEvent[]>(() => {
     const { answers, drag, scene, view } = this.of;
     const s = scene.value;
@@ -142,14 +139,14 @@ export class Reading {
     return motion.value.stale && !draft.value && motion.value.fresh !== this.of.selection.value;
   });
 
-  /** The motion of a road user: what it does now, or the card of it that is looked at. */
+  /** The motion of a road user: its current one, or its viewed card. */
   motionFor(a: Agent): ReturnType<typeof motionOf> {
     const cards = this.cards.ofAgent(a.id);
     if (cards) return cards.futures.modes[this.cards.current.value].motion;
     return motionOf(this.of.scene.value!, this.cards.shownSet() ?? this.of.answers.motion.value, a);
   }
 
-  /** Where the goal of a road user stands on screen: fixed fields as set, free ones as the generator chose. */
+  /** The shown pose of a road user's goal: fixed fields as set, free ones as the generator chose. */
   goalPose(a: Agent): (Pose & { set: boolean }) | null {
     const g = a.goal;
     const { draft, motion } = this.of.answers;

@@ -1,8 +1,8 @@
-// How often panels say something new. The picture follows every step of a drag; words, bars and curves beside it are
-// not read sixty times a second, and for each of them the page would be laid out and painted.
+// Limits how often panels update. The picture follows every frame of a drag; updating words, bars and curves sixty
+// times a second would only cost layout and paint.
 import { effect, signal, untracked, type ReadonlySignal } from '@preact/signals-core';
 
-/** While a hand drags, panels change once in so long. */
+/** During a drag, panels update at this interval. */
 const READ_MS = 100;
 
 export class Throttle {
@@ -10,10 +10,10 @@ export class Throttle {
   readonly #waiting = signal(false);
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** There is something new that panels do not say yet. */
+  /** The panels have not shown the newest values yet. */
   readonly waiting: ReadonlySignal<boolean> = this.#waiting;
 
-  /** `news` reads what changes in a drag. */
+  /** `news` reads the signals that change in a drag. */
   constructor(
     private readonly dragging: ReadonlySignal<boolean>,
     news: () => void,
@@ -25,7 +25,7 @@ export class Throttle {
     });
   }
 
-  /** What `of` gives, and reads its signals; while a hand drags only now and then. */
+  /** The result of `of`, tracking its signals; during a drag only at intervals. */
   read<T>(of: () => T): T {
     if (!this.dragging.value) return of();
     void this.#beat.value;

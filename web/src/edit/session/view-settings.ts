@@ -1,5 +1,4 @@
-// What of the picture is shown, and in which unit: switches that are remembered from one visit to the next, and what
-// stands beside the scene.
+// What the picture shows, and in which unit: stored settings, and the objects beside the scene.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Vec } from '../../model/base/geometry';
 import { type SpeedUnit, toldIn, walkingUnit } from '../../model/base/units';
@@ -33,33 +32,33 @@ function remembered(): Shown {
   return Object.fromEntries(LAYER_NAMES.map((name) => [name, of(name)])) as Shown;
 }
 
-/** A document with what everybody does in it, and who of them does another thing than on the picture. */
+/** A document with the motions of all road users, and the ids with another motion than the shown one. */
 export interface Beside {
   readonly scene: Scene;
   readonly set: MotionSet;
   readonly parted: readonly string[];
-  /** A change that is tried: it stands before what is shown of the road user that it is about. */
+  /** A tried change: painted before the selected road user's own display. */
   readonly tried?: true;
-  /** A moment in it that is pointed out: who is in it, where and when, and its words. */
+  /** A pointed-out moment in it: its road users, place, time, and words. */
   readonly meeting?: {
     readonly words: string;
     readonly at: Vec;
     readonly time: number;
     readonly who: readonly string[];
-    /** What it is called in a sentence. */
+    /** Its name in a sentence. */
     readonly called: string;
   };
 }
 
-/** Ways that were tried, one stroke each. */
+/** Paths tried by a search, one stroke each. */
 export type Tries = readonly (readonly Vec[])[];
 
 const NO_TRIES: Tries = Object.freeze([]);
 
-/** A map that is being made: it is shown in place of the scene. */
+/** A map being made: shown in place of the scene. */
 export interface MapDraft {
   readonly isOpen: ReadonlySignal<boolean>;
-  /** Null until it is drawn. */
+  /** Null until the server has drawn it. */
   readonly scene: ReadonlySignal<Scene | null>;
 }
 
@@ -77,20 +76,20 @@ export class ViewSettings {
   readonly layers: ReadonlySignal<Shown> = this.#layers;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
-  /** Are the others' answers shown on the picture while a handle is dragged? */
+  /** Are the others' reactions shown on the picture during a drag? */
   readonly showPreviewed: ReadonlySignal<boolean> = this.#showPreviewed;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
-  /** Another way that the scene could go, shown dashed beside the one on the picture. */
+  /** An alternative motion of the scene, dashed beside the shown one. */
   readonly beside: ReadonlySignal<Beside | null> = this.#beside;
-  /** Ways that a search has tried so far, pale on the picture. */
+  /** Paths that a search has tried so far, pale on the picture. */
   readonly tries: ReadonlySignal<Tries> = this.#tries;
 
-  /** Read in a computation, it follows. */
+  /** Tracked when read in a computation. */
   get mapDraft(): MapDraft {
     return this.#mapDraft.value;
   }
 
-  /** Maps are made here from now on. */
+  /** Takes map drafts from here from now on. */
   showMapsOf(draft: MapDraft): void {
     this.#mapDraft.value = draft;
   }

@@ -10,23 +10,23 @@ import type { Placement } from '../moves/placement';
 import type { ToolOverlay } from '../overlay/tool-overlay';
 import type { Editor } from '../session/editor';
 
-/** What features are made of. */
+/** Shared parts that features are made from. */
 export interface Supplies {
   readonly editor: Editor;
   readonly file: SceneFile;
   readonly care: SceneCare;
   readonly client: Client;
-  /** Who is about to be placed: copies that are dragged are too. */
+  /** The road users about to be placed, dragged copies included. */
   readonly placement: Placement;
-  /** One that asks for itself alone. */
+  /** A generator with its own queue of requests. */
   generator(): Generator;
-  /** How it writes its questions. */
+  /** Builds its requests. */
   questions(): RequestBuilder;
 }
 
-/** What a feature consists of. What follows the session has joined it by itself. */
+/** The parts of a feature. Those that follow the session have joined it themselves. */
 export interface Made extends PointerTools {
-  /** Its parts, by the names under which actions and panels find them. */
+  /** Its parts, by the names that actions and panels use. */
   readonly named: object;
   readonly overlay?: ToolOverlay;
 }

@@ -1,5 +1,5 @@
-// The features of the page, those of the rail in its order. A new one is a folder and a line here: its buttons, keys,
-// entries of the palette and lines of the shortcut sheet, what it paints and what the pointer does follow from that.
+// The features of the page, those of the rail in its order. A new feature is a folder and a line here; buttons, keys,
+// palette entries, shortcut lines, overlay and pointer behaviour follow from that.
 import type { RailEntry } from '../gestures/chart';
 import { CASES } from './cases/feature';
 import type { Made, Supplies } from './feature';

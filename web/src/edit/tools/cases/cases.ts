@@ -1,5 +1,5 @@
-// The search for a case: what is looked for, how far it is, and what was found. It is about the scene as it was when it
-// began; the document stays as it is until somebody takes what was found.
+// The search for a case: its target, progress and results. It uses the scene at its start; the document stays unchanged
+// until the user takes a case.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { attempt, withAttempt, type MayChange } from '../../../model/physics/attempts';
 import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../../model/physics/cases';
@@ -18,9 +18,9 @@ import type { Beside, Tries } from '../../session/view-settings';
 import { Stopped, type Maker, type Take } from '../../asking/take-maker';
 import { TEXTS } from '../../../texts/editing/cases';
 
-/** What was found: what everybody does, the moment that it is about, and how many more were like it. */
+/** A result: the motions of all, the moment in question, and the number of similar cases. */
 export interface Case {
-  /** Counts up in the order in which they were found. */
+  /** Increases in the order of discovery. */
   readonly id: number;
   readonly take: Take;
   readonly moment: Moment;
@@ -33,18 +33,18 @@ export interface Progress {
   readonly of: number;
   readonly collisions: number;
   readonly found: number;
-  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  /** Estimated seconds left, from the first tries; null at the start. */
   readonly left: number | null;
 }
 
 export type State = 'ready' | 'running' | 'paused' | 'done';
 
-/** So many futures are tried at most before somebody says that it should go on, and so many cases are enough. */
+/** Number of tries before the user must continue the search, and number of cases that end it. */
 export const MOST_TRIES = 300;
 export const ENOUGH = 6;
 const NOTHING: Progress = { tried: 0, of: MOST_TRIES, collisions: 0, found: 0, left: null };
 const SOONER_MS = 50;
-/** Ways that were tried are drawn with a place every so many steps, and the newest of them. */
+/** Tried paths are drawn with one point for this many steps, and only the newest of them. */
 const WAY_STEPS = 4;
 const MOST_WAYS = 360;
 
@@ -59,11 +59,11 @@ export class Cases {
   readonly #shown = signal<number | null>(null);
   readonly #problem = signal<string | null>(null);
   readonly #from = signal<{ readonly scene: Scene; readonly at: Date } | null>(null);
-  /** What is shown of a case; somebody else's is not taken away. */
+  /** The case shown from here; another owner's overlay is not removed. */
   #beside: Beside | null = null;
-  /** Rises with every order to stop. */
+  /** Increases with every stop. */
   #turn = 0;
-  /** Attempts that were made of what is looked for, all in all. */
+  /** Total number of attempts for this target. */
   #made = 0;
 
   readonly isOpen: ReadonlySignal<boolean> = this.#open;
@@ -71,14 +71,14 @@ export class Cases {
   readonly may: ReadonlySignal<MayChange> = this.#may;
   readonly state: ReadonlySignal<State> = this.#state;
   readonly progress: ReadonlySignal<Progress> = this.#progress;
-  /** The nearest to what is looked for first. */
+  /** Nearest to the target first. */
   readonly found: ReadonlySignal<readonly Case[]> = this.#found;
-  /** Where nothing was found: what came nearest to it. */
+  /** Without a result: the closest attempt. */
   readonly closest: ReadonlySignal<Case | null> = this.#closest;
-  /** Id of the case on the picture. */
+  /** Id of the shown case. */
   readonly shown: ReadonlySignal<number | null> = this.#shown;
   readonly problem: ReadonlySignal<string | null> = this.#problem;
-  /** The scene that is searched, and when it was as it is searched. */
+  /** The searched scene, and when the search began. */
   readonly from: ReadonlySignal<{ readonly scene: Scene; readonly at: Date } | null> = this.#from;
   /** Has the document changed since the search began? */
   readonly outdated = computed(() => {
@@ -98,9 +98,9 @@ export class Cases {
     });
   }
 
-  // -------------------------------------------------------------- what is looked for
+  // -------------------------------------------------------------- target
 
-  /** Opens the search for those who are selected: the first is tried, the second is whom it is about. */
+  /** Opens the search for the selected road users: the first is varied, the second is the other party. */
   open(what?: What, ids: readonly string[] = this.editor.selected.peek()): void {
     const scene = this.editor.scene.peek();
     const [who, other] = ids.filter((id) => scene?.agents.has(id));
@@ -113,7 +113,7 @@ export class Cases {
     });
   }
 
-  /** Another thing is looked for: what was found so far is not that. */
+  /** Changes the target; earlier results are dropped. */
   seek(sought: Sought): void {
     const kind = KINDS[sought.what];
     const [least, most] = kind.range;
@@ -129,7 +129,7 @@ export class Cases {
     if (s) this.seek({ ...s, what, limit: KINDS[what].limit });
   }
 
-  /** The other one is tried in its place. */
+  /** Swaps the two: the other one is varied. */
   swap(): void {
     const s = this.#sought.peek();
     if (s?.other) this.seek({ ...s, who: s.other, other: s.who });
@@ -143,7 +143,7 @@ export class Cases {
     this.seek(s);
   }
 
-  /** Why it cannot begin; null where it can. */
+  /** Why the search cannot begin; null where it can. */
   readonly obstacle = computed<string | null>(() => {
     const s = this.#sought.value;
     const scene = this.editor.scene.value;
@@ -158,7 +158,7 @@ export class Cases {
 
   // -------------------------------------------------------------- the search
 
-  /** Begins, or goes on for as many tries again. */
+  /** Begins, or continues for as many tries again. */
   async run(): Promise<void> {
     const { editor } = this;
     const sought = this.#sought.peek();
@@ -204,13 +204,13 @@ export class Cases {
     }
   }
 
-  /** Where one has looked is seen on the picture. */
+  /** Shows the searched paths on the picture. */
   #draw(motions: readonly Motion[]): void {
     const all: Tries = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
     this.editor.view.showTries(Object.freeze(all.slice(-MOST_WAYS)));
   }
 
-  /** Which of the futures would do, were nobody to answer them; without any the nearest, while nothing was found. */
+  /** Futures that would match before reactions; if none does, the nearest one while there is no result. */
   #promising(scene: Scene, base: MotionSet, sought: Sought): number[] {
     const a = scene.agents.get(sought.who)!;
     const modes = base.futures.get(a.id)?.modes ?? [];
@@ -255,7 +255,7 @@ export class Cases {
     this.#progress.value = { ...now, tried, left: (now.of - tried) * each };
   }
 
-  /** A hand that moves comes first: nothing is asked until it rests. */
+  /** A drag goes first: no request is sent until it ends. */
   async #quiet(): Promise<void> {
     while (this.editor.drag.active.peek()) await new Promise((done) => setTimeout(done, SOONER_MS));
   }
@@ -274,7 +274,7 @@ export class Cases {
     if (through) notices.say(found ? TEXTS.casesFound(found) : TEXTS.nothingFound(tried));
   }
 
-  /** What is on its way is dropped; what was found stays, and it can go on. */
+  /** Drops running requests; results stay, and the search can continue. */
   stop(): void {
     if (this.#state.peek() !== 'running') return;
     this.#turn++;
@@ -303,13 +303,13 @@ export class Cases {
     });
   }
 
-  // -------------------------------------------------------------- what was found
+  // -------------------------------------------------------------- results
 
   caseOf(id: number | null): Case | null {
     return this.#found.peek().find((c) => c.id === id) ?? null;
   }
 
-  /** Shows a case beside the scene as it is, dashed, at its moment; it runs with the playhead. */
+  /** Shows a case dashed beside the current scene, at its moment; it follows the playhead. */
   show(id: number | null): void {
     const { editor } = this;
     const c = this.caseOf(id);
@@ -326,7 +326,7 @@ export class Cases {
     editor.playhead.moveTo(c.moment.time);
   }
 
-  /** The next or the previous one of the list. */
+  /** The next or the previous case of the list. */
   walk(step: 1 | -1): void {
     const all = this.#found.peek();
     const at = all.findIndex((c) => c.id === this.#shown.peek());
@@ -334,7 +334,7 @@ export class Cases {
     if (next) this.show(next.id);
   }
 
-  /** Who is in it, and whoever does something else for it. */
+  /** Road users of the moment, and all others with another motion. */
   #parted({ take, moment }: Case): string[] {
     const sought = this.#sought.peek()!;
     const now = this.editor.answers.motion.peek();
@@ -342,7 +342,7 @@ export class Cases {
     return [...new Set([sought.who, ...(moment.other === null ? [] : [moment.other]), ...others])];
   }
 
-  /** It is what happens from now on: one step, that can be undone. */
+  /** Takes a case as the motion of the scene: one step, which can be undone. */
   take(c: Case): void {
     const { editor } = this;
     const now = editor.scene.peek();
@@ -365,7 +365,7 @@ export class Cases {
     this.#found.value = Object.freeze(all.map((c) => (c.id === id ? { ...c, starred: !c.starred } : c)));
   }
 
-  /** What was found, to be kept; stars stay with it. */
+  /** The results for keeping, with their stars. */
   takes(): { readonly subject: string; readonly takes: readonly Take[]; readonly starred: readonly boolean[] } | null {
     const sought = this.#sought.peek();
     const found = this.#found.peek();
@@ -373,7 +373,7 @@ export class Cases {
   }
 }
 
-/** A way with fewer places than the motion has steps; at 10 steps a second nobody sees the difference. */
+/** A path with fewer points than the motion has steps; at 10 steps a second the difference is invisible. */
 const wayOf = (m: Motion): Vec[] =>
   Array.from({ length: Math.ceil(m.x.length / WAY_STEPS) }, (_, i): Vec => [m.x[i * WAY_STEPS], m.y[i * WAY_STEPS]]);
 

@@ -1,4 +1,4 @@
-// The search for a case comes when it is wanted: few need it, and nobody in the first moment.
+// The search for a case is loaded on demand: few users need it, and none at the start.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { What } from '../../../model/physics/cases';
 import type { Editor } from '../../session/editor';
@@ -14,14 +14,14 @@ export class Searching {
     this.#now.value?.isOpen.value ? this.#now.value : null,
   );
 
-  /** `cancel` drops what the maker has asked. */
+  /** `cancel` drops the requests of the maker. */
   constructor(
     private readonly editor: Editor,
     private readonly maker: Maker,
     private readonly cancel: () => void,
   ) {}
 
-  /** Opens it for those who are selected; with `start` it begins at once. */
+  /** Opens it for the selected road users; with `start` it begins at once. */
   async begin(what?: What, ids: readonly string[] = this.editor.selected.peek(), start = false): Promise<void> {
     try {
       const { Cases } = await import('./cases');

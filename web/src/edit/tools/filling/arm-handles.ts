@@ -1,22 +1,22 @@
-// Where the handles of arms lie on screen while an area is filled: drawn outward, more vehicles come in.
+// Screen positions of the arm handles while an area is filled: further outward means more arrivals.
 import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import type { View } from '../../../draw/view';
 import type { Arm } from './filling';
 
-/** From none to as many as the arm takes, pixels. */
+/** From zero to the arm's capacity, pixels. */
 const TRAVEL_PX = 110;
-/** The handle of an arm without traffic lies so far inside the map's edge, pixels. */
+/** Distance of the handle of an arm without traffic inside the map's edge, pixels. */
 const INSIDE_PX = 34;
-/** Handles keep so far from the edge of the picture, pixels. */
+/** Least distance of handles from the edge of the picture, pixels. */
 const EDGE_PX = 30;
-/** Vehicles an hour in one step of the hand. */
+/** Vehicles per hour for each step of a drag. */
 export const RATE_STEP = 20;
 
 export interface ArmHandle {
   readonly arm: Arm;
   readonly rate: number;
-  /** Where the handle is without traffic, and where it is now, in pixels. */
+  /** The handle's place without traffic, and its place now, in pixels. */
   readonly base: Vec;
   readonly at: Vec;
   /** Outward, of length one, in pixels. */
@@ -26,7 +26,7 @@ export interface ArmHandle {
 /** `North-west 2`. */
 export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(/-(\d+)$/, ' $1'));
 
-/** Handles of the arms that are in the picture. */
+/** Handles of the arms inside the picture. */
 export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {
   return arms.flatMap((arm) => {
     if (!v.shows(...arm.at, EDGE_PX)) return [];
@@ -34,7 +34,7 @@ export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, 
     const inward = v.ahead(arm.heading);
     const out: Vec = [-inward[0], -inward[1]];
     const rate = rates[arm.id] ?? 0;
-    // Drawn in so far that the longest stem stays in the picture.
+    // Moved inwards so that the longest stem stays in the picture.
     const { left, right, top, bottom } = v.inset;
     const over = Math.max(
       INSIDE_PX,
@@ -47,16 +47,16 @@ export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, 
   });
 }
 
-/** How far a place lies outside a stretch. */
+/** Distance of a value outside a range. */
 const over1 = (p: number, least: number, most: number): number => Math.max(0, least - p, p - most);
 
-/** Vehicles an hour when the hand has gone so far outward, pixels. */
+/** Vehicles per hour after a drag outward, pixels. */
 export function rateAfter(before: number, px: number, { most }: Arm): number {
   const rate = Math.round((before + (px / TRAVEL_PX) * most) / RATE_STEP) * RATE_STEP;
   return Math.min(Math.floor(most / RATE_STEP) * RATE_STEP, Math.max(0, rate));
 }
 
-/** The handle under a place of the screen; null where there is none. */
+/** The handle at a screen position; null where there is none. */
 export function armHandleAt(all: readonly ArmHandle[], x: number, y: number, reach: number): ArmHandle | null {
   const far = (h: ArmHandle): number => Math.hypot(h.at[0] - x, h.at[1] - y);
   return all.filter((h) => far(h) <= reach).sort((a, b) => far(a) - far(b))[0] ?? null;

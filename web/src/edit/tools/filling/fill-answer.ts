@@ -1,4 +1,4 @@
-// What the server says of a wish: who would stand where, and what of it is shown.
+// Converts the server's answer to a placement: which road users would stand where, and which are shown.
 import { insidePolygon, type Vec } from '../../../model/base/geometry';
 import type { AgentJson } from '../../../model/document/scene-json';
 import { PLACED_KINDS, kindOf } from '../../../model/base/kinds';
@@ -18,11 +18,11 @@ import { TEXTS } from '../../../texts/editing/keeping';
 
 /** Road users for each kilometre of lane, from those for each 100 m. */
 const PER_KM = 10;
-/** A hand-drawn line may lie so far beyond the map, metres. */
+/** A drawn outline may extend this far beyond the map, metres. */
 const MARGIN_M = 45;
 
 export class Answers {
-  /** The arms of the place that was asked about last; their names are good for that place alone. */
+  /** The arms of the last requested place; their names are valid only there. */
   #known: { readonly place: string; readonly arms: readonly string[] } = { place: '', arms: [] };
 
   constructor(
@@ -65,7 +65,7 @@ export class Answers {
     return { ...more, all: thinned(all, most), reason: why };
   }
 
-  /** The traffic that is wished for, by the arms that there are. */
+  /** The requested traffic, limited to existing arms. */
   async #arrivals(
     scene: Scene,
     wish: FillWish,
@@ -94,7 +94,7 @@ const armOf = (a: PlaceReply['arms'][number]): Arm => ({
   later: a.later,
 });
 
-/** Those in the area who may go: neither locked nor only to be looked at. */
+/** Road users in the area that may be replaced: neither locked nor read-only. */
 function replaceable(scene: Scene, region: readonly Vec[] | null): string[] {
   return [...scene.agents.values()]
     .filter((a) => {
@@ -104,7 +104,7 @@ function replaceable(scene: Scene, region: readonly Vec[] | null): string[] {
     .map((a) => a.id);
 }
 
-/** For each that is pinned one of its kind is taken away, so that there are as many as without pins. */
+/** For each pinned one, one of its kind is removed, so that the number stays. */
 function withoutThoseOf(pinned: readonly Newcomer[], drawn: readonly Newcomer[]): Newcomer[] {
   const left = [...drawn];
   for (const p of pinned) {
@@ -116,13 +116,13 @@ function withoutThoseOf(pinned: readonly Newcomer[], drawn: readonly Newcomer[])
   return left;
 }
 
-/** The corners, drawn in to where the server takes them. */
+/** The corners, clamped to the range of the server. */
 function within({ map: { box } }: Scene, region: readonly Vec[]): Vec[] {
   const inside = (v: number, lo: number, hi: number): number => Math.min(hi + MARGIN_M, Math.max(lo - MARGIN_M, v));
   return region.map(([x, y]) => [inside(x, box.x0, box.x1), inside(y, box.y0, box.y1)] as const);
 }
 
-/** A road user that the server placed; null for one of a kind that is only shown. */
+/** A road user that the server placed; null for a kind that cannot be placed. */
 function newcomerOf(json: AgentJson): Newcomer | null {
   const kind = PLACED_KINDS.find((k) => k === kindOf(json));
   const { track, conditions } = json;
@@ -130,7 +130,7 @@ function newcomerOf(json: AgentJson): Newcomer | null {
   const x = s?.x_m ?? track.x_m[0],
     y = s?.y_m ?? track.y_m[0];
   if (!kind || x === undefined || y === undefined) return null;
-  // Nobody decides what those do who come in later or are parked.
+  // The motion of late arrivals and parked ones comes with the answer.
   const motion = track.x_m.length > 1 || (track.first_step ?? 0) > 0 ? motionFrom(track) : null;
   const speed = s?.speed_mps ?? Math.hypot(track.vx_mps?.[0] ?? 0, track.vy_mps?.[0] ?? 0);
   return {

@@ -1,5 +1,5 @@
-// An area to be filled: drawn round with one drag, or corner by corner. Its corners can be moved; a click on somebody
-// of the preview pins it.
+// The outline of an area to fill: drawn with one drag, or corner by corner. Corners can be moved; a click on a road
+// user of the preview pins it.
 import type { Vec } from '../../../model/base/geometry';
 import { armHandleAt, armHandles, rateAfter, type ArmHandle } from './arm-handles';
 import type { Chart, Press, RailEntry, State, Tool } from '../../gestures/chart';
@@ -7,18 +7,18 @@ import type { View } from '../../../draw/view';
 import { FILL_NAME, type Filling } from './filling';
 import { TEXTS } from '../../../texts/desk/gestures';
 
-/** The line takes a further point after so many metres; it has this many at most. */
+/** The line takes a further point after this many metres; it has this many at most. */
 const STEP_M = 0.5;
 const MOST_POINTS = 600;
-/** What is drawn by hand keeps the corners that lie further than this off the line, in pixels. */
+/** Tolerance of the simplified outline, in pixels. */
 const TOLERANCE_PX = 5;
-/** A corner can be taken hold of from so far, pixels. */
+/** A corner can be dragged within this distance, pixels. */
 const CORNER_PX = 9;
 const CORNER_PX_TOUCH = 24;
-/** An arm's handle can be taken hold of from so far, pixels. */
+/** An arm's handle can be dragged within this distance, pixels. */
 const HANDLE_PX = 13;
 const HANDLE_PX_TOUCH = 26;
-/** A click so near to the first corner closes the outline, pixels. */
+/** A click within this distance of the first corner closes the outline, pixels. */
 const CLOSE_PX = 10;
 
 class Outlining implements State {
@@ -94,7 +94,7 @@ class MovingCorner implements State {
   }
 }
 
-/** An arm's handle in hand: outward more come in. */
+/** Drags an arm's handle: further outward means more arrivals. */
 class DraggingRate implements State {
   readonly name = 'dragging a rate';
 
@@ -139,7 +139,7 @@ function handleAt(filling: Filling, view: View, press: Pick<Press, 'x' | 'y' | '
   return armHandleAt(all, press.x, press.y, press.touch ? HANDLE_PX_TOUCH : HANDLE_PX);
 }
 
-/** The corner of the area under a place; null where there is none. */
+/** The corner of the area at a place; null where there is none. */
 function cornerAt(filling: Filling, view: View, press: Pick<Press, 'x' | 'y' | 'touch'>): number | null {
   const reach = press.touch ? CORNER_PX_TOUCH : CORNER_PX;
   const i = (filling.wish.peek()?.region ?? []).findIndex(([x, y]) => {
@@ -187,7 +187,7 @@ export const fillingTool = (filling: Filling): Tool => ({
   click: (chart, press) => click(filling, chart.surface.view, press),
 });
 
-/** The same line with fewer points: none of those left out lies further than `tolerance` off it. */
+/** A line with fewer points: removed ones lie within `tolerance` of it. */
 export function simplified(line: readonly Vec[], tolerance: number): readonly Vec[] {
   if (line.length < 3) return line;
   const [a, b] = [line[0], line.at(-1)!];

@@ -1,14 +1,13 @@
-// Which kinds an area is filled with. The server draws by type; of those who drive the finer kinds are
-// shared out in `fill-recast`.
+// Kinds for filling an area. The server draws by type; `fill-recast` assigns the finer kinds of vehicle.
 
 export const FILL_KINDS = ['car', 'heavy', 'motorcycle', 'cyclist', 'pedestrian'] as const;
 /** `heavy`: trucks and buses. */
 export type FillKind = (typeof FILL_KINDS)[number];
 
-/** Weights; only how they stand to each other matters. */
+/** Weights; only their ratios matter. */
 export type Mix = Readonly<Record<FillKind, number>>;
 
-/** About what is seen on a town's streets. */
+/** About the mix of a town's streets. */
 export const EVEN_MIX: Mix = Object.freeze({ car: 70, heavy: 8, motorcycle: 4, cyclist: 8, pedestrian: 10 });
 
 export function shareOf(mix: Mix, kind: FillKind): number {

@@ -1,4 +1,4 @@
-// What the overlay shows of an area that is being filled: its outline with corners, and who would come.
+// Overlay of an area being filled: its outline with corners, and the previewed road users.
 import { boxOf, type Vec } from '../../../model/base/geometry';
 import { typeOfKind } from '../../../model/base/kinds';
 import { comesLater, type Newcomer } from '../../../model/document/newcomer';
@@ -19,7 +19,7 @@ const CORNER_PX = 8;
 const DASH = [6, 4];
 const KNOB_PX = 8;
 const HEAD_PX = 9;
-/** Where the words of an arm stand beside its knob, pixels. */
+/** Offsets of an arm's words from its knob, pixels. */
 const RIGHT: [number, number] = [14, -10];
 const BELOW: [number, number] = [-60, 14];
 const ABOVE: [number, number] = [-60, -34];
@@ -41,7 +41,7 @@ export class FillOverlay {
     const outline = drawn ?? wish.region;
     if (outline) this.#paintOutline(g, v, outline, drawn === null);
     this.#paintGoing(g, v);
-    // Who comes in later is told at its arm: at the start nobody is there.
+    // Late arrivals are counted at their arm: at the start they are not present.
     for (const n of filling.all.value) if (!comesLater(n)) this.#paintOne(g, v, n, wish.pinned.includes(n));
     if (drawn) return;
     const handles = armHandles(filling.answer.value?.arms ?? [], wish.rates, v);
@@ -81,7 +81,7 @@ export class FillOverlay {
     }
   }
 
-  /** Those who make room are crossed out by a dashed ring. */
+  /** Road users to be replaced have a dashed ring. */
   #paintGoing(g: Pen, v: View): void {
     const { editor: e } = this;
     const scene = e.scene.value!;
@@ -114,7 +114,7 @@ export class FillOverlay {
     paintRing(g, v, box, n.pose, c.halo, 3, 3);
     paintRing(g, v, box, n.pose, c.focus, pinned ? 2 : 1.4, 3, pinned ? [] : [3.5, 2.5]);
     if (!pinned) return;
-    // A pin stands beside it: no meaning rests on a line alone.
+    // A pin is drawn too: line style alone must not carry meaning.
     const [l, w] = sizeOnScreen(box, v.z);
     const r = Math.min(l, w) / 2 + 6;
     g.beginPath();
@@ -128,7 +128,7 @@ export class FillOverlay {
     g.stroke();
   }
 
-  /** A stem with a head that points the way the traffic goes, and a knob to drag outward. */
+  /** A stem with an arrowhead in the direction of traffic, and a knob to drag outward. */
   #paintArm(g: Pen, v: View, { base, at, out, rate }: ArmHandle): void {
     const c = colours();
     const colour = rate > 0 ? c.focus : c['ink-3'];
@@ -158,7 +158,7 @@ export class FillOverlay {
     g.fill();
     g.beginPath();
     g.arc(at[0], at[1], r, 0, Math.PI * 2);
-    // Filled is decided, hollow is not.
+    // Filled means set, hollow means not.
     g.fillStyle = rate > 0 ? colour : c.surface;
     g.fill();
     g.strokeStyle = colour;
@@ -173,7 +173,7 @@ export class FillOverlay {
     pill(g, this.labels, at[0], at[1], words, {
       ...(rate > 0 ? { bg: c.focus, fg: c.surface } : {}),
       must: rate > 0,
-      // Not on the arrow.
+      // Not over the arrow.
       tries: Math.abs(out[0]) > 0.5 ? [BELOW, ABOVE, RIGHT] : [RIGHT, BELOW, ABOVE],
     });
   }

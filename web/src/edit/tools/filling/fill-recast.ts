@@ -1,4 +1,4 @@
-// The kinds of those who drive, shared out as a mix wants them.
+// Assigns vehicle kinds according to a mix.
 import { PRESETS, type PlacedKind, type Preset } from '../../../model/base/kinds';
 import type { Newcomer } from '../../../model/document/newcomer';
 import { topSpeed } from '../../../model/base/domain';
@@ -8,16 +8,16 @@ import { inTheWay } from '../../moves/room';
 
 const groupOf = (kind: PlacedKind): FillKind => (kind === 'truck' || kind === 'bus' ? 'heavy' : kind);
 
-/** One in so many of the heavy ones is a bus. */
+/** One in this many heavy vehicles is a bus. */
 const BUS_EVERY = 3;
 
 /**
- * The same places with the kinds that are wanted. Whoever has the right kind stays as drawn; a longer one comes only
- * where it touches nobody.
+ * The same places with the requested kinds. A road user of the right kind stays; a longer one is used only where it
+ * overlaps none.
  */
 export function recast(all: readonly Newcomer[], mix: Mix, taken: readonly Footprint[]): Newcomer[] {
   const out = [...all];
-  // Who comes in later or is parked stays as it is: its motion is made for its size.
+  // Late arrivals and parked ones stay: their motion fits their size.
   const drives = (n: Newcomer): boolean => n.kind !== 'cyclist' && n.kind !== 'pedestrian' && !n.motion;
   const driving = all.flatMap((n, i) => (drives(n) ? [i] : []));
   const vehicles = shareOf(mix, 'car') + shareOf(mix, 'heavy') + shareOf(mix, 'motorcycle');
@@ -37,7 +37,7 @@ export function recast(all: readonly Newcomer[], mix: Mix, taken: readonly Footp
   }
   for (const kind of ['heavy', 'motorcycle'] as const) {
     let missing = wanted(kind) - of(kind).length;
-    // Spread over the area: every so many-th car.
+    // Spread over the area: every n-th car.
     for (const i of spread(of('car'))) {
       if (missing <= 0) break;
       const which = kind === 'heavy' ? (missing % BUS_EVERY ? 'truck' : 'bus') : 'motorcycle';
@@ -56,11 +56,11 @@ const as = (n: Newcomer, kind: PlacedKind, size: Preset): Newcomer => ({
   pose: { ...n.pose, speed: Math.min(n.pose.speed, topSpeed({ type: 'vehicle', subtype: size.subtype })) },
 });
 
-/** Steps through a list so that neighbours do not follow each other: every third, then those between. */
+/** Order in which neighbours do not follow each other: every third, then those between. */
 const spread = (list: readonly number[]): number[] =>
   [0, 1, 2].flatMap((from) => list.filter((_, i) => i % 3 === from));
 
-/** So many of them, evenly out of all. */
+/** At most this many, evenly out of all. */
 export function thinned<T>(all: readonly T[], most: number): T[] {
   return all.filter((_, i) => Math.floor(((i + 1) * most) / all.length) > Math.floor((i * most) / all.length));
 }

@@ -1,4 +1,4 @@
-// Asks the server who would stand where, as often as the wish changes, and adds them when that is wanted.
+// Requests a placement whenever the settings change, and adds it to the scene on demand.
 import { effect } from '@preact/signals-core';
 import type { Scene } from '../../../model/document/scene';
 import { inOneStep, removeAgents } from '../../../model/document/commands';
@@ -10,7 +10,7 @@ import type { SceneFile } from '../../document/scene-file';
 import { addThem, tooMany } from '../../moves/several';
 import { TEXTS } from '../../../texts/editing/keeping';
 
-/** A slider that moves asks when it rests so long. */
+/** A moving slider sends a request after this rest. */
 const REST_MS = 80;
 
 export class Filler {
@@ -34,7 +34,7 @@ export class Filler {
         this.#abort?.abort();
         return;
       }
-      // Whoever is pinned stands where the answer had it already: nothing changes until something else does.
+      // A pinned road user keeps its place: a new request follows only after another change.
       const { pinned, ...rest } = wish;
       const now = JSON.stringify([rest, scene.id, scene.castKey]);
       if (now === asked) return;
@@ -56,13 +56,13 @@ export class Filler {
     } catch (e) {
       if (abort.signal.aborted) return;
       const reason = e instanceof Refused ? e.message : TEXTS.theGenerator;
-      // A part of the page that does not come is a matter of the network too.
+      // A module that fails to load counts as a network problem too.
       if (!(e instanceof Refused) && !(e instanceof Away) && !(e instanceof TypeError)) throw e;
       filling.settle({ ...NO_ANSWER, reason });
     }
   }
 
-  /** What is previewed comes into the scene: one step. */
+  /** Adds the preview to the scene: one step. */
   add(): void {
     const { editor, filling } = this;
     const { notices } = editor;

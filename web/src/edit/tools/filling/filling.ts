@@ -1,4 +1,4 @@
-// What an area is to be filled with: where, how busy, which kinds, and what is seen of it before it is added.
+// Settings and preview of an area to fill: where, how dense, and which kinds.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { boxOf, insideBox, type Vec } from '../../../model/base/geometry';
 import { topSpeed } from '../../../model/base/domain';
@@ -7,65 +7,65 @@ import type { Editor } from '../../session/editor';
 import type { Part } from '../../session/part';
 import { EVEN_MIX, type FillKind, type Mix } from './fill-mix';
 
-/** Everything that decides who is placed where. */
+/** All settings that decide a placement. */
 export interface FillWish {
   /** Corners of the area in metres; null for the whole map. */
   readonly region: readonly Vec[] | null;
   /** Road users for each 100 m of lane. */
   readonly density: number;
   readonly mix: Mix;
-  /** Between which speeds motor vehicles start that move, m/s. */
+  /** Range of start speeds for moving motor vehicles, m/s. */
   readonly speeds: SpeedRange;
-  /** Vehicles an hour by the names of the arms that they come in by. */
+  /** Vehicles per hour by arm. */
   readonly rates: Readonly<Record<string, number>>;
-  /** Share of the places at kerbs and in lots that parked cars take. */
+  /** Share of parking places at kerbs and in lots that is taken. */
   readonly parked: number;
   readonly seed: number;
-  /** Do those stay who are there already? */
+  /** Do present road users stay? */
   readonly keep: boolean;
-  /** Those of the preview that stay while the others are drawn anew. */
+  /** Road users of the preview that stay when the others are drawn again. */
   readonly pinned: readonly Newcomer[];
 }
 
 export type SpeedRange = readonly [min: number, max: number];
 
-/** Where a road comes in. */
+/** An arm of the map, where a road enters. */
 export interface Arm {
-  /** The compass point that it comes from, with a number where several do. */
+  /** Its compass point, with a number where several share it. */
   readonly id: string;
   readonly at: Vec;
   /** Direction in which it leads, radians. */
   readonly heading: number;
-  /** Vehicles an hour that its lanes take. */
+  /** Capacity of its lanes, vehicles per hour. */
   readonly most: number;
-  /** Those of its traffic that are there at the start, and those that come in later. */
+  /** Number of its vehicles present at the start, and of later arrivals. */
   readonly placed: number;
   readonly later: number;
 }
 
-/** What is known of a wish. */
+/** The answer to the settings. */
 export interface FillAnswer {
   readonly all: readonly Newcomer[];
-  /** Why there are not more of them; null where nobody is missing. */
+  /** Why fewer than requested were placed; null where all were. */
   readonly reason: string | null;
-  /** Ids of those who go when it is added. */
+  /** Ids that are removed when it is added. */
   readonly replaced: readonly string[];
   readonly arms: readonly Arm[];
-  /** Places at kerbs and in lots; null while nobody knows. */
+  /** Parking places at kerbs and in lots; null while unknown. */
   readonly parkingPlaces: number | null;
 }
 
-/** Of an answer that could not be had. */
+/** Stands for a missing answer. */
 export const NO_ANSWER: FillAnswer = { all: [], reason: null, replaced: [], arms: [], parkingPlaces: null };
 
 export const LEAST_DENSITY = 0;
 export const MOST_DENSITY = 12.5;
 const USUAL_DENSITY = 3;
-/** No bounds at all. */
+/** Without bounds. */
 export const ANY_SPEED: SpeedRange = Object.freeze([0, topSpeed({ type: 'vehicle', subtype: 'car' })] as const);
-/** The largest seed that is drawn by the dice: short enough to be read. */
+/** The largest random seed: short enough to read. */
 const LARGEST_SEED = 9999;
-/** Around somebody small one may miss by so much, metres. */
+/** A click may miss a small road user by this, metres. */
 const MISS_M = 0.8;
 
 const first = (seed: number): FillWish => ({
@@ -90,14 +90,14 @@ export class Filling implements Part {
   readonly #answer = signal<FillAnswer | null>(null);
   readonly #asking = signal(false);
 
-  /** What is wished for while an area is being filled; null at other times. */
+  /** The settings while an area is being filled; null at other times. */
   readonly wish: ReadonlySignal<FillWish | null> = computed(() => (this.#open.value ? this.#wish.value : null));
   /** Corners of an outline that is not closed yet. */
   readonly drawn: ReadonlySignal<readonly Vec[] | null> = this.#drawn;
   readonly answer: ReadonlySignal<FillAnswer | null> = this.#answer;
   readonly asking: ReadonlySignal<boolean> = this.#asking;
 
-  /** Whoever would be added now: those that are pinned first. */
+  /** Road users that would be added now: pinned ones first. */
   readonly all = computed<readonly Newcomer[]>(() => [...this.#wish.value.pinned, ...(this.#answer.value?.all ?? [])]);
 
   constructor(private readonly editor: Editor) {}
@@ -113,7 +113,7 @@ export class Filling implements Part {
 
   open(seed: number): void {
     if (this.#open.peek()) return;
-    // Density and kinds are as they were the last time; the place is not.
+    // Density and kinds stay from the last time; the place does not.
     const { density, mix } = this.#wish.peek();
     batch(() => {
       this.#wish.value = { ...first(seed), density, mix };
@@ -131,9 +131,9 @@ export class Filling implements Part {
     });
   }
 
-  // -------------------------------------------------------------- where
+  // -------------------------------------------------------------- area
 
-  /** The outline so far; null when it is given up. */
+  /** The outline so far; null when it is cancelled. */
   draw(outline: readonly Vec[] | null): void {
     this.#drawn.value = outline;
   }
@@ -157,7 +157,7 @@ export class Filling implements Part {
     this.#wish.value = { ...this.#wish.peek(), region };
   }
 
-  // -------------------------------------------------------------- who
+  // -------------------------------------------------------------- traffic
 
   setDensity(density: number): void {
     this.#wish.value = { ...this.#wish.peek(), density };
@@ -169,12 +169,12 @@ export class Filling implements Part {
     if (Object.values(mix).some((v) => v > 0)) this.#wish.value = { ...wish, mix };
   }
 
-  /** Both ends within what cars can drive, the lower one first. */
+  /** Both ends within the speed range of cars, the lower one first. */
   setSpeeds([min, max]: SpeedRange): void {
     this.#wish.value = { ...this.#wish.peek(), speeds: [Math.min(min, max), Math.max(min, max)] };
   }
 
-  /** So many vehicles an hour are to come in by an arm. */
+  /** Sets the arrivals of an arm, in vehicles per hour. */
   setRate(arm: string, perHour: number): void {
     const wish = this.#wish.peek();
     if ((wish.rates[arm] ?? 0) !== perHour) this.#wish.value = { ...wish, rates: { ...wish.rates, [arm]: perHour } };
@@ -192,7 +192,7 @@ export class Filling implements Part {
     this.#wish.value = { ...this.#wish.peek(), seed };
   }
 
-  /** Another draw; whoever is pinned stays. */
+  /** Draws again; pinned ones stay. */
   shuffle(): void {
     this.setSeed(1 + Math.floor(Math.random() * LARGEST_SEED));
   }
@@ -201,13 +201,13 @@ export class Filling implements Part {
     return this.#wish.value.pinned.includes(n);
   }
 
-  /** The one of the preview that stands at a place. */
+  /** The previewed road user at a place. */
   at([x, y]: Vec): Newcomer | null {
     const there = this.all.peek().filter((n) => !comesLater(n));
     return there.find((n) => insideBox(n.pose, n.length, n.width, x, y, MISS_M)) ?? null;
   }
 
-  /** Somebody of the preview stays from now on, or goes with the next draw. The others stand where they stood. */
+  /** Pins or unpins a road user of the preview. The others keep their places. */
   togglePin(n: Newcomer): void {
     const wish = this.#wish.peek();
     const answer = this.#answer.peek();
@@ -219,7 +219,7 @@ export class Filling implements Part {
     });
   }
 
-  // -------------------------------------------------------------- what comes of it
+  // -------------------------------------------------------------- answer
 
   ask(): void {
     this.#asking.value = true;
@@ -233,7 +233,7 @@ export class Filling implements Part {
   }
 }
 
-/** Less than this is a slip of the hand, metres. */
+/** A smaller area is accidental, metres. */
 const LEAST_SIDE_M = 1;
 
 function hasInside(outline: readonly Vec[]): boolean {

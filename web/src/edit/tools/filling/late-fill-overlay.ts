@@ -1,4 +1,4 @@
-// What is painted of an area that is filled comes when it is wanted; until then the picture is painted again.
+// Loads the painter of a filled area on demand; once loaded the picture is painted again.
 import type { Labels } from '../../../draw/labels';
 import type { Pen } from '../../../draw/pen';
 import type { View } from '../../../draw/view';

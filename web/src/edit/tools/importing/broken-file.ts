@@ -1,4 +1,4 @@
-// What can be told of the text of a refused file: the line that is wrong, whose it is, and the scene without it.
+// Facts about the text of a refused file: the broken line, its object, and the scene without it.
 import { lineOf, linesAround, offsetOf } from '../../../model/document/json-place';
 import type { SceneJson } from '../../../model/document/scene-json';
 import type { Problem } from '../../../net/types';
@@ -7,7 +7,7 @@ import { partAt, withoutBroken, type BrokenPart, type Mended } from './mending';
 export interface Broken {
   readonly excerpt?: { readonly line: number; readonly from: number; readonly lines: readonly string[] };
   readonly part: BrokenPart | null;
-  /** Null where what is wrong is not in parts that can be left out. */
+  /** Null where the broken parts cannot be left out. */
   readonly mended: Mended | null;
 }
 

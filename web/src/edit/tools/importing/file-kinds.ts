@@ -1,11 +1,11 @@
-// What a file is, by what is in it: its name may say something else.
+// Kind of a file by its content: its name may be wrong.
 
 import { TEXTS } from '../../../texts/files/importing';
 
 interface Mark {
   readonly bytes: readonly number[];
   readonly kind: string;
-  /** Some of these hold a scene: the server looks into them. */
+  /** Some of these hold a scene: the server examines them. */
   readonly open?: true;
 }
 
@@ -21,12 +21,12 @@ const MARKS: readonly Mark[] = [
   { bytes: [0xd0, 0xcf, 0x11, 0xe0], kind: TEXTS.anOfficeDocument },
 ];
 
-/** How many bytes tell. */
+/** Number of leading bytes to compare. */
 const LOOKED_AT = 16;
 
 /**
- * The kind of a file that holds no scene, by its first bytes; null where they do not tell. With `surely: false` some
- * files of the kind do hold one.
+ * The kind of a file without a scene, by its first bytes; null where they match none. With `surely: false` some files
+ * of the kind do hold a scene.
  */
 export async function foreignKind(file: Blob): Promise<{ readonly kind: string; readonly surely: boolean } | null> {
   const head = new Uint8Array(await file.slice(0, LOOKED_AT).arrayBuffer());
@@ -42,7 +42,7 @@ const CALLED: Record<string, string> = {
   parquet: TEXTS.table,
 };
 
-/** What its name says that it is. */
+/** The kind according to the file's name. */
 export function kindByName(name: string): string {
   const ending = name.toLowerCase().replace(/\.gz$/, '').split('.').pop() ?? '';
   return CALLED[ending] ?? TEXTS.file;

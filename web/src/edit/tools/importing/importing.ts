@@ -19,7 +19,7 @@ export interface ImportedScene {
   readonly count: number;
 }
 
-/** What became of one file, and, when it could not be read, what is wrong, where, and what to do. */
+/** The result of one file, and, if it could not be read, what is wrong, where, and what to do. */
 export interface FileVerdict {
   readonly file: string;
   /** `saved scene`, `scenario record`, `a PDF`. */
@@ -30,31 +30,31 @@ export interface FileVerdict {
   readonly where?: string;
   readonly todo?: string;
   readonly details?: string;
-  /** The lines of the file where it is broken, and the number of the first. */
+  /** The broken lines of the file, and the number of the first. */
   readonly excerpt?: Broken['excerpt'];
-  /** The rest of it can be taken: without what. */
+  /** Parts to leave out so that the rest can be imported. */
   readonly without?: readonly string[];
-  /** What the reader assumed, left out or changed. */
+  /** Assumptions, omissions and changes of the reader. */
   readonly notes?: readonly ImportWarning[];
-  /** A table whose columns have names of their own: which of them says what? */
+  /** A table with unknown column names: the user assigns them. */
   readonly columns?: readonly string[];
-  /** Nobody answered: the same may go well later. */
+  /** The server did not answer: a retry may work. */
   readonly again?: File;
 }
 
 const READING_MS = 120_000;
-/** Larger files are not looked into here. */
+/** Larger files are not examined here. */
 const MOST_TEXT_BYTES = 20 << 20;
-/** After leaving out what is broken more may come to light. */
+/** Rounds of leaving out broken parts; each may reveal more. */
 const MOST_ROUNDS = 6;
 
 export class Importing {
   readonly #verdicts = signal<readonly FileVerdict[] | null>(null);
-  /** What is left of broken files, by their place in the list. */
+  /** Remaining scenes of broken files, by verdict. */
   #rests = new Map<FileVerdict, SceneJson>();
-  /** Tables that wait for what their columns say. */
+  /** Tables that wait for the meaning of their columns. */
   #tables = new Map<FileVerdict, Blob>();
-  /** The report that is to be shown; null when there is nothing to report. */
+  /** The report to show; null when there is none. */
   readonly verdicts: ReadonlySignal<readonly FileVerdict[] | null> = this.#verdicts;
 
   constructor(
@@ -86,7 +86,7 @@ export class Importing {
     else this.#verdicts.value = verdicts;
   }
 
-  /** One scene is on screen: a word is enough, with the way to what was assumed. */
+  /** One imported scene is shown: a toast is enough, with a link to the assumptions. */
   #sayImported(v: FileVerdict, without: string, all: readonly FileVerdict[]): void {
     const text = TEXTS.imported(v.scenes[0]?.name || v.file, without);
     const n = v.notes?.length ?? 0;
@@ -97,7 +97,7 @@ export class Importing {
     this.editor.notices.show({ text, action });
   }
 
-  /** Takes the rest of a file, without what is broken in it. */
+  /** Imports the rest of a file, without its broken parts. */
   async takeRest(v: FileVerdict): Promise<void> {
     const rest = this.#rests.get(v);
     if (!rest) return;
@@ -105,13 +105,13 @@ export class Importing {
     await this.#replace(v, () => this.#send(name, new Blob([JSON.stringify(rest)]), v.without));
   }
 
-  /** Reads a table by what its columns say. */
+  /** Reads a table with the assigned columns. */
   async readColumns(v: FileVerdict, columns: Record<string, unknown>): Promise<void> {
     const table = this.#tables.get(v);
     if (table) await this.#replace(v, () => this.#send(v.file, table, [], { columns }));
   }
 
-  /** The same file once more, now that somebody may answer. */
+  /** Sends the same file again. */
   async tryAgain(v: FileVerdict): Promise<void> {
     if (v.again) await this.#replace(v, () => this.#one(v.again!));
   }
@@ -144,7 +144,7 @@ export class Importing {
     }
   }
 
-  /** What is wrong, with the place in the file; the rest of it is kept where it can be taken. */
+  /** The fault with its place in the file; stores the rest where it can be imported. */
   async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
     const foreign = p.code === 'format-unknown' ? await foreignKind(file) : null;
     if (foreign) return foreignVerdict(name, foreign.kind);
@@ -168,7 +168,7 @@ export class Importing {
   }
 }
 
-/** Names of a table's columns, where that is what the server asks about; else null. */
+/** Column names of a table, where the server requests their meaning; else null. */
 function columnsIn(problem: Problem): readonly string[] | null {
   if (problem.code !== 'cannot-represent') return null;
   const said = problem.errors?.[0]?.detail ?? problem.detail ?? '';
@@ -176,13 +176,13 @@ function columnsIn(problem: Problem): readonly string[] | null {
   return names ? names.split(', ').filter((n) => n !== '...') : null;
 }
 
-/** A recording and, in the same drop, the map that it was made on: each of these goes with the one beside it. */
+/** A recording and, in the same drop, its map: each pattern pairs with the one beside it. */
 const PAIRS: readonly (readonly [recording: RegExp, map: RegExp])[] = [
   [/^scenario_.*\.parquet$|\.av2\.parquet$/i, /^log_map_archive_.*\.json$/i],
   [/\.fcd\.(xml|csv)(\.gz)?$/i, /\.net\.xml(\.gz)?$/i],
 ];
 
-/** Files with what belongs to them; one map goes with all its recordings, by name where there are several. */
+/** Files with their companions; one map goes with all its recordings, by name where there are several. */
 export function inPairs(files: readonly File[]): { readonly file: File; readonly net?: File }[] {
   const stem = (name: string) => name.replace(/^(scenario_|log_map_archive_)/i, '').replace(/\..*$/, '');
   const netOf = (file: File): File | undefined => {
@@ -246,7 +246,7 @@ function explain(file: string, p: Problem | undefined): Explanation {
   return { wrong: wrongWith(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
 }
 
-/** What a reader of JSON says of a fault. */
+/** JSON errors in the words of the parser. */
 const JSON_FAULTS: readonly (readonly [RegExp, keyof typeof TEXTS.jsonFaults])[] = [
   [/: EOF while parsing/, 'end'],
   [/: expected (value|ident)/, 'value'],
@@ -258,10 +258,10 @@ const JSON_FAULTS: readonly (readonly [RegExp, keyof typeof TEXTS.jsonFaults])[]
   [/: (control character|invalid escape|invalid unicode|lone leading surrogate|unexpected end of hex)/, 'text'],
 ];
 
-/** What the server says, as people would. */
+/** The server's message in plain words. */
 function wrongWith(file: string, p: Problem): string {
   const said = faultOf(p);
-  // A file of a kind that is known is called what it is.
+  // A file of a known kind is called by it.
   if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return TEXTS.isNotAScene(file);
   const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
   if (points) return points[1] === '1' ? TEXTS.onlyOnePoint(points[2]) : TEXTS.tooFewPoints(points[1], points[2]);

@@ -1,4 +1,4 @@
-// What can be taken of a scene whose file is broken in places: everything but the parts that are named as broken.
+// The usable rest of a scene whose file is broken in places: all except the parts named as broken.
 import { MOST_AGENTS } from '../../../model/base/domain';
 import { isMapRef, type MapJson, type SceneJson } from '../../../model/document/scene-json';
 import type { Problem } from '../../../net/types';
@@ -6,11 +6,11 @@ import { TEXTS } from '../../../texts/files/imports';
 
 export interface Mended {
   readonly scene: SceneJson;
-  /** What is left out: `lane E2`. */
+  /** The omitted parts: `lane E2`. */
   readonly without: readonly string[];
 }
 
-/** Parts that a scene can do without, by where their lists stand. */
+/** Parts that a scene can omit, by the path of their list. */
 const PARTS: readonly { readonly list: string; readonly name: string }[] = [
   { list: '/map/lanes', name: TEXTS.lane },
   { list: '/map/road_lines', name: TEXTS.roadLine },
@@ -27,7 +27,7 @@ const PARTS: readonly { readonly list: string; readonly name: string }[] = [
 export interface BrokenPart {
   readonly list: string;
   readonly index: number;
-  /** `lane “E2”`, as people call it. */
+  /** `lane “E2”`, the displayed name. */
   readonly name: string;
 }
 
@@ -39,7 +39,7 @@ const listAt = (scene: SceneJson, list: string): Record<string, unknown>[] | nul
   return Array.isArray(found) ? (found as Record<string, unknown>[]) : null;
 };
 
-/** The part that a pointer leads into; null where it is about the scene as a whole. */
+/** The part at a JSON pointer; null where it concerns the scene as a whole. */
 export function partAt(scene: SceneJson, pointer: string): BrokenPart | null {
   for (const { list, name } of PARTS) {
     const index = pointer.startsWith(`${list}/`) ? Number(pointer.slice(list.length + 1).split('/')[0]) : NaN;
@@ -51,7 +51,7 @@ export function partAt(scene: SceneJson, pointer: string): BrokenPart | null {
   return null;
 }
 
-/** Null where what is wrong is not in parts that can be left out. */
+/** Null where the broken parts cannot be left out. */
 export function withoutBroken(scene: SceneJson, problem: Problem): Mended | null {
   if (problem.code === 'too-many-agents') return fewer(scene);
   const parts = (problem.errors ?? []).map((e) => partAt(scene, e.pointer));
@@ -70,14 +70,14 @@ export function withoutBroken(scene: SceneJson, problem: Problem): Mended | null
   return { scene: copy, without: [...new Set((parts as BrokenPart[]).map((p) => p.name))] };
 }
 
-/** As many road users as a scene may have, from the first on. */
+/** Only as many road users as a scene may have, from the first on. */
 function fewer(scene: SceneJson): Mended | null {
   const rest = scene.agents.length - MOST_AGENTS;
   if (rest <= 0) return null;
   return { scene: { ...scene, agents: scene.agents.slice(0, MOST_AGENTS) }, without: [TEXTS.theLastRoadUsers(rest)] };
 }
 
-/** Nothing leads to a lane that is not there. */
+/** Removes references to missing lanes. */
 function forgetLanes(scene: SceneJson, lanes: ReadonlySet<string>): void {
   if (!lanes.size) return;
   const there = (id: unknown): boolean => !lanes.has(String(id));

@@ -1,5 +1,5 @@
-// What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
-// lanes lead, and what of it does not pass.
+// Overlay of a map being made: knobs and names of the arms, the former place of an arm, the ways of its lanes, and
+// failed checks.
 import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import { metres, num } from '../../../model/base/units';
@@ -43,7 +43,7 @@ export class ArmsOverlay {
     this.#paintNames(g, v, made, all);
   }
 
-  /** Where the lanes of the arm in hand lead; those of the others are dashed. */
+  /** Ways of the selected arm's lanes; those of the others are dashed. */
   #paintWays(g: Pen, v: View, made: Made, inHand: number): void {
     const c = colours();
     const { layouts } = this;
@@ -74,7 +74,7 @@ export class ArmsOverlay {
     }
   }
 
-  /** Where a way can be pulled from; while one is pulled, where it can go. */
+  /** Stop lines from which a way can be drawn; while one is drawn, its possible exits. */
   #paintStops(g: Pen, v: View): void {
     const { layouts } = this;
     const c = colours();
@@ -93,7 +93,7 @@ export class ArmsOverlay {
     }
   }
 
-  /** The way that is being pulled, to where the pointer is; caught by an exit it is part of the map. */
+  /** The way being drawn, up to the pointer; caught by an exit it is part of the map. */
   #paintDrawn(g: Pen, v: View): void {
     const { layouts } = this;
     const drawn = layouts.drawn.value;
@@ -191,7 +191,7 @@ export class ArmsOverlay {
     if (fault) pill(g, this.labels, x, y, fault, { icon: 'triangle', bg: c.surface, fg: c.ink });
   }
 
-  /** How many lanes an arm has, where one is about to come or go. */
+  /** The lane count of an arm, under a button that adds or removes one. */
   #paintCount(g: Pen, v: View): void {
     const { layouts } = this;
     const under = layouts.under.value;

@@ -1,5 +1,5 @@
-// A map that is being made, under the pointer: arms are turned and made longer, lanes come and go and are connected,
-// kerbs bend wider.
+// Editing a map under the pointer: arms are turned and lengthened, lanes added, removed and connected, kerb radii
+// changed.
 import { clamp, type Point, type Vec } from '../../../model/base/geometry';
 import { laneOf } from '../../../model/document/layouts';
 import type { Arm } from '../../../net/types';
@@ -10,26 +10,26 @@ import { Panning } from '../../gestures/panning';
 import { TEXTS } from '../../../texts/desk/gestures';
 import { Connecting, stops, wayAt } from './ways';
 
-/** The knob of an arm lies so far out from its stop line, its lane buttons and those that take lanes away, metres. */
+/** Distances of an arm's knob, add buttons and remove buttons from its stop line, metres. */
 const KNOB_M = 9;
 const MORE_M = 15;
 const FEWER_M = 19;
 const ASIDE_M = 2.6;
-/** Knobs are taken hold of from so far, pixels. */
+/** Knobs can be dragged within this distance, pixels. */
 const REACH_PX = 12;
 const REACH_TOUCH_PX = 24;
-/** An arm sticks at right angles to another within so many degrees. */
+/** An arm snaps to right angles with another within this many degrees. */
 const STICKS_DEG = 3;
 const MOST_LANES = 5;
 const KERB_M: readonly [number, number] = [3, 20];
 const LENGTH_M: readonly [number, number] = [40, 200];
-/** So far in or out an arm that is turned keeps its length, metres. */
+/** A turned arm keeps its length within this radial movement, metres. */
 const KEEPS_LENGTH_M = 6;
 /** Two clicks within this time and distance are a double click. */
 const DOUBLE_MS = 400;
 const DOUBLE_PX = 6;
 
-/** All knobs of the map that is being made, in metres. */
+/** All knobs of the map being made, in metres. */
 export function knobs(layouts: Layouts): Placed[] {
   const made = layouts.made.value;
   const arms = layouts.arms.value;
@@ -57,7 +57,7 @@ export function knobs(layouts: Layouts): Placed[] {
   return all;
 }
 
-/** The arm that something belongs to. */
+/** The arm of a knob. */
 const armOf = (knob: Knob | null): number | null => (knob && 'arm' in knob ? knob.arm : null);
 
 function knobAt(layouts: Layouts, v: View, p: Point, touch: boolean): Knob | null {
@@ -69,7 +69,7 @@ function knobAt(layouts: Layouts, v: View, p: Point, touch: boolean): Knob | nul
   return way ? { kind: 'way', arm: laneOf(way.from)[0], way } : null;
 }
 
-/** What is refused is not kept: the last map that could be drawn is the one in hand. */
+/** A refused change is dropped: the last drawable map stays. */
 function keepDrawn(layouts: Layouts): void {
   const made = layouts.made.peek();
   if (layouts.fault.peek() && made) layouts.set(made.layout.parameters);
@@ -79,7 +79,7 @@ class TurningArm implements State {
   readonly name = 'turning an arm';
   readonly followsModifiers = true;
   readonly #before: Arm;
-  /** How far out it was taken hold of, metres. */
+  /** Radial distance of the grab, metres. */
   readonly #out: number;
 
   constructor(
@@ -129,7 +129,7 @@ class TurningArm implements State {
   }
 }
 
-/** Whole degrees; 15 with Shift, tenths with Alt; at right angles to another arm it sticks. */
+/** Whole degrees; 15 with Shift, tenths with Alt; snaps to right angles with another arm. */
 export function snapped(
   degrees: number,
   others: readonly Pick<Arm, 'angle_deg'>[],
@@ -149,7 +149,7 @@ class BendingKerb implements State {
   readonly name = 'bending a kerb';
   readonly #from: Vec;
   readonly #radius: number;
-  /** Which way the knob goes when the radius grows, and how far for a metre. */
+  /** Movement of the knob for each metre of radius. */
   readonly #way: Vec;
 
   constructor(
@@ -203,7 +203,7 @@ const CURSORS: Readonly<Record<Knob['kind'], string>> = {
 /** The last click on free ground. */
 let clicked: Point & { t: number } = { x: 0, y: 0, t: -Infinity };
 
-/** What the pointer does while a map is being made, whatever tool is chosen in the rail. */
+/** Pointer behaviour while a map is being made, whatever the tool of the rail. */
 export const makingTool = (layouts: Layouts): Tool => ({
   name: 'make',
   label: TEXTS.makeAMap,
@@ -241,7 +241,7 @@ export const makingTool = (layouts: Layouts): Tool => ({
   },
 });
 
-/** A double click beyond the junction adds an arm that leads there. */
+/** A double click beyond the junction adds an arm there. */
 function onGround(layouts: Layouts, view: View, { x, y }: Press, t: number): void {
   const again = t - clicked.t < DOUBLE_MS && Math.hypot(x - clicked.x, y - clicked.y) < DOUBLE_PX;
   clicked = { x, y, t: again ? -Infinity : t };

@@ -1,14 +1,14 @@
-// The handles of a map that is being made and what they answer: they come when a map is begun.
+// The handles of a map being made, and their behaviour: loaded when a map is begun.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type * as LayoutTools from './layout-tools';
 
 export class LateTools {
   readonly #tools = signal<typeof LayoutTools | null>(null);
 
-  /** Null until they are there. */
+  /** Null until they are loaded. */
   readonly tools: ReadonlySignal<typeof LayoutTools | null> = this.#tools;
 
-  /** False when they do not come. */
+  /** False when loading fails. */
   async fetch(): Promise<boolean> {
     try {
       this.#tools.value ??= await import('./layout-tools');

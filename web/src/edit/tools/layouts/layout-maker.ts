@@ -1,4 +1,4 @@
-// Asks the server for the map as often as the wish changes, and makes a scene of it.
+// Requests the map whenever the settings change, and makes a scene of it.
 import { effect } from '@preact/signals-core';
 import { drivingSide, type DrivingSide } from '../../../model/physics/driving-side';
 import { nearestLanes } from '../../../model/document/lanemap';
@@ -19,13 +19,13 @@ import type { SceneFile } from '../../document/scene-file';
 import { TEXTS } from '../../../texts/editing/keeping';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
-/** Who stands farther from every lane than this does not stand on one, metres. */
+/** A road user further than this from every lane is off the lanes, metres. */
 const ON_LANE_M = 2.5;
-/** A server that does not answer is asked again after so long. */
+/** An unreachable server is retried after this. */
 const AGAIN_MS = 2000;
 
 export class LayoutMaker implements Part {
-  /** One question on its way, and the newest that came meanwhile. */
+  /** One request under way, and the newest that waits. */
   #running = false;
   #waiting: MapWish | null = null;
 
@@ -44,12 +44,12 @@ export class LayoutMaker implements Part {
     });
   }
 
-  /** A scene was opened over it. */
+  /** Another scene was opened. */
   opened(): void {
     this.leave();
   }
 
-  /** A new map, from the template that was chosen last. */
+  /** Begins a new map, from the last chosen template. */
   begin(): void {
     this.#open();
     this.layouts.choose(recall<TemplateName>('template') ?? FIRST_TEMPLATE, this.traffic);
@@ -58,23 +58,23 @@ export class LayoutMaker implements Part {
   choose(template: TemplateName): void {
     const { layouts } = this;
     keep('template', template);
-    // A side that was chosen by hand stays.
+    // A driving side set by the user stays.
     layouts.choose(template, layouts.parameters.peek()?.traffic ?? this.traffic);
   }
 
-  /** What the map of the open scene was made from; null where it came from elsewhere. */
+  /** The layout of the open scene's map; null where it came from elsewhere. */
   get madeFrom(): Layout | null {
     const layout = this.file.raw?.x_layout as Layout | undefined;
     return layout?.template && layout.parameters ? layout : null;
   }
 
-  /** The side that one drives on in the open scene: a new map is begun with the same. */
+  /** The driving side of the open scene: a new map uses it too. */
   get traffic(): DrivingSide | undefined {
     const scene = this.editor.scene.peek();
     return (scene && drivingSide(scene.map, this.madeFrom)) ?? undefined;
   }
 
-  /** The map of the open scene, to be changed. */
+  /** Edits the map of the open scene. */
   change(): void {
     const base = this.file.complete();
     const layout = this.madeFrom;
@@ -83,7 +83,7 @@ export class LayoutMaker implements Part {
     this.layouts.change(layout, base);
   }
 
-  /** Leaves the making; what was changed can be gone on with. */
+  /** Closes the map editor; changes can be reopened. */
   leave(): void {
     const reopen = this.layouts.close();
     if (reopen) this.#offerToGoOn(reopen);
@@ -128,7 +128,7 @@ export class LayoutMaker implements Part {
           wish.template,
           wish.parameters ?? (wish.traffic ? { traffic: wish.traffic } : null),
         );
-        // What was closed or replaced by another template meanwhile is not shown.
+        // A reply for a closed or replaced template is not shown.
         if (layouts.wish.peek()?.template === wish.template) layouts.settle(wish, reply, performance.now() - began);
       } catch (e) {
         if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
@@ -158,7 +158,7 @@ export class LayoutMaker implements Part {
     return (await this.client.makeMap(template, parameters)).scene as unknown as SceneJson;
   }
 
-  /** The map becomes a scene of its own; whose map was changed stays as it was. */
+  /** Makes a new scene of the map; the scene whose map was edited stays. */
   async use(): Promise<void> {
     const { layouts } = this;
     const made = layouts.made.peek();
@@ -175,7 +175,7 @@ export class LayoutMaker implements Part {
   }
 }
 
-/** Names of those on wheels who stand on no lane. */
+/** Names of vehicles and cyclists that stand on no lane. */
 function offTheLanes(json: SceneJson): string[] {
   if (isMapRef(json.map)) return [];
   const scene = readScene(json);

@@ -1,4 +1,4 @@
-// What is painted of a map that is being made, in place of the scene, once the part that paints it is there.
+// Paints a map being made in place of the scene, once the painter is loaded.
 import type { Labels } from '../../../draw/labels';
 import type { Pen } from '../../../draw/pen';
 import type { View } from '../../../draw/view';

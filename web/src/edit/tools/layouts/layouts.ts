@@ -1,4 +1,4 @@
-// A map that is being made: the template with its parameters, what came of it, and the arm in hand.
+// A map being made: the template with its parameters, the drawn result, and the selected arm.
 import { armTitle } from '../../../model/words/arm-names';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { DrivingSide } from '../../../model/physics/driving-side';
@@ -18,7 +18,7 @@ import type { Scene } from '../../../model/document/scene';
 import type { Arm, Layout, MapReply, Parameters, TemplateName } from '../../../net/types';
 import { TEXTS } from '../../../texts/editing/picture';
 
-/** What the server drew. */
+/** The drawn map of the server. */
 export interface Made {
   readonly layout: Layout;
   readonly json: SceneJson;
@@ -27,11 +27,11 @@ export interface Made {
   readonly arms: MapReply['arms'];
   readonly corners: MapReply['corners'];
   readonly ways: MapReply['ways'];
-  /** How long it took, milliseconds. */
+  /** Duration of the request, milliseconds. */
   readonly ms: number;
 }
 
-/** What is asked of the server. */
+/** A request for a map. */
 export interface MapWish {
   readonly template: TemplateName;
   /** Null for the template's own. */
@@ -40,13 +40,13 @@ export interface MapWish {
   readonly traffic?: DrivingSide;
 }
 
-/** An arm while it is turned: how it lay before. */
+/** The former place of an arm being turned. */
 export interface TurnedArm {
   readonly index: number;
   readonly before: Arm;
 }
 
-/** What of the map can be taken hold of. */
+/** Handles of the map. */
 export type Knob =
   | { readonly kind: 'arm'; readonly arm: number; readonly at: Vec }
   | { readonly kind: 'lane'; readonly arm: number; readonly side: 'in' | 'out'; readonly by: 1 | -1; readonly at: Vec }
@@ -57,7 +57,7 @@ export type Knob =
 /** A knob with a place of its own. */
 export type Placed = Exclude<Knob, { kind: 'way' }>;
 
-/** A way that is being drawn from a stop line: to an exit, or to where the pointer is. */
+/** A way being drawn from a stop line: to an exit, or to the pointer. */
 export interface DrawnWay {
   readonly from: LaneOfArm;
   readonly to: LaneOfArm | null;
@@ -66,9 +66,9 @@ export interface DrawnWay {
 
 export const FEWEST_ARMS = 3;
 export const MOST_ARMS = 6;
-/** Steps that can be taken back. */
+/** Number of undo steps. */
 const MOST_STEPS = 100;
-/** The same number set again within this time is one step, milliseconds. */
+/** Changes of one number within this time are one step, milliseconds. */
 const SAME_STEP_MS = 700;
 
 const NO_STEPS = { past: [], next: [] };
@@ -84,40 +84,40 @@ export class Layouts {
   readonly #drawn = signal<DrawnWay | null>(null);
   readonly #under = signal<Knob | null>(null);
   readonly #steps = signal<{ readonly past: readonly MapWish[]; readonly next: readonly MapWish[] }>(NO_STEPS);
-  /** The wish before a drag, which is one step. */
+  /** The request before a drag, which is one step. */
   #held: MapWish | null = null;
   #last = { number: '', at: 0 };
-  /** What the map on the picture was drawn from, and the steps that led there. */
+  /** The request of the shown map, and the steps that led there. */
   #drawnFrom: { readonly wish: MapWish; readonly past: readonly MapWish[] } | null = null;
-  /** The scene whose map is changed; null for a new one. */
+  /** The scene whose map is edited; null for a new one. */
   #base: SceneJson | null = null;
 
   /** Null while no map is being made. */
   readonly wish: ReadonlySignal<MapWish | null> = this.#wish;
   readonly isOpen = computed(() => this.wish.value !== null);
-  /** Is it one that nobody is on? */
+  /** Is it a new map, without road users? */
   readonly isNew = computed(() => this.wish.value !== null && !this.#base);
   readonly made = computed<Made | null>(() => (this.wish.value ? this.#made.value : null));
-  /** Why the last change was not taken. */
+  /** Why the last change was refused. */
   readonly fault: ReadonlySignal<string | null> = this.#fault;
-  /** Index of the arm in hand. */
+  /** Index of the selected arm. */
   readonly arm: ReadonlySignal<number> = this.#arm;
   readonly turned: ReadonlySignal<TurnedArm | null> = this.#turned;
   readonly asking: ReadonlySignal<boolean> = this.#asking;
-  /** Parameters as they are wished for, or as the template has them. */
+  /** The requested parameters, or the template's. */
   readonly parameters = computed<Parameters | null>(
     () => this.#wish.value?.parameters ?? (this.#made.value?.layout.parameters as Parameters | undefined) ?? null,
   );
   readonly arms = computed<readonly Arm[]>(() => this.parameters.value?.arms ?? []);
 
-  /** The way that was picked, of the arm in hand. */
+  /** The selected way, of the selected arm. */
   readonly way = computed<Connection | null>(() => {
     const way = this.#way.value;
     return way && this.ways.value.some((w) => sameWay(w, way)) ? way : null;
   });
   readonly ways = computed<MapReply['ways']>(() => this.made.value?.ways ?? []);
   readonly drawn: ReadonlySignal<DrawnWay | null> = this.#drawn;
-  /** What the pointer is over. */
+  /** The handle under the pointer. */
   readonly under: ReadonlySignal<Knob | null> = this.#under;
   readonly canUndo = computed(() => this.#steps.value.past.length > 0);
   readonly canRedo = computed(() => this.#steps.value.next.length > 0);
@@ -126,7 +126,7 @@ export class Layouts {
     return this.#base;
   }
 
-  /** Begins with a template; the last map stays on the picture until the new one is there. */
+  /** Begins with a template; the last map stays on the picture until the new one arrives. */
   choose(template: TemplateName, traffic?: DrivingSide): void {
     batch(() => {
       this.#forget();
@@ -135,7 +135,7 @@ export class Layouts {
     });
   }
 
-  /** Begins with what the map of a scene was made from. */
+  /** Begins with the layout of a scene's map. */
   change({ template, parameters }: Layout, base: SceneJson): void {
     this.#base = base;
     batch(() => {
@@ -144,7 +144,7 @@ export class Layouts {
     });
   }
 
-  /** What is given back opens it again as it was left; null where nothing was changed. */
+  /** The returned function reopens it unchanged; null where nothing was edited. */
   close(): (() => void) | null {
     const left = { wish: this.#now(), made: this.#made.peek(), arm: this.#arm.peek(), steps: this.#steps.peek() };
     const base = this.#base;
@@ -170,7 +170,7 @@ export class Layouts {
     return left.steps.past.length ? reopen : null;
   }
 
-  /** Nothing is drawn. */
+  /** Removes the drawn map. */
   #clear(): void {
     this.#made.value = null;
     this.#drawnFrom = null;
@@ -194,7 +194,7 @@ export class Layouts {
 
   // -------------------------------------------------------------- steps
 
-  /** `number` names one that may go through many values on its way. */
+  /** `number` names a value that may change many times in one step. */
   #step(wish: MapWish, number = ''): void {
     const before = this.#now();
     this.#wish.value = wish;
@@ -205,12 +205,12 @@ export class Layouts {
     if (!again) this.#steps.value = { past: [...this.#steps.peek().past, before].slice(-MOST_STEPS), next: [] };
   }
 
-  /** From here to `letGo` all changes are one step. */
+  /** All changes from here to `letGo` are one step. */
   hold(): void {
     this.#held = this.#now();
   }
 
-  /** The wish with the parameters that a template has by itself. */
+  /** The request, with the parameters that the template has by default. */
   #now(): MapWish | null {
     const wish = this.#wish.peek();
     return wish && { ...wish, parameters: this.parameters.peek() };
@@ -225,7 +225,7 @@ export class Layouts {
       this.#steps.value = { past: [...this.#steps.peek().past, before].slice(-MOST_STEPS), next: [] };
   }
 
-  /** Everything as it was when it was taken hold of. */
+  /** Restores the state before the drag. */
   putBack(): void {
     if (this.#held) this.#wish.value = this.#held;
   }
@@ -266,13 +266,13 @@ export class Layouts {
 
   setArm(index: number, change: Partial<Arm>): void {
     const arms = this.arms.peek();
-    // Other lanes, other turns.
+    // Other lanes need other turns.
     const turns = change.lanes_in !== undefined && change.turns === undefined ? { turns: null } : {};
     const changed = arms.map((a, i) => (i === index ? { ...a, ...change, ...turns } : a));
     this.set({ arms: changed, ...this.#kept(fitting(this.connections, changed)) });
   }
 
-  /** Another arm, like the one in hand. */
+  /** Adds an arm like the selected one. */
   addArm(angle_deg: number): void {
     const arms = this.arms.peek();
     const like = arms[this.#arm.peek()];
@@ -314,7 +314,7 @@ export class Layouts {
     return { ...NO_CONNECTIONS, ...this.parameters.peek()?.connections };
   }
 
-  /** As a change of the parameters: templates that have none get none. */
+  /** As a change of the parameters: templates without connections get none. */
   #kept(connections: Connections): Partial<Parameters> {
     const { added, removed } = connections;
     const before = this.parameters.peek()?.connections;
@@ -323,7 +323,7 @@ export class Layouts {
       : {};
   }
 
-  /** Do lanes lead from arm to arm, so that there is something to connect? */
+  /** Do lanes connect arms, so that connections can be edited? */
   get connects(): boolean {
     const template = this.#wish.peek()?.template;
     return template === 'three-arms' || template === 'four-arms';
@@ -342,7 +342,7 @@ export class Layouts {
     });
   }
 
-  /** A way from a lane to a lane; `ways` are those that there are without it. */
+  /** Adds a way from lane to lane; `ways`: the present ones without it. */
   addWay(way: Connection, ways: readonly Connection[] = this.ways.peek()): void {
     const { added, removed } = this.connections;
     const others = removed.filter((c) => !sameWay(c, way));
@@ -359,7 +359,7 @@ export class Layouts {
     this.set(this.#kept({ added: kept, removed: alone ? removed : [...removed, way] }));
   }
 
-  /** The lane leads where its turn lanes say; without a lane, all of the arm. */
+  /** Restores the ways that the turn lanes give; without a lane, for the whole arm. */
   usualWays(arm: number, lane: number | null = null): Partial<Parameters> {
     const own = (c: Connection): boolean => {
       const [a, l] = laneOf(c.from);
@@ -369,7 +369,7 @@ export class Layouts {
     return this.#kept({ added: added.filter((c) => !own(c)), removed: removed.filter((c) => !own(c)) });
   }
 
-  /** Turn lanes that are set anew make the ways of their lane. */
+  /** New turn lanes replace the ways of their lane. */
   setTurns(arm: number, lane: number, turns: Arm['turns']): void {
     const arms = this.arms.peek().map((a, i) => (i === arm ? { ...a, turns } : a));
     this.set({ arms, ...this.usualWays(arm, lane) });
@@ -383,19 +383,19 @@ export class Layouts {
     if (JSON.stringify(under) !== JSON.stringify(this.#under.peek())) this.#under.value = under;
   }
 
-  // -------------------------------------------------------------- what comes of it
+  // -------------------------------------------------------------- answer
 
   ask(): void {
     this.#asking.value = true;
   }
 
-  /** Is it the one that the map on the picture was drawn from? */
+  /** Is it the request that the shown map was drawn from? */
   isDrawn(wish: MapWish): boolean {
     return wish === this.#drawnFrom?.wish;
   }
 
   settle(wish: MapWish, reply: MapReply, ms: number): void {
-    // Where more was wished for meanwhile its steps are among these; what was drawn is a way back all the same.
+    // Later requests may have added steps to these; the drawn map can still be restored.
     this.#drawnFrom = { wish, past: this.#steps.peek().past };
     const json = reply.scene as unknown as SceneJson;
     const { layout, checks, arms, corners, ways } = reply;
@@ -406,7 +406,7 @@ export class Layouts {
     });
   }
 
-  /** What cannot be drawn is not wished for any longer: fields and handles show the map that there is. */
+  /** A refused request is dropped: fields and handles show the present map. */
   refuse(why: string): void {
     batch(() => {
       this.unanswered(why);
@@ -414,7 +414,7 @@ export class Layouts {
     });
   }
 
-  /** Nothing could be drawn: of what is wished for and what is there nothing changes. */
+  /** The server drew nothing: the request and the present map stay. */
   unanswered(why: string): void {
     batch(() => {
       this.#asking.value = false;

@@ -1,17 +1,17 @@
-// Ways of a map that is being made: pulled from a stop line to an exit, picked, taken away.
+// Ways of a map being made: drawn from a stop line to an exit, selected, removed.
 import { project, type Point, type Vec } from '../../../model/base/geometry';
 import { connectionOf, laneOf, type Connection, type LaneOfArm } from '../../../model/document/layouts';
 import type { View } from '../../../draw/view';
 import type { Knob, Layouts } from './layouts';
 import type { Chart, State } from '../../gestures/chart';
 
-/** Exits catch the pointer from so far, ways are picked from so far, pixels. */
+/** Exits catch the pointer within this distance, and ways are selected within this, pixels. */
 const CATCH_PX = 20;
 const CATCH_TOUCH_PX = 36;
 const PICK_PX = 6;
 const PICK_TOUCH_PX = 16;
 
-/** Where lanes stop before the junction. */
+/** Stop lines of the lanes into the junction. */
 export function stops(layouts: Layouts): Extract<Knob, { kind: 'stop' }>[] {
   if (!layouts.connects) return [];
   const places = layouts.made.value?.arms ?? [];
@@ -20,7 +20,7 @@ export function stops(layouts: Layouts): Extract<Knob, { kind: 'stop' }>[] {
   );
 }
 
-/** Where lanes leave it. */
+/** Starts of the lanes out of the junction. */
 export function exits(layouts: Layouts): { readonly lane: LaneOfArm; readonly at: Vec }[] {
   const places = layouts.made.value?.arms ?? [];
   return places.flatMap(({ outs_m }, arm) =>
@@ -28,7 +28,7 @@ export function exits(layouts: Layouts): { readonly lane: LaneOfArm; readonly at
   );
 }
 
-/** The way under the pointer; those of the arm in hand lie on top. */
+/** The way under the pointer; those of the selected arm are on top. */
 export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): Connection | null {
   const lanes = layouts.made.peek()?.scene.map.lanes;
   const [x, y] = v.from(p.x, p.y);
@@ -44,7 +44,7 @@ export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): Conn
   return near[0] ? { from: near[0].way.from, to: near[0].way.to } : null;
 }
 
-/** A way on its way from a stop line; over an exit the map has it at once. */
+/** A way being drawn from a stop line; over an exit the map includes it at once. */
 export class Connecting implements State {
   readonly name = 'connecting lanes';
   readonly #from: LaneOfArm;

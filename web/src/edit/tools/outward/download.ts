@@ -1,4 +1,4 @@
-// Files out of what is on screen.
+// Exports what is shown as files.
 import { Refused, type Client } from '../../../net/client';
 import type { SceneJson } from '../../../net/types';
 import type { Scene } from '../../../model/document/scene';
@@ -16,15 +16,15 @@ interface Source {
 export interface ExportedFile {
   readonly blob: Blob;
   readonly name: string;
-  /** What the format has no place for. */
+  /** Details that the format cannot hold. */
   readonly losses: readonly Loss[];
-  /** Files that go with it. */
+  /** Companion files. */
   readonly others?: readonly ExportedFile[];
 }
 
 const ENDING: Record<string, string> = { dragtraffic: 'json', womd: 'tfrecord' };
 
-/** The scene on screen in one of the server's formats. */
+/** The shown scene in one of the server's formats. */
 export async function exported(c: Source, format: string): Promise<ExportedFile | null> {
   const json = c.file.complete();
   return json && exportedJson(c.client, json, c.editor.scene.peek()!, format);
@@ -43,7 +43,7 @@ export async function exportedJson(
   return { blob, name: `${slug(json.name)}.${ending}`, losses: lossesOf(loss, scene) };
 }
 
-/** Saves it at once. */
+/** Saves it as a download. */
 export async function download(c: Source, format: string): Promise<void> {
   try {
     const made = await exported(c, format);

@@ -1,9 +1,9 @@
-// What happens in a scene as a table, for spreadsheets: one row an event.
+// The events of a scene as a table for spreadsheets: one row for each event.
 import type { TrafficEvent } from '../../../model/words/event-words';
 
 const COLUMNS = ['time_s', 'until_s', 'kind', 'who', 'whom', 'words', 'x_m', 'y_m', 'in_log'] as const;
 
-/** Comma-separated, in the order of time. Kinds are those of `faults` in the API; words are as on screen. */
+/** Comma-separated, in order of time. Kinds are those of `faults` in the API; words are as displayed. */
 export function eventsTable(events: readonly TrafficEvent[]): string {
   const rows = [...events]
     .sort((p, q) => p.time - q.time)
@@ -21,7 +21,7 @@ export function eventsTable(events: readonly TrafficEvent[]): string {
   return [COLUMNS, ...rows].map((cells) => cells.join(',')).join('\r\n') + '\r\n';
 }
 
-/** A name that looks like a formula stays a name. */
+/** A name that looks like a formula stays text. */
 function text(value: string): string {
   const plain = /^[=+\-@\t\r]/.test(value) ? `'${value}` : value;
   return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;

@@ -1,19 +1,19 @@
-// A film of the scene: what the picture shows, from 0 s to the end, at the pace in which it happens.
+// A film of the scene as shown, from 0 s to the end, in real time.
 import type { Stage } from '../../../draw/stage';
 import type { Editor } from '../../session/editor';
 
 const FRAMES_PER_S = 30;
 const BITS_PER_S = 8_000_000;
-/** What browsers can write, best first. */
+/** Formats that browsers can write, best first. */
 const KINDS = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm', 'video/mp4'];
 
-/** The kind of film this browser makes; null where it makes none. */
+/** The film format of this browser; null where it has none. */
 export const filmKind = (): string | null =>
   typeof MediaRecorder === 'undefined' ? null : (KINDS.find((k) => MediaRecorder.isTypeSupported(k)) ?? null);
 
 export const filmEnding = (kind: string): string => (kind.includes('mp4') ? 'mp4' : 'webm');
 
-/** `progress` hears how much is done, from 0 to 1. Null when it was stopped. */
+/** `progress` gets the share done, from 0 to 1. Null when it was stopped. */
 export async function film(
   editor: Editor,
   stage: Stage,

@@ -1,16 +1,16 @@
-// What can go out is found by words: its label, its ending, what it is good for and the names that people have for it.
+// Searches export formats by words: label, file ending, purpose and common names.
 
 export interface Findable {
   readonly label: string;
   readonly ending: string;
   readonly says: string;
-  /** The names under which others know it. */
+  /** Common names of the format. */
   readonly name?: string;
 }
 
 const wordsOf = (sought: string): readonly string[] => sought.toLowerCase().trim().split(/\s+/);
 
-/** Those that all words of a search are said of, in their order. */
+/** Formats that match all words of a search, in their order. */
 export function found<T extends Findable>(all: readonly T[], sought: string): readonly T[] {
   const words = wordsOf(sought);
   return all.filter(({ label, ending, says, name = '' }) => {
@@ -19,7 +19,7 @@ export function found<T extends Findable>(all: readonly T[], sought: string): re
   });
 }
 
-/** Which of them is meant most likely: a word that is the ending says more than one in a sentence about it. */
+/** The likeliest match: a word equal to the ending outweighs one within a sentence. */
 export function meant<T extends Findable>(all: readonly T[], sought: string): T | undefined {
   const words = wordsOf(sought);
   const off = (k: T): number => words.reduce((sum, w) => sum + offBy(k, w), 0);

@@ -1,8 +1,8 @@
-// The kinds of file that the server writes and reads, by what people want of them, in plain words.
+// File formats that the server writes and reads, by purpose, in plain words.
 import type { FormatInfo } from '../../../net/types';
 import { TEXTS } from '../../../texts/files/formats';
 
-/** What a file out of here is for. */
+/** Purpose of an exported file. */
 export type Wish = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';
 
 export const WISHES: readonly (readonly [Wish, string])[] = [
@@ -19,9 +19,9 @@ export interface OutFormat {
   readonly wish: Wish;
   readonly label: string;
   readonly icon: string;
-  /** One plain sentence: what it is good for. */
+  /** One plain sentence about its use. */
   readonly says: string;
-  /** Other words by which people look for it. */
+  /** Other search words for it. */
   readonly sought?: string;
 }
 
@@ -162,10 +162,10 @@ const OUT: readonly OutFormat[] = [
   },
 ];
 
-/** A format without words here still goes out, under the name that the server gives it. */
+/** A format without texts here is still offered, under the server's name. */
 const plain = ({ id, name }: FormatInfo): OutFormat => ({ id, wish: 'more', label: name, icon: 'file', says: '' });
 
-/** What the server writes, by the order of wishes; each with its ending and the names under which others know it. */
+/** Formats that the server writes, by purpose; each with its file ending and common names. */
 export function outFormats(known: readonly FormatInfo[]): (OutFormat & { ending: string; name: string })[] {
   const written = known.filter((f) => f.export);
   const worded = OUT.filter((o) => written.some((f) => f.id === o.id));
@@ -180,7 +180,7 @@ export function outFormats(known: readonly FormatInfo[]): (OutFormat & { ending:
   });
 }
 
-/** A kind of file that can be brought in. */
+/** A kind of file that can be imported. */
 export interface InKind {
   readonly label: string;
   readonly icon: string;
@@ -221,7 +221,7 @@ const IN: readonly InKind[] = [
   },
 ];
 
-/** What the server reads, by kind; a format without words here stands at the end. */
+/** Formats that the server reads, by kind; a format without texts here is last. */
 export function inKinds(known: readonly FormatInfo[]): (InKind & { files: readonly FormatInfo[] })[] {
   const read = known.filter((f) => f.import);
   const kinds = IN.map((k) => ({ ...k, files: k.formats.flatMap((id) => read.find((f) => f.id === id) ?? []) }));

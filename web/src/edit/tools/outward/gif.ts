@@ -1,13 +1,13 @@
-// GIF as it stands in its specification (GIF89a): pictures of at most 256 colours, packed by LZW, one after the other.
+// GIF according to its specification (GIF89a): pictures of at most 256 colours, LZW-compressed, in sequence.
 
-/** Colours are told apart by so many bits a channel where the common ones are counted. */
+/** Bits of each channel when the most common colours are counted. */
 const BITS = 5;
 const MOST_COLOURS = 256;
 const MOST_CODE_BITS = 12;
-/** A block of data holds so many bytes at most. */
+/** Largest size of a data block, in bytes. */
 const BLOCK = 255;
 
-/** The commonest colours of a picture, as RGB bytes: pictures of maps have few. */
+/** The most common colours of a picture, as RGB bytes: pictures of maps have few. */
 export function paletteOf(rgba: Uint8ClampedArray): Uint8Array {
   const counts = new Uint32Array(1 << (3 * BITS));
   const last = new Uint32Array(counts.length);
@@ -27,10 +27,10 @@ export function paletteOf(rgba: Uint8ClampedArray): Uint8Array {
 const keyOf = (r: number, g: number, b: number): number =>
   ((r >> (8 - BITS)) << (2 * BITS)) | ((g >> (8 - BITS)) << BITS) | (b >> (8 - BITS));
 
-/** Bytes of a film: a head, pictures of one size, an end. */
+/** Bytes of a film: header, pictures of one size, trailer. */
 export class GifWriter {
   readonly #parts: Uint8Array[] = [];
-  /** Of each coarse colour the index in the palette; -1 until it is asked for. */
+  /** Palette index of each coarse colour; -1 until computed. */
   readonly #nearest = new Int16Array(1 << (3 * BITS)).fill(-1);
 
   constructor(
@@ -41,11 +41,11 @@ export class GifWriter {
     const size = [width & 255, width >> 8, height & 255, height >> 8];
     this.#put(...bytesOf('GIF89a'), ...size, 0xf7, 0, 0);
     this.#parts.push(palette);
-    // It runs again and again.
+    // It loops forever.
     this.#put(0x21, 0xff, 11, ...bytesOf('NETSCAPE2.0'), 3, 1, 0, 0, 0);
   }
 
-  /** A picture that stays for so many hundredths of a second. */
+  /** A picture with its duration in hundredths of a second. */
   add(rgba: Uint8ClampedArray, hundredths: number): void {
     const { width, height } = this;
     this.#put(0x21, 0xf9, 4, 0, hundredths & 255, hundredths >> 8, 0, 0);
@@ -93,7 +93,7 @@ export class GifWriter {
 
 const bytesOf = (text: string): number[] => [...text].map((c) => c.charCodeAt(0));
 
-/** Codes of 8-bit indices, the least significant bit first; strings that came before are named by one code. */
+/** Codes of 8-bit indices, the least significant bit first; earlier strings have one code. */
 export function lzw(indices: Uint8Array): Uint8Array {
   const [clear, end] = [256, 257];
   const out: number[] = [];
@@ -122,7 +122,7 @@ export function lzw(indices: Uint8Array): Uint8Array {
     before = indices[i];
     if (next < 1 << MOST_CODE_BITS) {
       known.set(key, next);
-      // A reader is one entry behind: codes grow once the one that needs it could come.
+      // A decoder is one entry behind: codes grow once the one that needs it could occur.
       if (next++ === 1 << size) size++;
     } else {
       put(clear);

@@ -1,4 +1,4 @@
-// Packs the pictures of a film, so that the page has nothing to do with it.
+// Compresses the pictures of a film, off the main thread.
 import { GifWriter, paletteOf } from './gif';
 
 /** A picture; `null` ends the film. */
@@ -19,6 +19,6 @@ onmessage = ({ data }: MessageEvent<Picture | null>) => {
   const { rgba, width, height, hundredths } = data;
   writer ??= new GifWriter(width, height, paletteOf(rgba));
   writer.add(rgba, hundredths);
-  // The next one may come.
+  // Ready for the next one.
   postMessage(true);
 };

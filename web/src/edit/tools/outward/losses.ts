@@ -1,4 +1,4 @@
-// What a file cannot hold of a scene, in plain words and with the numbers of that scene.
+// Details of a scene that a file cannot hold, in plain words and with the numbers of that scene.
 import { num } from '../../../model/base/units';
 import type { Scene } from '../../../model/document/scene';
 import { TEXTS } from '../../../texts/files/losses';
@@ -77,10 +77,10 @@ const WORDS: Record<string, Words> = {
   'long-record': [TEXTS.usualLength, TEXTS.nothingIsCut],
 };
 const ORDER = Object.keys(WORDS);
-/** Codes without words stand at the end. */
+/** Unknown codes come last. */
 const rank = (code: string): number => (ORDER.indexOf(code) + ORDER.length + 1) % (ORDER.length + 1);
 
-/** Of codes as the server sends them, a list with commas. */
+/** From the server's comma-separated list of codes. */
 export function lossesOf(codes: string | null, scene: Scene): readonly Loss[] {
   return (codes ?? '')
     .split(',')
@@ -101,7 +101,7 @@ function plainly(code: string): string {
   return words[0].toUpperCase() + words.slice(1);
 }
 
-/** What is in the file all the same, in a line. */
+/** One line on what the file still contains. */
 export function stays(losses: readonly Loss[], scene: Scene): string {
   const lost = new Set(losses.map((l) => l.what));
   const parts: readonly (readonly [kept: boolean, words: string])[] = [

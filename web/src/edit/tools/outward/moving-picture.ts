@@ -1,4 +1,4 @@
-// The scene as a GIF: what the picture shows, ten times a second, for slides and mails that play no film.
+// The scene as a GIF: the picture ten times a second, for slides and mails that play no film.
 import { TEXTS } from '../../../texts/files/export';
 import type { Stage } from '../../../draw/stage';
 import type { Editor } from '../../session/editor';
@@ -6,10 +6,10 @@ import type { Picture } from './gif.worker';
 
 const EVERY_S = 0.1;
 const HUNDREDTHS = 10;
-/** Wider pictures are made smaller: ten a second of a whole screen are too many bytes for a mail. */
+/** Wider pictures are scaled down: ten full-size frames a second are too large for a mail. */
 const MOST_WIDTH_PX = 800;
 
-/** `progress` hears how much is done, from 0 to 1. Null when it was stopped. */
+/** `progress` gets the share done, from 0 to 1. Null when it was stopped. */
 export async function movingPicture(
   editor: Editor,
   stage: Stage,
@@ -36,7 +36,7 @@ export async function movingPicture(
   }
 }
 
-/** What is on screen, in a size that can be sent around. */
+/** The shown picture, in a size fit to send. */
 function taken(stage: Stage): Picture {
   const whole = document.createElement('canvas');
   stage.paintOn(whole, ['map', 'agents', 'overlay']);

@@ -1,4 +1,4 @@
-// One page about a scene, to be read and printed: the picture, who is there, what happens, and how it was made.
+// One page about a scene, to read and print: picture, road users, events, and how it was made.
 import { findChanges } from '../../../model/words/change-words';
 import { meetsGoal, motionOf } from '../../../model/physics/playback';
 import { counted } from '../../../model/physics/events';
@@ -17,7 +17,7 @@ export interface ReportOf {
   readonly scene: Scene;
   readonly motion: MotionSet;
   readonly events: readonly TrafficEvent[];
-  /** What the variant that is shown is called; null where none is. */
+  /** Name of the shown variant; null where none is. */
   readonly variant: string | null;
   readonly unit: SpeedUnit;
   /** Data address of the picture. */
@@ -88,11 +88,11 @@ function eventTable(events: readonly TrafficEvent[]): string {
   return `<table>${head(TEXTS.time, TEXTS.event, TEXTS.roadUser, TEXTS.position('m'), '')}${rows.join('')}</table>`;
 }
 
-/** Is something asked of a road user? Who was put here is asked nothing by that alone. */
+/** Has a road user conditions? Placing one sets none by itself. */
 const isAsked = (a: Agent): boolean =>
   a.placed ? hasGoal(a.goal) || a.goal.via.length > 0 || a.chosen !== null : changedByHand(a);
 
-/** What everybody does otherwise than in the log, or for somebody else where there is none, in words. */
+/** Each motion that differs from the recording, and each reaction of a placed road user, in words. */
 function wordsOf({ scene, motion }: ReportOf): ReadonlyMap<string, string> {
   const log = { ...motion, driving: new Set<string>() };
   const told = (id: string): boolean => !scene.agents.get(id)!.placed || motion.answering.has(id);

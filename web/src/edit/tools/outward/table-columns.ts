@@ -1,22 +1,22 @@
-// Tables of others: which of their columns says what, and in which unit. The server asks where it cannot tell.
-/** A unit as people call it, and how it is told to the server. */
+// Columns of foreign tables: their meaning and unit. The server requests them where it cannot infer them.
+/** A unit by its displayed name, and its form for the server. */
 import { TEXTS } from '../../../texts/files/imports';
 
 interface Unit {
   readonly label: string;
-  /** The server's column, where it is not that of the question. */
+  /** The server's column, where it differs from the field. */
   readonly field?: string;
   readonly unit?: string;
   readonly factor?: number;
 }
 
-/** What is to be known of a table. */
+/** A quantity to find in a table. */
 export interface Asked {
   readonly field: string;
   readonly label: string;
   readonly says: string;
   readonly needed: boolean;
-  /** Names that others give it. */
+  /** Common names of the column. */
   readonly names: RegExp;
   readonly units: readonly Unit[];
 }
@@ -116,14 +116,14 @@ export const ASKED: readonly Asked[] = [
   },
 ];
 
-/** What a person says: the column, and which of the units. */
+/** The user's answer: the column, and the index of its unit. */
 export interface Answer {
   readonly column: string | null;
   readonly unit: number;
 }
 export type Answers = Readonly<Record<string, Answer>>;
 
-/** What the names of the columns let one think, each column once. */
+/** Guesses from the column names; each column is used once. */
 export function guessed(columns: readonly string[]): Answers {
   const left = new Set(columns);
   const all: Record<string, Answer> = {};
@@ -165,7 +165,7 @@ function unitIn(column: string, units: readonly Unit[]): number {
 
 export const complete = (answers: Answers): boolean => ASKED.every((a) => !a.needed || answers[a.field]?.column);
 
-/** The answers as the server takes them. */
+/** The answers in the form of the server. */
 export function toldColumns(answers: Answers): Record<string, unknown> {
   const told: Record<string, unknown> = {};
   for (const { field, units } of ASKED) {

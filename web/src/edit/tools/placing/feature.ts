@@ -1,4 +1,4 @@
-// Road users that are put into the scene, and copies of them.
+// Placing of road users, and copies of them.
 import { PLACE } from '../../gestures/placing';
 import { Copying } from '../../moves/copying';
 import type { Feature } from '../feature';

@@ -1,4 +1,4 @@
-// What the overlay shows of who is about to be placed.
+// Overlay of the road users about to be placed.
 import { typeOfKind } from '../../../model/base/kinds';
 import type { Newcomer } from '../../../model/document/newcomer';
 import { speedLabel, walkingUnit } from '../../../model/base/units';

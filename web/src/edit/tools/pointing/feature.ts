@@ -1,4 +1,4 @@
-// What the pointer does by itself: it selects and drags, goes round, moves the picture, and measures.
+// Default pointer tools: select and drag, sweep, pan, and measure.
 import { LASSO } from '../../gestures/lasso';
 import { MEASURE } from '../../gestures/measuring';
 import { PAN } from '../../gestures/panning';

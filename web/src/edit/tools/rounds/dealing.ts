@@ -1,4 +1,4 @@
-// From an answer to cards, and from a card to what the document becomes when it is taken.
+// From an answer to cards, and from a card to the document after it is taken.
 import { patchScene, type Command } from '../../../model/document/commands';
 import { DEFAULTS } from '../../../model/base/domain';
 import { readEvents } from '../../../model/words/event-words';
@@ -37,7 +37,7 @@ function futures(scene: Scene, id: string, e: FinalEvent): Made<OneHand> | null 
   return { id, futures: { ...all, chosen: 0 }, names: all.modes.map((m) => m.name) };
 }
 
-/** Each sample is a scene of its own. */
+/** Each sample is a separate scene. */
 function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
   const asked = { agents: 'all', react: false, step: null } as const;
   const sets = e.samples.map((sample, i) => {
@@ -49,7 +49,7 @@ function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
   return { id: null, sets, names: named.map((name) => name.replace(/^Variant (\d)$/, 'Way $1')) };
 }
 
-/** The document that a card of the whole scene makes: everybody worked out anew, once more for each card. */
+/** The document of a whole-scene card: all road users are drawn again, once more for each card. */
 export function sceneTaken(scene: Scene, hand: SceneHand, index: number): { command: Command; take: Take } {
   const name = TEXTS.cardOfARound(LETTERS[index]);
   const command = patchScene(name, { drawn: scene.drawn + 1 + index });

@@ -1,5 +1,5 @@
-// The cards on the table: six futures of one road user that are judged, or six ways that the whole scene could go.
-// Nobody follows them yet.
+// The preference cards: six futures of one road user, or six alternatives of the whole scene, to be judged. No road
+// user follows them yet.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { answerTo, type Answer, type Asked, type Verdict } from '../../../model/document/feedback';
 import { everybody, oneSubject, type Subject } from '../../../model/document/feedback-commands';
@@ -9,23 +9,23 @@ import type { Futures, MotionSet } from '../../../model/document/futures';
 import type { RoundJson } from '../../../model/document/scene-json';
 
 interface Dealt {
-  /** Names what they were drawn by, and the document. */
+  /** Identifies the inputs of the draw, and the document. */
   readonly print: string;
-  /** What they were drawn by. */
+  /** The inputs of the draw. */
   readonly asked: Asked;
-  /** What each is like, in the order of the cards, and what was learned before them. */
+  /** Traits of each card, in the order of the cards, and what was learned before them. */
   readonly round: RoundJson;
-  /** What each is called. */
+  /** Name of each. */
   readonly names: readonly string[];
 }
 
-/** Of one road user, whom nobody answers. */
+/** Futures of one road user, without reactions. */
 export interface OneHand extends Dealt {
   readonly id: string;
   readonly futures: Futures;
 }
 
-/** Of everybody: what all of them do, by card. */
+/** Motions of all road users, by card. */
 export interface SceneHand extends Dealt {
   readonly id: null;
   readonly sets: readonly MotionSet[];
@@ -33,7 +33,7 @@ export interface SceneHand extends Dealt {
 
 export type Hand = OneHand | SceneHand;
 
-/** Whose rounds are open: a road user's by its id, everybody's by null. */
+/** Subject of the open rounds: a road user's id, or null for the whole scene. */
 export interface RoundsOf {
   readonly id: string | null;
 }
@@ -50,13 +50,13 @@ export class Deck implements Cards {
   /** Null while rounds are closed. */
   readonly of: ReadonlySignal<RoundsOf | null> = this.#of;
   readonly hand: ReadonlySignal<Hand | null> = this.#hand;
-  /** Index of the card that keys are about. */
+  /** Index of the card that keys act on. */
   readonly current: ReadonlySignal<number> = this.#current;
   readonly asking: ReadonlySignal<boolean> = this.#asking;
   /** Why there are no cards. */
   readonly problem: ReadonlySignal<string | null> = this.#problem;
 
-  /** Whom the open rounds are about; null while they are closed, or when it has gone. */
+  /** Subject of the open rounds; null while they are closed, or when it was removed. */
   readonly subject = computed<Subject | null>(() => {
     const [of, now] = [this.of.value, this.scene.value];
     if (!of || !now) return null;
@@ -64,7 +64,7 @@ export class Deck implements Cards {
     const a = now.agents.get(of.id);
     return a ? oneSubject(a) : null;
   });
-  /** What was said of each card; null where it is open. */
+  /** Verdict on each card; null where it is open. */
   readonly said = computed<readonly (Answer | null)[]>(() => {
     const hand = this.hand.value;
     const of = hand && this.subject.value;
@@ -124,13 +124,13 @@ export class Deck implements Cards {
     this.#current.value = Math.max(0, Math.min(n - 1, index));
   }
 
-  /** The cards, where they are those of this road user. */
+  /** The cards, if they belong to this road user. */
   ofAgent(id: string): OneHand | null {
     const hand = this.#hand.value;
     return hand && hand.id === id ? hand : null;
   }
 
-  /** What everybody does on the card that is looked at, where the cards are of everybody. */
+  /** Motions of all on the viewed card, for whole-scene cards. */
   shownSet(): MotionSet | null {
     const hand = this.#hand.value;
     return hand?.id === null ? (hand.sets[this.#current.value] ?? null) : null;

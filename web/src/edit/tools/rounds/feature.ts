@@ -1,4 +1,4 @@
-// Rounds of cards that are judged.
+// Rounds of cards that the user judges.
 import type { Feature } from '../feature';
 import { Deck } from './deck';
 import { Rounds } from './rounds';

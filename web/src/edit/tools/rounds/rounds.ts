@@ -1,4 +1,4 @@
-// Rounds of cards, of one road user or of the whole scene: asked for, judged, drawn anew by what was said, and one of
+// Rounds of cards, of one road user or of the whole scene: requested, judged, drawn again from the verdicts, and one of
 // them taken.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import {
@@ -27,20 +27,20 @@ import type { Take } from '../../asking/take-maker';
 import type { Dealt } from '../variants/variants';
 import { TEXTS } from '../../../texts/editing/rounds';
 
-/** What is wished, as far as it is known. */
+/** A preference, as far as it is known. */
 export interface Wished {
   readonly wish: Wish;
   readonly words: string;
-  /** Null for one that was said since the cards were drawn. */
+  /** Null for a preference stated since the cards were drawn. */
   readonly learned: Hand['round']['wishes'][number] | null;
 }
 
-/** Rounds that an undo shows again at once. */
+/** Rounds that an undo restores at once. */
 const REMEMBERED = 24;
 
 const NO_ANSWER = TEXTS.theGenerator;
 
-/** Joint scenes are judged, each by itself. */
+/** Joint scenes are judged one by one. */
 const EVERYBODY: Wanted = {
   agents: 'all',
   react: false,
@@ -49,15 +49,15 @@ const EVERYBODY: Wanted = {
 
 export class Rounds {
   readonly #known = new Map<string, Hand>();
-  /** The document that the open rounds are about. */
+  /** Identifies the document of the open rounds. */
   #print = '';
   readonly #tries = signal(0);
 
-  /** Whom they are about; null while they are closed. */
+  /** Subject of the rounds; null while they are closed. */
   readonly subject: ReadonlySignal<Subject | null>;
-  /** What the document asks of the present round; null while rounds are closed. */
+  /** Inputs of the current round in the document; null while rounds are closed. */
   readonly asked: ReadonlySignal<Asked | null>;
-  /** What was said of each card; null where it is open. */
+  /** Verdict on each card; null where it is open. */
   readonly said: ReadonlySignal<readonly (Answer | null)[]>;
   readonly wished: ReadonlySignal<readonly Wished[]>;
   readonly mayGoOn: ReadonlySignal<boolean>;
@@ -82,7 +82,7 @@ export class Rounds {
       return !!a && !!asked && hasNews(a.feedback, asked) && this.#ready(true);
     });
     this.wished = computed(() => this.#wishes());
-    // Whatever else changes the document, or takes the eyes off this road user, ends the rounds.
+    // Any other change of the document or of the selection ends the rounds.
     effect(() => {
       const of = deck.of.value;
       if (!of) return;
@@ -111,7 +111,7 @@ export class Rounds {
     if (a && canMove(a)) this.#open(a.id, a.name);
   }
 
-  /** For everybody. */
+  /** For the whole scene. */
   openScene(): void {
     if (this.editor.scene.peek()) this.#open(null, TEXTS.theWholeScene);
   }
@@ -135,20 +135,20 @@ export class Rounds {
     this.deck.close();
   }
 
-  /** Asks again after nobody answered. */
+  /** Sends the request again after a failure. */
   tryAgain(): void {
     this.#tries.value++;
   }
 
-  // -------------------------------------------------------------- what is said
+  // -------------------------------------------------------------- verdicts
 
-  /** Keeps or rejects a card; the same once more opens it again. */
+  /** Keeps or rejects a card; the same verdict again clears it. */
   say(index: number, verdict: Verdict): void {
     const was = this.said.peek()[index];
     this.#judge(index, was?.verdict === verdict ? null : verdict, null);
   }
 
-  /** Why a card is liked or not; of an open one it says that it is not. */
+  /** The reason for a verdict; on an open card it rejects the card. */
   sayWhy(index: number, key: string): void {
     const [a, hand] = [this.subject.peek(), this.deck.hand.peek()];
     const card = hand?.round.cards[index];
@@ -188,8 +188,8 @@ export class Rounds {
   }
 
   /**
-   * A card becomes what the road user does: the others answer it as any future that is picked. One of the whole scene
-   * has their answers already.
+   * Takes a card as the followed future: the others react as to any picked one. A whole-scene card already has their
+   * reactions.
    */
   take(index: number): void {
     const { editor } = this;
@@ -208,11 +208,11 @@ export class Rounds {
       editor.answers.look(a.id, hand.futures, before.reach.get(a.id) ?? null);
       editor.commits.run(takeDealt(a, index, hand.print, LETTERS[index]));
     });
-    // Undo shows what was there before.
+    // Undo shows the answers from before.
     editor.answers.know(before);
   }
 
-  /** The kept cards, each as the document in which it is taken. */
+  /** The kept cards, each as the document after it is taken. */
   kept(): Dealt | readonly Take[] | null {
     const [hand, scene] = [this.deck.hand.peek(), this.editor.scene.peek()];
     if (!hand || !scene || !this.#ready()) return null;
@@ -248,7 +248,7 @@ export class Rounds {
     const wanted: Wanted =
       a.id === null ? { ...EVERYBODY, feedback } : { agents: [a.id], react: false, step: null, feedback };
     const question = this.questions.makeApart(scene, motion.peek(), wanted, {
-      // Half-drawn cards are nothing to be judged.
+      // Partly drawn cards are not shown for judging.
       draft: () => undefined,
       final: (e) => this.#deal(text, a, asked, e),
       refused: (p) => deck.fail(inWords(p)),
@@ -272,7 +272,7 @@ export class Rounds {
     this.editor.notices.say(TEXTS.roundA(asked.round, hand.names.length, hand.names[0]));
   }
 
-  /** Are the cards those of the document? */
+  /** Do the cards belong to the document? */
   #ready(watch = false): boolean {
     const { deck } = this;
     const [hand, asked] = watch ? [deck.hand.value, this.asked.value] : [deck.hand.peek(), this.asked.peek()];
@@ -280,7 +280,7 @@ export class Rounds {
     return !!hand && !asking && hand.asked.round === asked?.round && hand.asked.key === asked.key;
   }
 
-  /** What was learned and what was said since, without what was forgotten. */
+  /** Learned preferences and those stated since, without forgotten ones. */
   #wishes(): readonly Wished[] {
     const { deck } = this;
     const f = this.subject.value?.feedback;
@@ -289,7 +289,7 @@ export class Rounds {
     const learned = (deck.hand.value?.round.wishes ?? []).filter((w) => {
       const other = own.find((o) => sameTrait(o, w));
       if (forgotten.some((t) => sameTrait(t, w))) return false;
-      // Of what was said and taken back since nothing is left.
+      // A preference stated and withdrawn since is dropped.
       return other ? other.wants === w.wants : !w.said;
     });
     const since = own.filter((w) => !learned.some((l) => sameTrait(l, w)));
@@ -305,7 +305,7 @@ export class Rounds {
   };
 }
 
-/** The wish alone. */
+/** Only the preference, without statistics. */
 function wishOf(l: Hand['round']['wishes'][number]): Wish {
   const { wants } = l;
   if (l.trait === 'first') return { trait: l.trait, who: l.who, with: l.with, wants };

@@ -1,4 +1,4 @@
-// What was said in rounds, as a file.
+// Saves the feedback of rounds as a file.
 import { oneSubject } from '../../../model/document/feedback-commands';
 import { feedbackTable } from '../../../model/words/feedback-table';
 import { nameIn } from '../../../model/document/scene';
@@ -6,7 +6,7 @@ import { save, slug } from '../outward/download';
 import type { Deck } from './deck';
 import type { Editor } from '../../session/editor';
 
-/** Of those whom the rounds are about, else of the selected road user, as a table. */
+/** For the subject of the rounds, otherwise the selected road user, as a table. */
 export function saveFeedback(editor: Editor, deck: Deck): void {
   const [scene, one] = [editor.scene.peek(), editor.agent.peek()];
   const a = deck.subject.peek() ?? (one && oneSubject(one));

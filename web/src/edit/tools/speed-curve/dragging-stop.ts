@@ -1,11 +1,11 @@
-// A stop on the road in hand. Its bar is dragged along the path: it stops there, and the time follows. Its words are
-// pulled sideways for how long it stops. The release is one step.
+// Drags a stop on the road. Its bar moves along the path: the stop place changes, and its time follows. Its words are
+// dragged sideways for the duration. The release is one step.
 import type { Chart, State } from '../../gestures/chart';
 import type { SpeedCurve } from './speed-curve';
 
-/** Where one stops holds a bar that is so near, pixels. */
+/** A stop place catches the bar within this distance, pixels. */
 const CAPTURE_PX = 8;
-/** So much longer or shorter for so many pixels. */
+/** Change of the duration for this many pixels. */
 const STEP_S = 0.1;
 const STEP_PX = 4;
 

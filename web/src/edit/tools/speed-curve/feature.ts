@@ -1,4 +1,4 @@
-// Speeds drawn by hand, with stops to take hold of.
+// Drawn speed profiles, with draggable stops.
 import type { Feature } from '../feature';
 import { SpeedCurve } from './speed-curve';
 import { StopBars } from './stop-bars';

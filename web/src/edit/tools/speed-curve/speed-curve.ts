@@ -1,5 +1,5 @@
-// The speed curve of the selected road user in hand: its points are moved, added and taken away, and what comes of it
-// is shown at once. The release is one step; others answer it then.
+// The drawn speed profile of the selected road user: its points are moved, added and removed, and the effect is shown
+// at once. The release is one step; others react then.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { setCurve } from '../../../model/document/commands';
 import { limitsOf, topSpeed } from '../../../model/base/domain';
@@ -23,12 +23,12 @@ import { withCurve } from '../../asking/drawn-speeds';
 import type { Editor } from '../../session/editor';
 import { TEXTS } from '../../../texts/editing/moves';
 
-/** A front so near to where one stops stands there, metres. */
+/** A front within this distance of a stop place stops there, metres. */
 const THERE_M = 0.6;
 
-/** A new point keeps so far from others, seconds. */
+/** Least distance of a new point from others, seconds. */
 const ROOM_S = 0.4;
-/** Braking at most for a stop that is added, m/s². */
+/** Largest deceleration for an added stop, m/s². */
 const CALM_MPS2 = 3;
 
 const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? 0);
@@ -39,31 +39,31 @@ const nearestOf = (all: readonly StopPlace[], s: number, within: number): StopPl
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
   readonly #point = signal<number | null>(null);
-  /** What a way out that is pointed at would make of it. */
+  /** The curve after the remedy under the pointer. */
   readonly #tried = signal<{ readonly id: string; readonly profile: Profile } | null>(null);
-  /** The motion that the last change took the place of, and the document that has the change; null in the hand. */
+  /** The motion before the last change, and the key of the changed document; null during a drag. */
   readonly #before = signal<{ readonly id: string; readonly motion: Motion; readonly key: string | null } | null>(null);
 
-  /** Index of the point that fields and keys are about. */
+  /** Index of the point that fields and keys act on. */
   readonly point: ReadonlySignal<number | null> = this.#point;
   /** Is a point being dragged? */
   readonly dragging = computed(() => this.#inHand.value !== null);
 
   constructor(private readonly editor: Editor) {}
 
-  /** The curve that is asked for: in hand, or in the document; null where nobody has drawn one. */
+  /** The requested curve: the dragged one, or the document's; null where none is drawn. */
   readonly asked: ReadonlySignal<Profile | null> = computed(() => {
     const a = this.editor.agent.value;
     return this.#inHand.value ?? (a && profileOf(a));
   });
 
-  /** The curve as it is shown. */
+  /** The shown curve. */
   readonly profile: ReadonlySignal<Profile | null> = computed(() => {
     const tried = this.#tried.value;
     return tried && tried.id === this.editor.selection.value ? tried.profile : this.asked.value;
   });
 
-  /** How it went before the curve was changed, until something else is done. */
+  /** The motion before the curve was changed, until another change. */
   readonly before: ReadonlySignal<Motion | null> = computed(() => {
     const b = this.#before.value;
     if (b?.id !== this.editor.selection.value) return null;
@@ -71,7 +71,7 @@ export class SpeedCurve {
     return here ? b.motion : null;
   });
 
-  /** Points to take hold of: of the curve, or the start and the end of the future that is shown. */
+  /** Draggable points: of the curve, or start and end of the shown future. */
   readonly points: ReadonlySignal<readonly SpeedPoint[]> = computed(() => {
     const profile = this.profile.value;
     if (profile) return profile.points;
@@ -101,7 +101,7 @@ export class SpeedCurve {
     this.#point.value = i;
   }
 
-  /** Puts a point somewhere and shows what comes of it. */
+  /** Moves a point and shows the effect. */
   drag(i: number, to: Partial<SpeedPoint>): void {
     const base = this.profile.peek() ?? this.#begun();
     const a = this.editor.agent.peek();
@@ -113,8 +113,8 @@ export class SpeedCurve {
   }
 
   /**
-   * Moves a stop along the path, so that the front of the road user comes to a place; so near to where one stops it
-   * `sticks` there, metres.
+   * Moves a stop along the path so that the front of the road user reaches a place; a stop place within `sticks` metres
+   * catches it.
    */
   stopAt(i: number, [x, y]: Vec, sticks: number): void {
     const a = this.editor.agent.peek();
@@ -128,7 +128,7 @@ export class SpeedCurve {
     this.drag(i, { t: timeOfStop(base, i, [to.x, to.y], a.length / 2, limitsOf(a), scene.duration) });
   }
 
-  /** Where one stops there, in words; null where it stands anywhere. */
+  /** The stop place there, in words; null where there is none. */
   placeOf(a: Agent, { x, y }: Pose): string | null {
     const scene = this.editor.scene.peek();
     const base = this.profile.peek();
@@ -137,7 +137,7 @@ export class SpeedCurve {
     return nearestOf(this.#places(scene, a, base), front, THERE_M)?.words ?? null;
   }
 
-  /** Worked out once for a path: a hand that moves keeps it. */
+  /** Computed once for each path: a drag keeps the path. */
   #places(scene: Scene, a: Agent, { path }: Profile): readonly StopPlace[] {
     if (this.#known?.path !== path || this.#known.agents !== scene.agents)
       this.#known = { path, agents: scene.agents, all: stopPlaces(scene, a, path) };
@@ -145,7 +145,7 @@ export class SpeedCurve {
   }
   #known: { readonly path: Path; readonly agents: Scene['agents']; readonly all: readonly StopPlace[] } | null = null;
 
-  /** What is in hand becomes a step. */
+  /** Commits the dragged curve as a step. */
   release(): void {
     const profile = this.#inHand.peek();
     const a = this.editor.agent.peek();
@@ -153,7 +153,7 @@ export class SpeedCurve {
     this.#inHand.value = null;
   }
 
-  /** As it was before the point was taken. */
+  /** Restores the state before the drag. */
   cancel(): boolean {
     if (!this.#inHand.peek()) return false;
     batch(() => {
@@ -163,13 +163,13 @@ export class SpeedCurve {
     return true;
   }
 
-  /** A value that is typed, or a key. */
+  /** A typed value, or a key. */
   set(i: number, to: Partial<SpeedPoint>): void {
     this.drag(i, to);
     this.release();
   }
 
-  /** A point, or a stop of so many seconds, where the playhead rests; else in the middle of the widest gap. */
+  /** Adds a point, or a stop with this duration, at the playhead; else in the middle of the widest gap. */
   addHere(hold: number | null): void {
     const points = this.points.peek();
     const motion = this.editor.reading.futures.peek()?.modes[this.editor.reading.chosen.peek()]?.motion;
@@ -183,7 +183,7 @@ export class SpeedCurve {
     const here = chosen && gaps.some(({ from, to }) => now > from + ROOM_S && now < to - ROOM_S - (hold ?? 0));
     const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
     const middle = (widest.from + widest.to - (hold ?? 0)) / 2;
-    // A stop nobody has chosen the time of is one that can be braked for calmly, where there is room.
+    // A stop without a chosen time is placed where comfortable braking suffices, if there is room.
     const calm = widest.from + speedAt(motion, widest.from) / CALM_MPS2 + EASING_S;
     const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(calm, widest.to - hold - ROOM_S));
     const v = hold === null ? speedAt(motion, t) : 0;
@@ -208,12 +208,12 @@ export class SpeedCurve {
     const profile = this.profile.peek();
     const a = this.editor.agent.peek();
     if (!profile || !a || i < 1 || i >= profile.points.length - 1) return;
-    // The next one takes its place, also under the keys.
+    // The next one takes its place, also for keys.
     this.#point.value = i;
     this.#run(a, { ...profile, points: profile.points.filter((_, k) => k !== i) });
   }
 
-  /** Shows what a way out would make of the curve; null shows the curve again. */
+  /** Shows the curve after a remedy; null shows the curve again. */
   try(way: Way | null): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
@@ -230,7 +230,7 @@ export class SpeedCurve {
     });
   }
 
-  /** Takes a way out. */
+  /** Takes a remedy. */
   accept(way: Way): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
@@ -238,7 +238,7 @@ export class SpeedCurve {
     if (a && base) this.#run(a, { ...base, points: way.points }, way.goalTime);
   }
 
-  /** The future as the generator had it. */
+  /** Restores the generator's future. */
   clear(): void {
     const a = this.editor.agent.peek();
     if (!a || !profileOf(a) || this.#isLocked(a)) return;
@@ -246,15 +246,15 @@ export class SpeedCurve {
     this.editor.commits.run(setCurve(a, null, null));
   }
 
-  /** Of who is locked it is said that it stays as it is. */
+  /** For a locked road user, a notice explains why nothing changes. */
   #isLocked(a: Agent): boolean {
     if (a.locked) this.editor.notices.show({ text: TEXTS.allAreLocked(1) });
     return a.locked;
   }
 
   /**
-   * Draws the speeds of the selected one, which a change has put out of force, on the way that is likeliest now: as
-   * part of that change where it `joins`. False where that cannot be.
+   * Draws the speeds of the selected road user again, along the likeliest path, after a change put its curve out of
+   * force. With `joins` it becomes part of that change. False where it cannot.
    */
   takeUp(id: string, joins: boolean): boolean {
     const a = this.editor.agent.peek();

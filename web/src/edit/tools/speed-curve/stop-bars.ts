@@ -1,4 +1,4 @@
-// Where somebody with a speed drawn by hand stands: a bar across the lane in front of the box, and for how long.
+// Stops of a drawn speed profile: a bar across the lane in front of the box, with the duration.
 import { paintGhost } from '../../../draw/handles';
 import { pill, type Labels, type Rect } from '../../../draw/labels';
 import type { Pen } from '../../../draw/pen';
@@ -22,14 +22,14 @@ import { TEXTS } from '../../../texts/editing/picture';
 const WIDER = 1.7;
 const AHEAD_M = 0.6;
 
-/** A finger takes hold of what lies within so many pixels of it. */
+/** A finger takes objects within this many pixels. */
 const BAR_PX = { mouse: 7, finger: 24 };
 
-/** A bar to take hold of, in pixels, and the point of the curve that stops there. */
+/** A draggable bar, in pixels, and the point of the curve that stops there. */
 interface StopBar {
   readonly ends: readonly [Vec, Vec];
   readonly point: number;
-  /** Its words: they are pulled for how long it stops. */
+  /** Its words: dragged to change the duration. */
   readonly words: Rect | null;
 }
 
@@ -109,7 +109,7 @@ function paintStops(
   return bars;
 }
 
-/** The point at zero that is next to the time of a stop; -1 where it stands for another reason. */
+/** The zero-speed point next to the time of a stop; -1 where the stop has another cause. */
 function pointOf(points: readonly SpeedPoint[], from: number): number {
   const away = points.map((p) => (p.v === 0 ? Math.abs(p.t - from) : Infinity));
   const least = Math.min(...away);

@@ -1,4 +1,4 @@
-// What is known of each variant, and of two that are compared.
+// Data of each variant, and of two compared ones.
 import { counted, worstOf } from '../../../model/physics/events';
 import { readEvents, type TrafficEvent } from '../../../model/words/event-words';
 import type { MotionSet } from '../../../model/document/futures';
@@ -8,23 +8,23 @@ import { nameVariants } from '../../../model/words/variant-names';
 import type { SpeedUnit } from '../../../model/base/units';
 import { sameCast, sceneOfVariant } from '../../../model/document/variants';
 
-/** A variant with what is known of it. */
+/** A variant with its known data. */
 export interface Card {
   readonly id: number;
   readonly variant: Variant;
   readonly state: VariantState;
-  /** The document that it stands for; null where other road users are in the scene now. */
+  /** Its document; null where the scene has other road users now. */
   readonly scene: Scene | null;
-  /** Null until it is worked out. */
+  /** Null until it is computed. */
   readonly set: MotionSet | null;
   readonly events: readonly TrafficEvent[];
   readonly name: string;
 }
 
-/** What a picture shows: everybody in a document, and one of them with its way. */
+/** Content of a picture: all road users of a document, and the path of one. */
 export type Pictured = Pick<Card, 'scene' | 'set' | 'events'> & { readonly state: { readonly subject: string | null } };
 
-/** A card that everything is known of. */
+/** A card with all its data. */
 export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet };
 
 export interface Compared {

@@ -1,5 +1,5 @@
-// The variants of the open scene: made, shown, kept, named and compared. Which there are stands in the document; what
-// everybody does in each is kept here, and worked out again where it is missing.
+// Variants of the open scene: made, shown, kept, named and compared. The document lists them; their motions are stored
+// here, and computed again where missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../../model/document/commands';
 import { counted, worstOf } from '../../../model/physics/events';
@@ -45,19 +45,19 @@ import {
 import { Maker, Stopped, subjectOf, type Take } from '../../asking/take-maker';
 import { TEXTS } from '../../../texts/editing/variants';
 
-/** What an export is about: the scene as it is, or several variants. */
+/** Scope of an export: the scene itself, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
-/** How far the making is, and what happens in those that are there. */
+/** Progress of the making, and the events so far. */
 export interface Making {
-  /** Those that are there. */
+  /** Variants made so far. */
   readonly made: readonly Pictured[];
   readonly of: number;
-  /** So many without anything, with a near miss or a broken rule, and with a collision. */
+  /** Number without events, with a near miss or a rule violation, and with a collision. */
   readonly clear: number;
   readonly near: number;
   readonly hit: number;
-  /** Seconds that the rest takes, by what the first ones took; null at the beginning. */
+  /** Estimated seconds left, from the first ones; null at the start. */
   readonly left: number | null;
 }
 
@@ -77,22 +77,22 @@ function withOne(m: Making, { scene, set }: Take, subject: string | null, tookS:
   };
 }
 
-/** How the making of variants ended. */
+/** Result of making variants. */
 interface Made {
   readonly subject: string | null;
   readonly why: string | null;
   readonly wanted: number;
   readonly stopped: boolean;
-  /** They go through a range of a number. */
+  /** They sweep a range of a number. */
   readonly ranged: boolean;
 }
 
 const USUAL_COUNT = 6;
-/** That so many of them were kept. */
+/** Notices that this many were kept. */
 const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept, present: () => TEXTS.keptAsAVariant } as const;
 const NONE: readonly Card[] = Object.freeze([]);
 
-/** Cards of a round, each as the document in which it is taken. */
+/** Cards of a round, each as the document after it is taken. */
 export interface Dealt {
   readonly id: string;
   readonly scenes: readonly Scene[];
@@ -112,48 +112,48 @@ export class Variants {
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
   readonly #sweep = signal<Sweep | null>(null);
   readonly #paused = signal(false);
-  /** Rises with every order to stop. */
+  /** Increases with every stop. */
   #turn = 0;
   readonly #fetching = signal(false);
 
   readonly open: ReadonlySignal<boolean> = this.#open;
-  /** How many are made at once. */
+  /** Number to make at once. */
   readonly count: ReadonlySignal<number> = this.#count;
   readonly filter: ReadonlySignal<Filter> = this.#filter;
-  /** Id of the card that is being given a name. */
+  /** Id of the card being renamed. */
   readonly renaming: ReadonlySignal<number | null> = this.#renaming;
-  /** The two that are compared, the left one first. */
+  /** The two compared variants, the left one first. */
   readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
-  /** The first of two that are to be compared. */
+  /** The first of two variants to compare. */
   readonly picked: ReadonlySignal<number | null> = this.#picked;
   readonly scope: ReadonlySignal<Scope> = this.#scope;
   readonly making: ReadonlySignal<Making | null> = this.#making;
-  /** The range of a number that is gone through; null where new ones differ by chance. */
+  /** The swept range of a number; null where new variants differ by seed. */
   readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
-  /** Does the making wait for somebody to go on with it? */
+  /** Is the making paused? */
   readonly paused: ReadonlySignal<boolean> = this.#paused;
-  /** Of whom new ones are made; null where it is everybody. */
+  /** Subject of new variants; null for all road users. */
   readonly subject: ReadonlySignal<Agent | null>;
-  /** How many new ones are asked for. */
+  /** Number of requested new variants. */
   readonly wanted = computed(() => (this.#sweep.value ? countOf(this.#sweep.value) : this.#count.value));
-  /** Why the range cannot be gone through; null where it can. */
+  /** Why the range cannot be swept; null where it can. */
   readonly obstacle: ReadonlySignal<string | null>;
-  /** Is anything being worked out? */
+  /** Is a variant being computed? */
   readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
   readonly cards: ReadonlySignal<readonly Card[]>;
   readonly filtered: ReadonlySignal<readonly Card[]>;
-  /** Id of the variant that is on the picture. */
+  /** Id of the shown variant. */
   readonly shown: ReadonlySignal<number | null>;
-  /** Id of the card that keys are about: the one with the focus, else the one on the picture. */
+  /** Id of the card that keys act on: the focused one, else the shown one. */
   readonly current: ReadonlySignal<number | null>;
 
   readonly #followed = signal<string | null>(null);
-  /** Whose speed in the two is looked at: who was picked for it, else who is furthest apart. */
+  /** The road user whose speeds are compared: the picked one, else the one with the largest distance. */
   readonly followed = computed<Diverging | null>(() => {
     const parted = this.compared.value?.parting.parted ?? [];
     return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
   });
-  /** The two that are compared, and what differs. */
+  /** The two compared variants, and their differences. */
   readonly compared: ReadonlySignal<Compared | null>;
 
   constructor(
@@ -196,7 +196,7 @@ export class Variants {
       const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
       editor.view.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
     });
-    // One leaves the comparison by changing the scene: it is none of the two any more.
+    // A change of the scene ends the comparison: the scene is none of the two any more.
     effect(() => {
       const left = this.#pair.value?.[0];
       if (left !== undefined && !editor.drag.active.value && this.shown.value !== left) this.endCompare();
@@ -236,7 +236,7 @@ export class Variants {
     this.#count.value = Math.min(MOST_NEW, Math.max(1, Math.round(n)));
   }
 
-  /** New ones go through a range of a number; null: they differ by chance. */
+  /** New variants sweep a range of a number; null: they differ by seed. */
   sweepOver(over: Over | null): void {
     const scene = this.editor.scene.peek();
     const a = this.subject.peek();
@@ -266,14 +266,16 @@ export class Variants {
     this.#filter.value = filter;
   }
 
-  /** The card that has the focus. */
+  /** The focused card. */
   focus(id: number | null): void {
     this.#current.value = id;
   }
 
   // -------------------------------------------------------------- making them
 
-  /** New ones in place of those that nobody kept, as one step; the first of them is shown, but of a range. */
+  /**
+   * Replaces the variants that are not kept with new ones, as one step; the first of them is shown, except for a range.
+   */
   async make(): Promise<void> {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -297,7 +299,7 @@ export class Variants {
       this.#put(takes, { subject, why, wanted, stopped, ranged: values !== null });
   }
 
-  /** Takes one after the other until somebody stops it, and waits while it is paused. */
+  /** Takes in turn until the user stops it; waits while it is paused. */
   async #takesOf(
     source: AsyncGenerator<Take>,
     subject: string | null,
@@ -348,8 +350,8 @@ export class Variants {
     const { notices } = editor;
     const now = editor.scene.peek()!;
     const motion = editor.answers.motion.peek();
-    // Work that is none of the variants gives way to the first of them: it can be kept beside them. Values of a range
-    // stand beside the one that the document has.
+    // The user's own work is replaced by the first variant, and can be kept beside the new ones. Values of a range are
+    // shown beside the document's own.
     const isWork = !ranged && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
     const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
     if (takes.length && takes[0].scene.castKey === now.castKey) {
@@ -369,7 +371,7 @@ export class Variants {
     notices.say(`${made}.`);
   }
 
-  /** Ends the making; what is done so far is taken. */
+  /** Ends the making; variants made so far are kept. */
   stop(): void {
     this.#turn++;
     this.#making.value = null;
@@ -386,7 +388,7 @@ export class Variants {
     this.#sets.value = sets;
   }
 
-  /** Variants of last time, and those that undo brought back. */
+  /** Variants of an earlier session, and those restored by undo. */
   async #fetchMissing(cards: readonly Card[]): Promise<void> {
     if (this.#fetching.peek()) return;
     const next = cards.find((c) => c.scene && !c.set);
@@ -423,9 +425,9 @@ export class Variants {
     return lock !== null;
   }
 
-  // -------------------------------------------------------------- one of them
+  // -------------------------------------------------------------- one variant
 
-  /** Puts a variant on the picture. */
+  /** Shows a variant. */
   take(id: number): void {
     const { editor } = this;
     const card = this.card(id);
@@ -460,7 +462,7 @@ export class Variants {
     this.#patch(id, (_, was) => ({ patch: { called: name }, name: TEXTS.named(was, name ?? TEXTS.automatically) }));
   }
 
-  /** What goes out, of the variants that everything is known of. */
+  /** Variants within an export scope that have all their data. */
   within(scope: Scope): readonly WholeCard[] {
     const pair = this.#pair.value;
     return this.cards.value.filter(isWhole).filter((c) => {
@@ -470,7 +472,7 @@ export class Variants {
     });
   }
 
-  /** The next export is about several: those that are kept, else all. */
+  /** The next export covers several: the kept ones, else all. */
   aimExport(): void {
     this.setScope(this.within('kept').length ? 'kept' : 'all');
   }
@@ -489,7 +491,7 @@ export class Variants {
     if (scene && card) this.editor.commits.run(removeVariant(scene, id, TEXTS.removed(card.name)));
   }
 
-  /** The scene as it is on the picture becomes one of the variants. */
+  /** Makes the shown scene one of the variants. */
   keepPresent(): void {
     const { editor } = this;
     const scene = editor.scene.peek();
@@ -501,7 +503,7 @@ export class Variants {
     this.#open.value = true;
   }
 
-  /** Futures of a round join the variants, kept, each with what the others do about it. */
+  /** Adds the futures of a round to the variants, kept, each with the others' reactions. */
   async keepDealt({ id, scenes, futures }: Dealt): Promise<void> {
     const { editor } = this;
     if (!scenes.length || this.#refusedLock()) return;
@@ -512,7 +514,7 @@ export class Variants {
     this.#join(takes, id);
   }
 
-  /** Scenes of a round, or cases that were found of somebody, join the variants, kept. */
+  /** Adds scenes of a round, or cases found for a road user, to the variants, kept. */
   keepTakes(
     takes: readonly Take[],
     subject: string | null = null,
@@ -553,11 +555,11 @@ export class Variants {
     this.editor.commits.run(patchVariant(scene, id, patch, name));
   }
 
-  // -------------------------------------------------------------- two of them
+  // -------------------------------------------------------------- two variants
 
   /**
-   * The first time it is remembered, the second time the two stand side by side; one of two that are kept stands
-   * beside the other at once.
+   * The first call remembers the variant, the second shows both side by side; a kept one is compared with the shown one
+   * at once.
    */
   compareWith(id: number): void {
     const first = this.#picked.peek() ?? this.shown.peek();
@@ -602,7 +604,7 @@ export class Variants {
   }
 }
 
-/** The one whose futures they are is free again: the variants pick for it. */
+/** Clears the pick of the subject: the variants pick for it. */
 function withoutPick(scene: Scene, subject: string | null): Scene {
   const a = subject === null ? undefined : scene.agents.get(subject);
   if (!a || a.chosen === null) return scene;
@@ -611,8 +613,8 @@ function withoutPick(scene: Scene, subject: string | null): Scene {
 }
 
 /**
- * The seed of the first new one. Variants that are there already were drawn with theirs: new ones go on after them.
- * Of one road user the same futures answer the same question, so it is the document's own seed.
+ * The seed of the first new variant. New ones continue after the seeds of present ones. With one subject the same
+ * futures answer the same request, so the document's own seed is used.
  */
 function nextSeed(scene: Scene, subject: string | null): number {
   const used = scene.variants.map((v) => scene.variantStates[v.id]).filter((s) => s.subject === subject);
