@@ -39,7 +39,7 @@ export class ViaMove implements Move {
     if (this.grip.handle === 'ring') {
       const away = ([px, py]: Vec): number => Math.hypot(px - this.#from[0], py - this.#from[1]);
       const metres = this.agent.goal.via[this.#index].tolerance + away([x, y]) - away(this.#grab);
-      // As the pointer moves: to 5 cm, or to half a unit of display with Shift.
+      // Rounded to 5 cm; with Shift to half a metre or a whole foot.
       const held = Math.round(metres * 20) / 20;
       return widenVia(this.agent, this.#index, mods.shift ? inHalves(metres) : held)!;
     }

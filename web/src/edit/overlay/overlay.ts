@@ -36,7 +36,7 @@ const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 const RAIL_H = 484;
 const RAIL_W = 62;
 const DRAG_HELP_W = 650;
-/** Above the zoom control, or above the lower edge on a small page. */
+/** Above the zoom control, or above the + button on a small page. */
 const COMPASS_PX = 84;
 /** The ring around the handle that keys move, outside the handle itself. */
 const KEYED_PX = 15;

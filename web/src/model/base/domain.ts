@@ -1,20 +1,20 @@
-// What the server knows of road users and of itself: the limits of motion, the ranges of what may be asked, and the
-// defaults. One file, written from the server's own tables, read at build time.
+// Facts of the server: motion limits by type, accepted ranges, and defaults. One file, generated from the server's own
+// tables and read at build time.
 import domain from '../../../../assets/domain.json';
 import type { AgentType } from './kinds';
 
-/** What limits depend on. */
+/** The fields that limits depend on. */
 export interface Typed {
   readonly type: AgentType;
   readonly subtype: string | null;
 }
 
-/** Hard limits of motion: no answer ever breaks them. `comfort_…` is what people choose, not what is possible. */
+/** Hard limits of motion: every answer respects them. `comfort_…` are the usual values, not the possible ones. */
 export interface Limits {
   readonly accel_mps2: number;
   readonly brake_mps2: number;
   readonly lateral_mps2: number;
-  /** Of the tightest circle, 1/m; null on foot. Vehicles longer than a car turn wider still. */
+  /** Of the tightest circle, 1/m; null for pedestrians. Vehicles longer than a car turn wider still. */
   readonly curvature_per_m: number | null;
   readonly speed_mps: number;
   readonly comfort_lateral_mps2: number;
@@ -22,7 +22,7 @@ export interface Limits {
 
 type Range = readonly [min: number, max: number];
 
-/** What may be asked of a road user; anything outside is refused. */
+/** Accepted ranges of conditions; the server refuses values outside. */
 export interface Ranges {
   readonly length_m: Range;
   readonly width_m: Range;
@@ -34,23 +34,23 @@ const RANGES = domain.condition_ranges as unknown as Record<Exclude<AgentType, '
 
 export const DEFAULTS = domain.defaults;
 
-/** Most road users of a scene. */
+/** Maximum number of road users in a scene. */
 export const MOST_AGENTS = domain.most_agents;
 
-/** Version of the program that the page is a part of. */
+/** Version of DragTraffic, page included. */
 export const VERSION = domain.version;
 
-/** What counts as an event: the number unless another one is given, and the least and the most that it may be. */
+/** Thresholds of events: usual value and accepted range. */
 export const THRESHOLDS: Readonly<Record<string, { readonly usual: number; readonly range: readonly number[] }>> =
   domain.thresholds;
 
-/** The numbers by which the server works out events and verdicts. */
+/** Constants of the server for events and verdicts. */
 export const JUDGING = domain.judging;
 
-/** What places on the way may ask for. */
+/** Accepted ranges of via points. */
 export const VIAS = domain.via;
 
-/** By type, and for vehicles by what the scene calls them: one without a word of its own is a car. */
+/** By type, and for vehicles by subtype: an unknown subtype counts as a car. */
 export function limitsOf(a: Typed): Limits {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return LIMITS[a.type];
   return (a.subtype && a.subtype !== 'other' && LIMITS[a.subtype]) || LIMITS.car;
@@ -58,5 +58,5 @@ export function limitsOf(a: Typed): Limits {
 
 export const rangesOf = (a: Pick<Typed, 'type'>): Ranges => RANGES[a.type === 'other' ? 'vehicle' : a.type];
 
-/** The fastest that may be asked of a road user and that it can go, m/s. */
+/** Highest speed that a road user can be given and can reach, m/s. */
 export const topSpeed = (a: Typed): number => Math.min(limitsOf(a).speed_mps, rangesOf(a).speed_mps[1]);

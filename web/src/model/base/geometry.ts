@@ -2,7 +2,7 @@
 
 export type Vec = readonly [number, number];
 
-/** A place, in metres or in pixels. */
+/** A point, in metres or in pixels. */
 export interface Point {
   readonly x: number;
   readonly y: number;
@@ -32,7 +32,7 @@ export const clamp = (v: number, lo: number, hi: number): number => Math.min(hi,
 export const lerp = (a: number, b: number, t: number): number => a + (b - a) * t;
 const dist = (a: Vec, b: Vec): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
-/** The one place where angles are wrapped: to [-pi, pi). */
+/** The only function that wraps angles: to [-pi, pi). */
 export function wrapAngle(a: number): number {
   const w = (a + Math.PI) % TAU;
   return (w < 0 ? w + TAU : w) - Math.PI;
@@ -49,7 +49,7 @@ export function mixPose(a: Pose, b: Pose, t: number): Pose {
   };
 }
 
-/** A polyline with its running length, so that points can be asked for by distance. */
+/** A polyline with its running length, for points by distance. */
 export interface Line {
   readonly pts: readonly Vec[];
   readonly s: Float64Array;
@@ -93,7 +93,7 @@ export interface Projection extends OnLine {
 
 /** Nearest point of a polyline. */
 export function project(line: Line, x: number, y: number): Projection {
-  // A drag asks this of hundreds of lines in each frame: nothing is put into memory on the way.
+  // A drag calls this for hundreds of lines in each frame, so it allocates no memory.
   let least = Infinity,
     at = 0,
     share = 0;
@@ -191,8 +191,8 @@ export function boxOf(pts: Iterable<Vec>): Box {
 export const boxesMeet = (a: Box, b: Box): boolean => a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 
 /**
- * Goes along points and keeps those without which the line would lie off one of them by more than `tolerance`: far
- * fewer where it is straight. The first and the last are kept.
+ * Thins points, keeping those without which the line would be off one of them by more than `tolerance`: far fewer where
+ * it is straight. The first and the last are kept.
  */
 export function thinned(
   from: number,
@@ -228,7 +228,7 @@ export function thinned(
     last = p;
     farthest = Math.max(farthest, d);
     if (d <= tolerance) continue;
-    // The tangents from the anchor to the circle of what is tolerated around the point.
+    // The tangents from the anchor to the tolerance circle around the point.
     const sin = tolerance / d;
     const cos = Math.sqrt(1 - sin * sin);
     const rx = dx * cos + dy * sin,

@@ -1,17 +1,17 @@
-// What can be placed: the kinds with their types, names and usual sizes.
+// Kinds that can be placed, with their types, names and usual sizes.
 import { TEXTS } from '../../texts/scene/kinds';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
 export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
 
-/** A size that road users of a kind often have. */
+/** A common size of a kind. */
 export interface Preset {
   readonly label: string;
   readonly subtype: string;
   /** Metres. */
   readonly length: number;
   readonly width: number;
-  /** m/s where no lane says otherwise. */
+  /** m/s where no lane has a limit. */
   readonly speed: number;
 }
 
@@ -27,7 +27,7 @@ export const KIND_NAMES: Record<Kind, string> = {
   other: TEXTS.object,
 };
 
-/** The same within a sentence. */
+/** The same for use within a sentence. */
 export const KIND_WORDS: Readonly<Record<Kind, string>> = TEXTS.one;
 
 const preset = (label: string, subtype: string, length: number, width: number, speed: number): Preset =>
@@ -101,7 +101,7 @@ export function countWords(kind: Kind, n: number): string {
   return TEXTS.count[kind](n);
 }
 
-/** `8 pedestrians, 2 cyclists`, most first; all in one word where there are many kinds. */
+/** `8 pedestrians, 2 cyclists`, most first; one word for all where there are many kinds. */
 export function kindsWords(kinds: readonly Kind[]): string {
   const count = new Map<Kind, number>();
   for (const k of kinds) count.set(k, (count.get(k) ?? 0) + 1);

@@ -1,4 +1,4 @@
-// Motion over time: recorded tracks and generated futures share this one shape.
+// Motion over time: recorded tracks and generated futures have this form.
 import { JUDGING } from './domain';
 import { clamp, lerp, lerpAngle, type Pose } from './geometry';
 
@@ -52,7 +52,7 @@ export function motionFrom(c: Columns, start?: Pose): Motion {
 const round = (v: number, k: number): number => Math.round(v * k) / k;
 const column = (a: Float64Array, k: number): number[] => Array.from(a, (v) => round(v, k));
 
-/** The columns of a motion as a file has them, from the state `skip` on: metres and m/s to 0.001, radians to 0.0001. */
+/** The columns of a motion in file form, from the state `skip` on: metres and m/s to 0.001, radians to 0.0001. */
 export function trackJson(m: Motion, skip = 0) {
   const x = column(m.x.subarray(skip), 1000),
     y = column(m.y.subarray(skip), 1000),
@@ -68,13 +68,13 @@ export function trackJson(m: Motion, skip = 0) {
   };
 }
 
-/** Velocity against the heading reads as a negative speed, so that reversing is visible. */
+/** Velocity against the heading gives a negative speed, so that reversing is visible. */
 function signedSpeed(vx: number, vy: number, heading: number): number {
   const v = Math.hypot(vx, vy);
   return vx * Math.cos(heading) + vy * Math.sin(heading) < -0.2 * v ? -v : v;
 }
 
-/** The motion of somebody who does not appear. */
+/** The motion of an absent road user. */
 export const nowhere: Motion = {
   first: 0,
   x: new Float64Array(0),
@@ -84,7 +84,7 @@ export const nowhere: Motion = {
   valid: [],
 };
 
-/** Where a motion is known between two indices, both inclusive: first and last of each stretch. */
+/** Known stretches of a motion between two indices, both inclusive: first and last of each. */
 export function stretches(m: Motion, from: number, to: number): (readonly [number, number])[] {
   const parts = m.valid.map(([a, b]) => [Math.max(from, a - m.first), Math.min(to, b - 1 - m.first)] as const);
   return parts.filter(([a, b]) => a <= b);
@@ -116,7 +116,7 @@ export function poseAt(m: Motion, t: number): Pose | null {
   };
 }
 
-/** Does it end before a time? A future that nobody follows ends with the first 9 s. */
+/** Does it end before a time? A future that no road user follows ends with the first 9 s. */
 export const endsBefore = (m: Motion, t: number): boolean => lastStep(m) * STEP_S < t - 0.05;
 
 export function endPose(m: Motion): Pose {
@@ -124,7 +124,7 @@ export function endPose(m: Motion): Pose {
   return poseAtStep(m, last) ?? { x: m.x[m.x.length - 1] ?? 0, y: m.y[m.y.length - 1] ?? 0, heading: 0, speed: 0 };
 }
 
-/** Distance travelled up to each state. What columns hold where nobody was seen is no place: a gap is gone straight. */
+/** Distance travelled up to each state. Columns of unseen steps hold no place: a gap counts as a straight line. */
 export function distances(m: Motion): Float64Array {
   const s = new Float64Array(m.x.length);
   let last = -1;
@@ -155,7 +155,7 @@ export function smoothSpeed(m: Motion, halfWindow = 4): Float64Array {
   return out;
 }
 
-/** True when nothing moves further than a hand's breadth in the whole record. */
+/** True when the whole recording stays within a hand's breadth. */
 export function isStill(m: Motion): boolean {
   let x0 = Infinity,
     x1 = -Infinity,
@@ -171,7 +171,7 @@ export function isStill(m: Motion): boolean {
   return x1 - x0 < 0.6 && y1 - y0 < 0.6;
 }
 
-/** The same place for the whole time: what "Hold still" makes of a road user. */
+/** The same pose throughout: the motion for "Hold still". */
 export function heldStill(p: Pose, steps: number): Motion {
   const fill = (v: number) => new Float64Array(steps).fill(v);
   return { first: 0, x: fill(p.x), y: fill(p.y), heading: fill(p.heading), speed: fill(0), valid: [[0, steps]] };
@@ -179,7 +179,7 @@ export function heldStill(p: Pose, steps: number): Motion {
 
 const continued = new WeakMap<Motion, Motion>();
 
-/** The motion up to scene step `last`: straight on at its last speed where it ends before. */
+/** The motion up to scene step `last`: extended straight at its last speed where it ends before. */
 export function straightOn(m: Motion, last: number): Motion {
   const end = lastStep(m);
   if (end >= last || !m.valid.length) return m;
@@ -196,7 +196,7 @@ export function straightOn(m: Motion, last: number): Motion {
     y = grow(m.y),
     heading = grow(m.heading),
     speed = grow(m.speed);
-  // A recorded velocity may point elsewhere than the body; along the body is near enough to be seen.
+  // A recorded velocity may differ from the heading; the heading is precise enough for display.
   const v = Math.abs(speed[from]) < JUDGING.standing_mps ? 0 : speed[from];
   for (let i = from + 1; i < n; i++) {
     const s = v * STEP_S * (i - from);
@@ -216,7 +216,7 @@ export function straightOn(m: Motion, last: number): Motion {
 /** Steps over which braking is measured: as many before a moment as after it. */
 export const BRAKING_STEPS = 2 * JUDGING.harsh_steps;
 
-/** The hardest braking, m/s², as the server measures it. */
+/** The hardest braking, m/s², measured as on the server. */
 export function hardestBraking({ speed }: Motion): number {
   let most = 0;
   for (let i = BRAKING_STEPS; i < speed.length; i++)
@@ -224,7 +224,7 @@ export function hardestBraking({ speed }: Motion): number {
   return most;
 }
 
-/** How far two are apart where they are furthest apart at the same time, metres. */
+/** Largest distance between two motions at the same time, metres. */
 export function furthestApart(a: Motion, b: Motion): number {
   let most = 0;
   for (let i = 0; i < Math.min(a.x.length, b.x.length); i++)

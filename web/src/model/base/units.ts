@@ -1,4 +1,4 @@
-// Numbers as people read and type them. Inside the program everything is SI.
+// Numbers as displayed and typed. Internally everything is SI.
 import { signal } from '@preact/signals-core';
 import { LANGUAGE } from '../../texts/language';
 import { TEXTS } from '../../texts/scene/places';
@@ -6,38 +6,38 @@ import { deg } from './geometry';
 
 export type SpeedUnit = 'km/h' | 'm/s' | 'mph' | 'ft/s';
 
-/** Those that one may see speeds of vehicles in. */
+/** Units for speeds of vehicles. */
 const SPEED_UNITS: readonly SpeedUnit[] = ['km/h', 'mph', 'm/s'];
-/** What people on foot are told in beside it: as traffic planners have it, metres or feet a second. */
+/** The matching unit for pedestrians: metres or feet per second, as in traffic planning. */
 export const walkingUnit = (unit: SpeedUnit): SpeedUnit => (unit === 'mph' ? 'ft/s' : 'm/s');
 export const nextSpeedUnit = (unit: SpeedUnit): SpeedUnit =>
   SPEED_UNITS[(SPEED_UNITS.indexOf(unit) + 1) % SPEED_UNITS.length];
 
 const FOOT_M = 0.3048;
 const PER_MPS: Record<SpeedUnit, number> = { 'km/h': 3.6, 'm/s': 1, mph: 2.2369362920544, 'ft/s': 1 / FOOT_M };
-/** Of a unit as large as these a tenth is worth saying. */
+/** Speeds in these larger units are shown with one decimal. */
 export const inTenths = (unit: string): boolean => unit === 'm/s' || unit === 'ft/s';
 
 export const toUnit = (mps: number, unit: SpeedUnit): number => mps * PER_MPS[unit];
 export const fromUnit = (value: number, unit: SpeedUnit): number => value / PER_MPS[unit];
 
-/** Fixed decimals as the language writes them, with a true minus sign and no negative zero. */
+/** Fixed decimals in the format of the language, with a true minus sign and no negative zero. */
 export function num(value: number, decimals = 1): string {
   const text = Math.abs(value).toFixed(decimals);
   return value < 0 && Number(text) !== 0 ? `\u2212${written(text)}` : written(text);
 }
 
-/** From five digits on German sets thousands apart, by a narrow space that does not break. */
+/** From five digits on German separates thousands with a narrow no-break space. */
 const THOUSANDS = /\B(?=(?:\d{3})+(?:\.|$))(?<!\.\d*)/g;
 const written = (text: string): string =>
   LANGUAGE === 'de' ? (/^\d{5}/.test(text) ? text.replace(THOUSANDS, '\u202f') : text).replace('.', ',') : text;
 
-/** A number with the decimals that it has: `0.25`, `4`. */
+/** A number with its own decimals: `0.25`, `4`. */
 export const figure = (value: number): string => written(String(value));
 
-/** Who reads miles an hour reads feet. Places in the scene stay metres, as its files have them. */
+/** Miles per hour imply feet. Positions in the scene stay in metres, as in its files. */
 const shown = signal<SpeedUnit>('km/h');
-/** What lengths and speeds are told in from now on; the unit, for who keeps the setting. */
+/** Sets the unit of lengths and speeds; returns it, for storing the setting. */
 export function toldIn(unit: SpeedUnit): SpeedUnit {
   shown.value = unit;
   return unit;
@@ -45,24 +45,24 @@ export function toldIn(unit: SpeedUnit): SpeedUnit {
 
 export type LengthUnit = 'm' | 'ft';
 export const lengthUnit = (): LengthUnit => (shown.value === 'mph' ? 'ft' : 'm');
-/** The unit as a word, for who hears the page. */
+/** The unit as a word, for screen readers. */
 export const lengthUnitWord = (): string => (lengthUnit() === 'ft' ? TEXTS.feet : TEXTS.metres);
 export const toLength = (m: number): number => (lengthUnit() === 'ft' ? m / FOOT_M : m);
-/** A length that was typed or scrubbed, without the dust of the sum. */
+/** A typed or scrubbed length, without floating-point residue. */
 export const fromLength = (v: number): number => (lengthUnit() === 'ft' ? Number((v * FOOT_M).toFixed(6)) : v);
 
-/** The number of a length of so many metres, in the unit it is told in. */
+/** The number of a length given in metres, in the displayed unit. */
 export const lengthText = (m: number, decimals = toLength(m) < 10 ? 1 : 0): string => num(toLength(m), decimals);
-/** A length of so many metres, with its unit. */
+/** A length given in metres, with its unit. */
 export const metres = (m: number, decimals?: number): string => `${lengthText(m, decimals)} ${lengthUnit()}`;
-/** The length or width of a road user: what is smaller than a metre has its centimetres. */
+/** Length or width of a road user: below one metre with centimetres. */
 export const sizeText = (m: number): string =>
   lengthText(m, lengthUnit() === 'm' && m < 1 && Math.abs(m * 10 - Math.round(m * 10)) > 1e-6 ? 2 : 1);
 /** `4.7 × 2.0 m` */
 export const areaText = (a: number, b: number, text: (m: number) => string = sizeText): string =>
   `${text(a)} × ${text(b)} ${lengthUnit()}`;
 
-/** The largest of 1, 2, 5, 10, 20, … that is not above it. */
+/** The largest of 1, 2, 5, 10, 20, … that is at most the value. */
 export function roundBelow(v: number): number {
   const power = 10 ** Math.floor(Math.log10(v) + 1e-9);
   return Number(([5, 2, 1].map((k) => k * power).find((k) => k <= v * (1 + 1e-9)) ?? power).toPrecision(6));
@@ -72,34 +72,34 @@ export function roundBelow(v: number): number {
 export const inHalves = (m: number): number =>
   lengthUnit() === 'ft' ? fromLength(Math.round(toLength(m))) : Math.round(m * 2) / 2;
 
-/** What a field for a length steps by, where it steps by so many metres. */
+/** Step of a length field whose step in metres is given. */
 export const lengthStep = (m: number): number => (lengthUnit() === 'ft' ? roundBelow(m / FOOT_M) : m);
-/** The bounds of a field for a length: tenths of a foot that lie within those in metres. */
+/** Bounds of a length field: tenths of a foot within the bounds in metres. */
 export const lengthRange = ([min, max]: readonly [number, number]): readonly [number, number] =>
   lengthUnit() === 'ft'
     ? [Math.ceil((min / FOOT_M) * 10 - 1e-6) / 10, Math.floor((max / FOOT_M) * 10 + 1e-6) / 10]
     : [min, max];
 
-/** How many there are on so much lane; one asks for a number for each 100 m. */
+/** Density on lanes; the input is a number per 100 m. */
 export const densityText = (per100M: number): string =>
   lengthUnit() === 'ft' ? TEXTS.per1000FtOfLane(num(per100M * 10 * FOOT_M, 1)) : TEXTS.per100MOfLane(num(per100M, 1));
 
 export const seconds = (v: number): string => `${num(v, 1)} s`;
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), inTenths(unit) ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
-/** A speed in the unit in use; on foot in metres or feet a second. */
+/** A speed in the current unit; for pedestrians in metres or feet per second. */
 export const speedInUse = (mps: number, onFoot: boolean): string =>
   speedLabel(mps, onFoot ? walkingUnit(shown.value) : shown.value);
 
-/** Accelerations are told in the unit of lengths. */
+/** Accelerations use the unit of lengths. */
 export const accelerationUnit = (): string => `${lengthUnit()}/s²`;
-/** An acceleration of so many m/s², with its unit. */
+/** An acceleration given in m/s², with its unit. */
 export const acceleration = (mps2: number, decimals = 1): string =>
   `${num(toLength(mps2), decimals)} ${accelerationUnit()}`;
 
 /**
- * A `length` is told in the unit of lengths, an `acceleration` too; a `place` is a coordinate of the scene and always
- * in metres.
+ * A `length` and an `acceleration` use the unit of lengths; a `place` is a coordinate of the scene and always in
+ * metres.
  */
 export type Quantity = 'count' | 'length' | 'acceleration' | 'place' | 'angle' | 'time' | SpeedUnit;
 
@@ -129,8 +129,8 @@ function speedTo(mps: number, as: Quantity): number | null {
 }
 
 /**
- * Reads what was typed into a field: `32`, `32+5`, `8.9 m/s`, `2*3`. The answer is in the unit the field
- * shows; null when it cannot be understood.
+ * Reads the text of a field: `32`, `32+5`, `8.9 m/s`, `2*3`. The result is in the unit of the field; null when it
+ * cannot be parsed.
  */
 export function parseTyped(text: string, as: Quantity): number | null {
   const clean = text
@@ -149,8 +149,8 @@ export function parseTyped(text: string, as: Quantity): number | null {
 }
 
 /**
- * What was typed as a change of what is there: `+5` adds, `-=5` takes away, `*1.1` and `/2` scale; everything else is
- * a value of its own. Null when it cannot be understood.
+ * Reads a typed text as a change of the current value: `+5` adds, `-=5` subtracts, `*1.1` and `/2` scale; everything
+ * else is a new value. Null when it cannot be parsed.
  */
 export function readTyped(text: string, as: Quantity): ((now: number) => number) | null {
   const m = /^\s*(\+=?|-=|\u2212=|[*×/])\s*(.+)$/.exec(text);
@@ -171,7 +171,7 @@ export function readTyped(text: string, as: Quantity): ((now: number) => number)
   }
 }
 
-/** Sums and products without eval: the page's security policy forbids it, and rightly so. */
+/** Sums and products without eval, which the page's security policy forbids. */
 function evaluate(source: string): number | null {
   const tokens = source.match(/\d+\.?\d*|\.\d+|[-+*/()]/g) ?? [];
   if (tokens.join('') !== source.replace(/\s/g, '')) return null;
@@ -201,6 +201,6 @@ function evaluate(source: string): number | null {
   return at === tokens.length && Number.isFinite(v) ? v : null;
 }
 
-/** What is left of something that takes a while. */
+/** Remaining time of a long operation. */
 export const leftWords = (s: number): string =>
   s > 90 ? TEXTS.aboutMinLeft(num(s / 60, 0)) : TEXTS.aboutSLeft(num(Math.ceil(s), 0));

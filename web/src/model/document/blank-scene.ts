@@ -1,10 +1,10 @@
-// Scenes that nobody is in yet.
+// Scenes without road users.
 import type { MapJson, SceneJson } from './scene-json';
 
 /** Steps of a scene of 9 s, the first at 0 s. */
 const STEPS = 91;
 
-/** The same road and lights, and nobody there. */
+/** The same road and signals, without road users. */
 export function withoutRoadUsers(json: SceneJson): SceneJson {
   return { ...json, agents: [], generated: null, x_editor: undefined };
 }

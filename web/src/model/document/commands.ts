@@ -24,11 +24,11 @@ import { TEXTS } from '../../texts/scene/steps';
 export interface Command {
   readonly name: string;
   apply(scene: Scene): Scene;
-  /** The command that takes `apply(scene)` back to `scene`. */
+  /** The command that undoes this one: from `apply(scene)` to `scene`. */
   invert(scene: Scene): Command;
-  /** Same kind of change on the same thing: the later one may replace this one within a short time. */
+  /** Key of the changed value: within a short time a later command with this key replaces this one. */
   readonly fold?: string;
-  /** What follows from the step before: it becomes part of that, under its name. */
+  /** A consequence of the step before: joins it, under its name. */
   readonly joins?: boolean;
 }
 
@@ -85,15 +85,15 @@ export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatc
 const one = (name: string, id: string, patch: AgentPatch, fold?: string): Command =>
   patchAgents(name, new Map([[id, patch]]), fold && `${fold}:${id}`);
 
-/** New demands make an earlier pick among six futures meaningless, so it goes back to the generator. */
+/** New conditions make an earlier pick among six futures meaningless, so the choice returns to the generator. */
 export const setStart = (a: Agent, start: StartSpec, what = TEXTS.start): Command =>
   one(TEXTS.ofChanged(what, a.name), a.id, { start: Object.freeze(start), chosen: null }, 'start');
-/** A via point whose time is not before the goal's any more has none. */
+/** A via point loses its time when that is not before the goal's. */
 const kept = (goal: GoalSpec): GoalSpec => Object.freeze({ ...goal, via: inOrder(goal.via, goal.time) });
 
 export const setGoal = (a: Agent, goal: GoalSpec, what = TEXTS.goal): Command =>
   one(TEXTS.ofMoved(what, a.name), a.id, { goal: kept(goal), chosen: null }, 'goal');
-/** A goal that was decided on: a step of its own, however soon after another change of the goal. */
+/** A goal from a remedy or a menu: a separate step, however soon after another change of the goal. */
 export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   ...setGoal(a, goal),
   name,
@@ -107,14 +107,14 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   one(
     index === null ? TEXTS.mostLikelyRestored(a.name) : TEXTS.futureChosen(letter, a.name),
     a.id,
-    // Picked again among the same six; what comes after a choice that was taken back is not of that round.
+    // Another pick among the same six keeps the round; a pick after a cleared one does not belong to it.
     { chosen: index, dealt: a.chosen === null ? null : a.dealt, profile: null },
     'choose',
   );
-/** One of the cards of a round: `dealt` names the round. */
+/** A card of a round; `dealt` is the round's id. */
 export const takeDealt = (a: Agent, index: number, dealt: string, letter: string): Command =>
   one(TEXTS.futureOfARound(letter, a.name), a.id, { chosen: index, dealt, profile: null });
-/** A speed curve for a future, and with it the speed at the start; null takes it away, and the pick with it. */
+/** A speed curve for a future, and with it the start speed; null removes the curve and the pick. */
 export function setCurve(a: Agent, index: number | null, profile: Profile | null, goalTime?: number): Command {
   if (!profile) return one(TEXTS.speedCurveOf(a.name), a.id, { chosen: null, profile: null });
   const v = profile.points[0].v;
@@ -126,14 +126,14 @@ export function setCurve(a: Agent, index: number | null, profile: Profile | null
 }
 export const clearGoal = (a: Agent): Command =>
   one(TEXTS.goalOfCleared(a.name), a.id, { goal: withoutGoal(a), chosen: null });
-/** A goal that asks for nothing; the places on the way stay. */
+/** A goal without conditions; via points stay. */
 export const withoutGoal = (a: Agent): GoalSpec =>
   Object.freeze({ ...freeGoal(), via: inOrder(a.goal.via, freeGoal().time) });
-/** Places on the way, in their order. */
+/** Via points, in their order. */
 export const setVias = (a: Agent, all: readonly Via[], name: string, fold?: string): Command =>
   one(name, a.id, { goal: Object.freeze({ ...a.goal, via: Object.freeze(all) }), chosen: null }, fold);
 
-/** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
+/** The recorded state. A placed road user has no recording and loses only its goal, pick and curve. */
 export function recorded(a: Agent): AgentPatch {
   if (a.placed) return { goal: freeGoal(), chosen: null, profile: null };
   const kind: AgentPatch = kindChanged(a) ? { type: a.logType, subtype: a.logSubtype, ...kindOfLog(a) } : {};
@@ -147,7 +147,7 @@ function kindOfLog(a: Agent): Pick<Agent, 'kind' | 'name'> {
   return { kind, name: nameAs(a, kind) };
 }
 
-/** Its name, were it of another kind: the number stays. */
+/** Its name if it were of another kind: the number stays. */
 export const nameAs = (a: Pick<Agent, 'name' | 'called'>, kind: Kind): string =>
   a.called ?? `${KIND_NAMES[kind]} ${/\d+$/.exec(a.name)?.[0] ?? ''}`.trim();
 
@@ -160,12 +160,12 @@ export function resetAll(scene: Scene): Command {
   return patchAgents(TEXTS.allReset, patches);
 }
 
-// -------------------------------------------------------------- who is in the scene
+// -------------------------------------------------------------- adding and removing road users
 
 interface Recast {
   readonly put: readonly Agent[];
   readonly drop: readonly string[];
-  /** The order to keep, where it matters; else those who come new come last. */
+  /** The order to keep, where it matters; otherwise new ones come last. */
   readonly order?: readonly string[];
   readonly issued: number;
 }
@@ -196,7 +196,7 @@ export function addAgents(scene: Scene, agents: readonly Agent[], name: string):
   return recast(name, { put: agents, drop: [], issued });
 }
 
-/** They go with everything that is known of them, and come back with it. */
+/** Removes them with all their data; undo restores it. */
 export const removeAgents = (scene: Scene, ids: readonly string[], name: string): Command =>
   recast(name, { put: [], drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
 
@@ -238,10 +238,10 @@ export const setOthers = (others: Others): Command =>
   patchScene({ react: TEXTS.othersReact, log: TEXTS.othersReplay, still: TEXTS.othersHoldStill }[others], { others });
 export const setReplan = (replan: Replan): Command => patchScene(TEXTS.replanEvery(replan), { replan });
 
-/** Everybody worked out anew. */
+/** Draws the motion of all road users again. */
 export const drawAnew = (scene: Scene): Command => patchScene(TEXTS.allGeneratedAgain, { drawn: scene.drawn + 1 });
 
-/** How much is worked out. Goals that would come after the end come at the end. */
+/** Sets the planned time. Goals after its end move to the end. */
 export function setLength(scene: Scene, length: Length): Command {
   const late = new Map(
     [...scene.agents.values()]

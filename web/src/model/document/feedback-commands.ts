@@ -1,4 +1,4 @@
-// Commands on feedback: a card is kept or rejected, a wish is added or forgotten, the next round begins.
+// Commands on feedback: a card is kept or rejected, a preference is added or forgotten, the next round begins.
 import type { components } from '../base/api';
 import { patchAgents, patchScene, type Command } from './commands';
 import { answerTo, following, MOST_ANSWERS, MOST_WISHES, NO_FEEDBACK, SAME_M, sameTrait, traitOf } from './feedback';
@@ -8,23 +8,23 @@ import { TEXTS } from '../../texts/scene/feedback';
 
 type Schemas = components['schemas'];
 
-/** Of scenes fewer are kept: each holds where everybody is. */
+/** Limit for whole scenes, which is lower: each answer holds the positions of all. */
 const MOST_ANSWERS_OF_SCENE = 60;
 
-/** A card as it is on the page. */
+/** A displayed card. */
 export interface Judged {
   readonly card: Schemas['RoundCard'];
   readonly letter: string;
   readonly name: string;
 }
 
-/** Whom rounds are about. */
+/** Subject of rounds. */
 export interface Subject {
-  /** Null for everybody: a card is a scene then. */
+  /** Null for the whole scene: each card is a scene then. */
   readonly id: string | null;
   readonly name: string;
   readonly feedback: Feedback | null;
-  /** The command that keeps what was said. */
+  /** The command that stores the feedback. */
   say(name: string, feedback: Feedback): Command;
 }
 
@@ -42,7 +42,7 @@ export const everybody = (scene: Scene): Subject => ({
   say: (name, feedback) => patchScene(name, { feedback }),
 });
 
-/** A scene's places in few words: to a tenth of a metre, and one of whoever stands. */
+/** Short form of a scene's positions: to 0.1 m, and one position for each standing road user. */
 function shortPlaces(all: Places): Places {
   const tenth = (v: number): number => Math.round(v * 10) / 10;
   const short = ([first, ...rest]: readonly (readonly number[])[]): readonly (readonly number[])[] => {
@@ -57,7 +57,7 @@ const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): 
 
 const upper = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
 
-/** Keeps or rejects a card; null opens it again. */
+/** Keeps or rejects a card; null clears the verdict. */
 export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
   const was = answerTo(a.feedback, asked, of.card);
   const answers = a.feedback?.answers ?? [];
@@ -77,7 +77,7 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
   return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
 }
 
-/** A wish of one's own; it takes the place of another about the same. */
+/** Adds a preference; it replaces another one about the same trait. */
 export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
   const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
@@ -87,7 +87,7 @@ export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Co
   });
 }
 
-/** Whatever the answers show of it, it does not count. `words`: what is forgotten. */
+/** Ignores a trait, whatever the verdicts show. `words`: the name of the trait. */
 export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
   const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
@@ -98,7 +98,7 @@ export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words
   });
 }
 
-/** Cards by what was said until now. */
+/** Cards from the feedback so far. */
 export function nextRound(a: Subject, asked: Asked): Command {
   const next = following(a.feedback, asked);
   return put(TEXTS.roundOf(next.round, a.name), a, next, {});

@@ -1,6 +1,6 @@
-// What was said of a road user's futures, or of ways that the whole scene could go, round after round: which were kept,
-// which rejected and why, and plain wishes.
-// It is part of the document, and so is what the present cards were drawn by: an undo shows the earlier ones again.
+// Feedback on futures of a road user, or of the whole scene, round by round: kept and rejected cards with reasons, and
+// plain preferences. It is part of the document, and so are the inputs of the current cards: undo shows the earlier
+// ones again.
 import type { components } from '../base/api';
 
 type Schemas = components['schemas'];
@@ -16,18 +16,18 @@ export interface Answer {
   readonly features: Features;
   readonly places: Places;
   readonly verdict: Verdict;
-  /** What should be otherwise, or was liked. */
+  /** The trait to change, or that was liked. */
   readonly why: Wish | null;
   readonly round: number;
   readonly letter: string;
-  /** As the future was called. */
+  /** Name of the future. */
   readonly name: string;
 }
 
-/** What the cards of a round are drawn by, beside the answers of the rounds before it. */
+/** Inputs of a round's cards, beside the verdicts of earlier rounds. */
 export interface Asked {
   readonly round: number;
-  /** Names the document that the cards belong to. */
+  /** Key of the document that the cards belong to. */
   readonly key: string;
   readonly wishes: readonly Wish[];
   readonly forgotten: readonly Trait[];
@@ -35,34 +35,34 @@ export interface Asked {
 
 export interface Feedback {
   readonly answers: readonly Answer[];
-  /** Said outright. */
+  /** Stated explicitly. */
   readonly wishes: readonly Wish[];
-  /** Traits that do not count, whatever the answers show. */
+  /** Traits to ignore, whatever the verdicts show. */
   readonly forgotten: readonly Trait[];
   readonly asked: Asked | null;
 }
 
-/** As many as a question may carry. */
+/** Maximum number in a request. */
 export const MOST_ANSWERS = 200;
 export const MOST_WISHES = 32;
-/** So many different traits a question may speak of, and so many of them every card has. */
+/** Maximum number of different traits in a request, each present on every card. */
 const MOST_TRAITS = 64;
 const PLAIN_TRAITS = 5;
 
 export const NO_FEEDBACK: Feedback = Object.freeze({ answers: [], wishes: [], forgotten: [], asked: null });
 
-/** The round to be shown: the one that was asked last while the document is the same, else the next one. */
+/** The round to show: the last requested one while the document is the same, else the next one. */
 export function presentRound(f: Feedback | null, key: string): Asked {
   if (f?.asked?.key === key) return f.asked;
   const last = Math.max(0, ...(f?.answers ?? []).map((a) => a.round));
   return { round: last + 1, key, wishes: f?.wishes ?? [], forgotten: f?.forgotten ?? [] };
 }
 
-/** The answers that the cards of a round rest on, in the order in which they are sent. */
+/** Verdicts that the cards of a round are based on, in the order of sending. */
 export const earlierAnswers = (f: Feedback | null, asked: Asked): readonly Answer[] =>
   (f?.answers ?? []).filter((a) => a.round < asked.round);
 
-/** What is sent. */
+/** The feedback of a request. */
 export function docOf(f: Feedback | null, asked: Asked): Schemas['FeedbackDoc'] {
   const earlier = earlierAnswers(f, asked);
   const lean = leanFeatures(
@@ -79,8 +79,8 @@ export function docOf(f: Feedback | null, asked: Asked): Schemas['FeedbackDoc'] 
 }
 
 /**
- * The same with no more than so many traits of single road users: of a scene with many in it those count that tell its
- * cards from each other.
+ * The same with a limited number of traits of single road users: in a large scene the traits that distinguish its cards
+ * stay.
  */
 function leanFeatures(all: readonly Features[], room: number): readonly Features[] {
   const values = new Map<string, Set<unknown>>();
@@ -96,7 +96,7 @@ function leanFeatures(all: readonly Features[], room: number): readonly Features
       for (const [other, is] of Object.entries(row)) note(pair(who, other), is);
     for (const [who, does] of Object.entries(manoeuvres ?? {})) note(deed(who), does);
   }
-  // An order is one trait, whichever way; each manoeuvre is one.
+  // The order of two is one trait in either direction; each manoeuvre is one.
   const cost = (key: string): number => (key.startsWith('p') ? 1 : values.get(key)!.size);
   const keys = [...values.keys()];
   if (keys.reduce((sum, k) => sum + cost(k), 0) <= room) return all;
@@ -122,7 +122,7 @@ function leanFeatures(all: readonly Features[], room: number): readonly Features
   });
 }
 
-/** The round after one. */
+/** The next round. */
 export const following = (f: Feedback | null, { round, key }: Asked): Asked =>
   Object.freeze({ round: round + 1, key, wishes: f?.wishes ?? [], forgotten: f?.forgotten ?? [] });
 
@@ -135,7 +135,7 @@ export function traitKey(t: Trait): string {
   return JSON.stringify(t.trait === 'does' ? [t.trait, t.who, t.manoeuvre] : [t.trait]);
 }
 
-/** The trait alone, without which way it is wished. */
+/** The trait without its direction. */
 export function traitOf(t: Trait): Trait {
   if (t.trait === 'first') return { trait: t.trait, who: t.who, with: t.with };
   return t.trait === 'does' ? { trait: t.trait, who: t.who, manoeuvre: t.manoeuvre } : { trait: t.trait };
@@ -143,7 +143,7 @@ export function traitOf(t: Trait): Trait {
 
 export const sameTrait = (a: Trait, b: Trait): boolean => traitKey(a) === traitKey(b);
 
-/** Two of a round are further apart than this somewhere, metres; the same one drawn again is nearer. */
+/** Two cards of a round are further apart than this somewhere, metres; a repeated one is nearer. */
 export const SAME_M = 0.3;
 
 function samePlaces(a: Places, b: Places): boolean {
@@ -151,12 +151,12 @@ function samePlaces(a: Places, b: Places): boolean {
   if (ids.length !== Object.keys(b).length) return false;
   return ids.every((id) => {
     const q = b[id];
-    // Of whoever stands there only the first place is kept.
+    // Only the first position of a standing road user is stored.
     return !!q && a[id].slice(0, q.length).every((p, i) => Math.hypot(p[0] - q[i][0], p[1] - q[i][1]) <= SAME_M);
   });
 }
 
-/** What was said of a card of this round. */
+/** The verdict on a card of this round. */
 export const answerTo = (f: Feedback | null, asked: Asked, card: { readonly places: Places }): Answer | null =>
   f?.answers.find((a) => a.round === asked.round && samePlaces(a.places, card.places)) ?? null;
 
@@ -168,7 +168,7 @@ const isNumber = (v: unknown): v is number => typeof v === 'number' && Number.is
 const listOf = <T>(v: unknown, most: number, read: (x: unknown) => T | null): readonly T[] =>
   Object.freeze((Array.isArray(v) ? v : []).slice(-most).flatMap((x) => read(x) ?? []));
 
-/** What was kept of it in a file; what cannot be read is left out. */
+/** Feedback stored in a file; unreadable parts are dropped. */
 export function readFeedback(v: unknown): Feedback | null {
   if (!isObject(v)) return null;
   const answers = listOf(v.answers, MOST_ANSWERS, readAnswer);

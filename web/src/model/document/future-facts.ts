@@ -1,21 +1,21 @@
-// What the generator says about a future: what is wrong with it, how it stands to others, what it does.
+// Facts of the generator about a future: faults, relations to others, manoeuvre.
 import type { FaultJson, FaultKind, Manoeuvre, ModeJson, RelationJson, RelationKind } from './scene-json';
 import type { Vec } from '../base/geometry';
 
 export type { FaultKind, Manoeuvre, RelationKind };
 
-/** One thing that is wrong with a motion. Times in seconds of the scene. */
+/** A fault of a motion. Times in seconds of the scene. */
 export interface Fault {
   readonly kind: FaultKind;
   readonly time: number;
   readonly until: number;
-  /** Where the road user is when it is worst, in metres. */
+  /** Position of the road user at the worst moment, in metres. */
   readonly at: Vec;
   /** In the unit of its kind: m/s (collision, red light), m/s² (braking, steering), else metres. */
   readonly extent: number | null;
   /** The other road user. */
   readonly with: string | null;
-  /** Id of the road edge that it goes over; null where there is none, or the generator does not say. */
+  /** Id of the crossed road edge; null where there is none, or the generator does not give it. */
   readonly edge: string | null;
 }
 
@@ -48,7 +48,7 @@ export const FAULT_KINDS: readonly FaultKind[] = [
   'goal_missed',
 ];
 
-/** A future has one mark, the worst of its verdicts; `ok` where nothing is wrong. */
+/** A future has one mark, the worst of its verdicts; `ok` without faults. */
 export type Mark = 'collision' | 'rule' | 'near' | 'short' | 'ok';
 
 const MARKS: readonly Mark[] = ['collision', 'rule', 'near', 'short', 'ok'];
@@ -68,11 +68,11 @@ export const markOf = (about: FutureFacts): Mark => (about.faults.length ? fault
 /** Below 0: the first is worse. */
 export const compareMarks = (a: Mark, b: Mark): number => MARKS.indexOf(a) - MARKS.indexOf(b);
 
-/** Did it leave where its kind belongs: over a median, off the road, against the traffic? */
+/** Does it leave the area of its kind: over a median, off the road, against the traffic? */
 export const leavesRoad = (f: Pick<Fault, 'kind'>): boolean =>
   f.kind === 'over_median' || f.kind === 'off_road' || f.kind === 'wrong_way';
 
-/** Null where the generator says nothing about its futures. */
+/** Null where the generator gives no facts. */
 export function readAbout(m: Pick<ModeJson, 'faults' | 'relations' | 'manoeuvre'>): FutureFacts | null {
   if (!m.faults && !m.relations && !m.manoeuvre) return null;
   const faults = (m.faults ?? []).filter((f) => FAULT_KINDS.includes(f.kind)).map(readFault);
@@ -94,7 +94,7 @@ const readFault = (f: FaultJson): Fault => ({
   edge: f.edge ?? null,
 });
 
-/** As it was sent, for a scene that is saved with its futures. */
+/** The unchanged facts, for saving a scene with its futures. */
 export interface SentAbout {
   readonly faults?: FaultJson[];
   readonly relations?: RelationJson[];

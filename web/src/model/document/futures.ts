@@ -1,43 +1,43 @@
-// Futures: up to six ways a road user could go, and the sets of them that belong to a document.
+// Futures: up to six possible motions of a road user, and the sets of them that belong to a document.
 import type { Message } from './message';
 import type { AgentFuturesJson, ReactionJson } from './scene-json';
 import { NOTHING_SAID, readAbout, sentAbout, type FutureFacts, type FaultKind, type SentAbout } from './future-facts';
 import type { Point, Pose } from '../base/geometry';
 import { furthestApart, motionFrom, type Motion } from '../base/motion';
 
-/** The names of six futures on the picture. */
+/** Letters of six futures on the picture. */
 export const LETTERS = 'ABCDEF';
 
 export interface Future {
   readonly probability: number;
   readonly motion: Motion;
   readonly name: string;
-  /** What the name rests on: a relation, or a manner. */
+  /** Basis of the name: a relation, or a manner. */
   readonly basis?: string;
-  /** What the generator says about it; null where it says nothing. */
+  /** Facts of the generator; null where it gives none. */
   readonly about?: FutureFacts | null;
-  /** The same as it was sent. */
+  /** The same, as received. */
   readonly sent?: SentAbout;
-  /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */
+  /** Index of the anchor that the future follows; null for staying at rest, and where unknown. */
   readonly anchor?: number | null;
 }
 
 export interface Futures {
   readonly modes: readonly Future[];
-  /** What the generator chose; the document may say otherwise. */
+  /** The generator's choice; the document may override it. */
   readonly chosen: number;
-  /** 0 is the first rough guess, `steps` is settled. */
+  /** 0 is the first rough draft, `steps` is final. */
   readonly step: number;
   readonly steps: number;
-  /** Nobody has said yet what is wrong with them: not that nothing is. */
+  /** Not judged yet, so no faults are known. */
   readonly unjudged?: boolean;
-  /** True for the plain local curve drawn while the generator is away. */
+  /** True for the plain local curve that is drawn while the generator is unreachable. */
   readonly sketch?: boolean;
 }
 
 export const isSettled = (f: Futures): boolean => f.step >= f.steps;
 
-/** Futures as they were sent; the name is empty where none was sent. */
+/** Futures as received; the name is empty where the answer has none. */
 export function unnamedFutures(
   json: AgentFuturesJson,
   start: Pose,
@@ -58,7 +58,7 @@ export function unnamedFutures(
       anchor: m.anchor ?? null,
     };
   });
-  // What is nothing is not sent; of a list that was judged nothing is wrong with the rest.
+  // Empty facts are not sent: in a judged list, modes without facts have no faults.
   if (modes.some((m) => m.about)) for (const m of modes) m.about ??= NOTHING_SAID;
   return {
     modes,
@@ -69,8 +69,8 @@ export function unnamedFutures(
 }
 
 /**
- * Which letter each gets: `rank` makes the likeliest A; else the letters of the futures on screen are taken over,
- * always, or only while the ideas are the same. Without it they stand as they were sent.
+ * Order of the letters: `rank` makes the likeliest A; else the letters of the shown futures are kept, always, or only
+ * while the anchors are the same. Without it the received order stays.
  */
 export type KeepOrder = 'rank' | { readonly like: Futures | null | undefined; readonly always: boolean };
 
@@ -86,7 +86,7 @@ interface HasAnchor {
   readonly anchor?: number | null;
 }
 
-/** Names for the ideas in a list. Two of the same, or several without a number, are told apart by their turn. */
+/** Keys of the anchors in a list. Several with the same anchor, or without one, are numbered. */
 export function ideas(modes: readonly HasAnchor[]): string[] {
   const count = new Map<number | null, number>();
   return modes.map(({ anchor = null }) => {
@@ -97,8 +97,8 @@ export function ideas(modes: readonly HasAnchor[]): string[] {
 }
 
 /**
- * In which order to show what was sent (most likely first), so that an idea keeps its letter and colour while the
- * probabilities change places. Ideas that are new take the places of those that are gone.
+ * Display order of the received futures (likeliest first), so that an anchor keeps its letter and colour while
+ * probabilities change. New anchors take the places of missing ones.
  */
 export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor[], always: boolean): number[] {
   const was = ideas(shown),
@@ -116,8 +116,8 @@ export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor
 }
 
 /**
- * Drafts are shown before they are judged. Until the answer each idea keeps the faults that it had last, or verdicts
- * would come and go with every movement of the hand; where nothing was said, they are marked as not judged.
+ * Drafts are shown before they are judged. Until the answer each anchor keeps its last faults, or verdicts would
+ * flicker with every move of a drag; without earlier verdicts they are marked as not judged.
  */
 export function keepVerdicts(shown: Futures | null, next: Futures): Futures {
   if (next.modes.some((m) => m.about?.faults.length)) return next;
@@ -131,7 +131,7 @@ export function keepVerdicts(shown: Futures | null, next: Futures): Futures {
   return { ...next, modes };
 }
 
-/** What somebody does anyway first, in place of the one of these that is most like it. */
+/** The road user's own motion first, in place of the most similar one. */
 export function withOwnFirst(own: Future, f: Futures): Futures {
   const off = f.modes.map((m) => furthestApart(own.motion, m.motion));
   const like = f.modes[off.indexOf(Math.min(...off))];
@@ -139,10 +139,10 @@ export function withOwnFirst(own: Future, f: Futures): Futures {
   return { ...f, modes: [{ ...own, probability, anchor }, ...f.modes.filter((m) => m !== like)], chosen: 0 };
 }
 
-/** Does the generator say of these futures what is wrong with them? */
+/** Has the generator judged these futures? */
 export const isJudged = (f: Futures): boolean => f.modes.some((m) => m.about);
 
-/** How likely each is of those that are shown, in whole per cent; together 100. */
+/** Probabilities of the shown futures, in whole per cent; the sum is 100. */
 export function percents(modes: readonly Pick<Future, 'probability'>[]): number[] {
   const sum = modes.reduce((s, m) => s + m.probability, 0);
   if (!(sum > 0)) return modes.map(() => 0);
@@ -160,14 +160,14 @@ export interface Collision {
   time: number;
   /** m/s. */
   closing?: number | null;
-  /** Absent where the generator does not tell. */
+  /** Absent where the generator does not give it. */
   inLog?: boolean;
 }
 export interface NearMiss extends Collision {
   distance: number | null;
   ttc: number | null;
 }
-/** One road user does something that it should not for a while. */
+/** A fault of one road user that lasts for a while. */
 export interface Stretch {
   readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
   readonly agent: string;
@@ -181,9 +181,9 @@ export interface Score {
   readonly nearMisses: readonly NearMiss[];
   readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;
-  /** Least time between one leaving a place and another coming there, seconds. */
+  /** Least time between one road user leaving a place and another arriving there, seconds. */
   readonly pet?: number | null;
-  /** The same of each road user that is part of such a pair. */
+  /** The same for each road user of such a pair. */
   readonly petOf?: ReadonlyMap<string, number>;
   readonly offroadShare: number | null;
 }
@@ -193,11 +193,11 @@ export interface Reach {
   readonly nearest: Pose | null;
   readonly limiting: string | null;
   readonly needs: unknown;
-  /** Why the goal is out of reach. */
+  /** Why the goal is unreachable. */
   readonly message: Message | null;
-  /** Id of whoever is in the way, where traffic is what keeps it from the goal and the generator says who. */
+  /** Id of the blocking road user, where traffic blocks the goal and the generator names it. */
   readonly with?: string | null;
-  /** The nearest goal that the road reaches in the time, and how far it is from the one that was set. */
+  /** The nearest goal that is reachable by road in the time, and its distance from the set one. */
   readonly byRoad?: ByRoad | null;
 }
 
@@ -207,38 +207,38 @@ export interface ByRoad extends Point {
   readonly distance: number;
 }
 
-/** Is it somebody else who keeps it from the goal? */
+/** Is the goal blocked by another road user? */
 export const isBlocked = (r: Reach | null): boolean => r?.status === 'unreachable' && r.limiting === 'traffic';
 
-/** Why somebody gave up the motion that it had, and which. */
+/** Why a road user gave up a motion, and which one. */
 export interface Answering {
   readonly said: ReactionJson;
-  /** Null for the log; absent where nobody knows any more. */
+  /** Null for the recording; absent where unknown. */
   readonly gaveUp?: GivenUp | null;
 }
 
-/** A motion that was given up; it may have been an answer to another itself. */
+/** A motion that was given up; it may have been a reaction itself. */
 export interface GivenUp {
   readonly futures: Futures;
   readonly answering?: Answering;
 }
 
-/** Everything worked out for one document key. */
+/** All answers for one document key. */
 export interface MotionSet {
   readonly key: string;
   readonly futures: ReadonlyMap<string, Futures>;
-  /** Road users that follow a future of theirs in playback; the rest replay their log. */
+  /** Road users that follow a future in playback; the rest replay the recording. */
   readonly driving: ReadonlySet<string>;
   readonly score: Score | null;
   readonly reach: ReadonlyMap<string, Reach>;
   readonly stale: boolean;
-  /** The one road user whose futures still hold while the rest is out of date: another of its six was picked. */
+  /** The only road user whose futures still hold while the rest is stale: another of its six was picked. */
   readonly fresh?: string | null;
-  /** Those that answer others: why, and what they gave up for it. */
+  /** Road users that react: the reason, and the motion they gave up. */
   readonly answering: ReadonlyMap<string, Answering>;
-  /** Unlikely things that were done anyway, by road user. */
+  /** Unlikely conditions that were met anyway, by road user. */
   readonly warnings?: ReadonlyMap<string, readonly Message[]>;
-  /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */
+  /** Members that the server stores beside saved futures: hashes, seed, options. */
   readonly head?: Readonly<Record<string, unknown>>;
 }
 
@@ -252,7 +252,7 @@ export const emptyMotion = (key: string): MotionSet => ({
   stale: false,
 });
 
-/** What belongs to a document, by its key, so that undo and redo show it at once. Oldest out first. */
+/** Values by document key, so that undo and redo show them at once. The oldest are dropped first. */
 export class ByDocument<T extends { readonly key: string }> {
   private readonly map = new Map<string, T>();
   constructor(private readonly limit = 120) {}

@@ -1,15 +1,14 @@
-// Undo and redo of committed changes. Steps form a tree: a change made after going back starts a branch, and no step
-// is lost by it.
+// Undo and redo of committed changes. Steps form a tree: a change after an undo starts a branch, and no step is lost.
 import type { Command } from './commands';
 import type { Scene } from './scene';
 import { applyDiff, diffOf, isEmptyDiff, type SceneDiff } from './scene-diff';
 
-/** Where the picture looks: the middle in metres, pixels a metre, and its turn counter-clockwise, radians. */
+/** The camera: centre in metres, pixels per metre, and turn counter-clockwise, radians. */
 export interface Camera {
   readonly cx: number;
   readonly cy: number;
   readonly z: number;
-  /** North is up where nothing says. */
+  /** Zero (north up) where absent. */
   readonly turn?: number;
 }
 
@@ -18,21 +17,23 @@ export interface HistoryStep {
   /** The step before it; null for the first. */
   readonly parent: number | null;
   readonly name: string;
-  /** Whom it is about, where it is one. */
+  /** The changed road user, where it is one. */
   readonly agent: string | null;
-  /** When it was done, milliseconds since 1970. */
+  /** Time of the change, milliseconds since 1970. */
   readonly at: number;
   readonly diff: SceneDiff;
-  /** Where the picture looked when it began, and when it was done. */
+  /** Cameras before the change and at its commit. */
   readonly from: Camera | null;
   readonly to: Camera | null;
-  /** What somebody called it. */
+  /** Title given by the user. */
   readonly title?: string;
-  /** How often a later change became part of it; absent for never. */
+  /** Number of later changes that joined it; absent for none. */
   readonly revision?: number;
 }
 
-/** Names a document of a scene exactly: the step that led to it, null before the first, and the step's revision. */
+/**
+ * Identifies a document of a scene exactly: the step that led to it, null before the first, and the step's revision.
+ */
 export interface DocumentRef {
   readonly step: number | null;
   readonly revision?: number;
@@ -41,33 +42,33 @@ export interface DocumentRef {
 export const isSameDocument = (a: DocumentRef, b: DocumentRef): boolean =>
   a.step === b.step && (a.revision ?? 0) === (b.revision ?? 0);
 
-/** What the user has done, as opposed to what a drag previews. Every change gives it a higher version. */
+/** The committed document, as opposed to the preview of a drag. Every change raises its version. */
 export interface Committed extends DocumentRef {
   readonly scene: Scene;
   readonly version: number;
 }
 
-/** All that is needed to go on where one was: plain data. */
+/** The stored history, as plain data. */
 export interface KeptHistory {
   readonly steps: readonly HistoryStep[];
-  /** The step that is in force; null before the first. */
+  /** The current step; null before the first. */
   readonly head: number | null;
   /** Revision of that step. */
   readonly revision?: number;
-  /** Where redo leads from a step that more than one follow: pairs of the step and the one after. */
+  /** Redo targets of steps with several successors: pairs of the step and its successor. */
   readonly ahead: readonly (readonly [number | null, number])[];
 }
 
-/** What changed in the history, for whoever keeps it. */
+/** A change of the history, for storing it. */
 export interface HistoryChange {
-  /** New, or with another name. */
+  /** New, or with a new title. */
   readonly added?: HistoryStep;
-  /** The oldest steps are gone, and what comes before the first is another document. */
+  /** The oldest steps were dropped, so the document before the first one changed. */
   readonly shorter?: true;
 }
 
 const FOLD_MS = 600;
-/** Steps that are kept, and how many more there may be before the oldest are dropped. */
+/** Number of stored steps, and of further ones before the oldest are dropped. */
 export const MOST_STEPS = 500;
 const SLACK = 50;
 
@@ -79,12 +80,12 @@ export class History {
   #committed: Committed;
   #folds: { readonly id: number; readonly fold: string; readonly at: number } | null = null;
 
-  /** Called after every change of the steps or of where one is among them. */
+  /** Called after every change of the steps or of the current one. */
   onChange: ((change: HistoryChange) => void) | null = null;
-  /** Where the picture looks now. */
+  /** Returns the current camera. */
   camera: () => Camera | null = () => null;
 
-  /** `version`: the one before the first of this history. */
+  /** `version`: the last one before this history. */
   constructor(
     scene: Scene,
     private readonly now: () => number = () => Date.now(),
@@ -104,7 +105,7 @@ export class History {
   get scene(): Scene {
     return this.#committed.scene;
   }
-  /** Where one is. */
+  /** The current document. */
   get ref(): DocumentRef {
     const revision = this.step(this.#head)?.revision;
     return { step: this.#head, ...(revision ? { revision } : {}) };
@@ -116,7 +117,7 @@ export class History {
   get redoName(): string | null {
     return this.step(this.#ahead.get(this.#head) ?? null)?.name ?? null;
   }
-  /** How many steps one can go back. */
+  /** Number of steps that undo can take back. */
   get depth(): number {
     return this.#path(this.#head).length;
   }
@@ -133,7 +134,7 @@ export class History {
     return { steps: [...this.#steps.values()], head, ...revision, ahead: [...this.#ahead] };
   }
 
-  /** The line one is on, oldest first: what undo takes back, then what redo does again. */
+  /** The current line, oldest first: steps that undo takes back, then steps that redo applies. */
   line(): HistoryStep[] {
     const line = this.#path(this.#head);
     for (let id = this.#ahead.get(this.#head); id !== undefined; id = this.#ahead.get(id)) {
@@ -144,29 +145,29 @@ export class History {
     return line;
   }
 
-  /** The document before the first step that is kept. */
+  /** The document before the first stored step. */
   first(): Scene {
     return this.#path(this.#head).reduceRight((s, step) => applyDiff(s, step.diff, 'back'), this.scene);
   }
 
-  /** The document is another one from now on; where one is among the steps is known already. */
+  /** Replaces the document; the current step is set already. */
   #put(scene: Scene): void {
     this.#committed = { scene, version: this.#committed.version + 1, ...this.ref };
   }
 
-  /** Does a command; key repeats on the same field within 600 ms fold into one step. */
+  /** Runs a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {
     const joined = command.joins ? this.#last() : null;
     const name = joined?.name ?? command.name;
     return this.#done(name, command.apply(this.scene), this.camera(), command.fold, joined);
   }
 
-  /** Does a command as a step of its own; `from`: where the picture looked when it began. */
+  /** Runs a command as a separate step; `from`: the camera before it. */
   commit(command: Command, from: Camera | null): Scene {
     return this.#done(command.name, command.apply(this.scene), from);
   }
 
-  /** The document as it is elsewhere takes the place of this one, as a step that can be taken back. */
+  /** Replaces the document with another version, as a step that can be undone. */
   adopt(name: string, scene: Scene): void {
     if (isEmptyDiff(diffOf(this.scene, scene))) this.#put(scene);
     else this.#done(name, scene, this.camera());
@@ -200,20 +201,20 @@ export class History {
     return after;
   }
 
-  /** The step that was done last, where nothing comes after it. */
+  /** The newest step, where none follows it. */
   #last(): HistoryStep | null {
     const last = this.step(this.#head);
     return last && !this.#ahead.has(last.id) ? last : null;
   }
 
-  /** The step that the next one of its kind becomes part of. */
+  /** The step that the next one of its kind joins. */
   #foldInto(fold: string, at: number): HistoryStep | null {
     const last = this.#last();
     const f = this.#folds;
     return last && f?.id === last.id && f.fold === fold && at - f.at < FOLD_MS ? last : null;
   }
 
-  // -------------------------------------------------------------- going there and back
+  // -------------------------------------------------------------- undo and redo
 
   undo(): HistoryStep | null {
     const step = this.step(this.#head);
@@ -231,7 +232,7 @@ export class History {
     return step;
   }
 
-  /** To any step, null for before the first, by way of the one from which both came. */
+  /** Goes to any step, null for before the first, by way of the common ancestor. */
   goTo(id: number | null): Scene {
     if (id !== null && !this.#steps.has(id)) return this.scene;
     const there = this.#path(id);
@@ -242,7 +243,7 @@ export class History {
     return this.scene;
   }
 
-  /** Gives a step a name of its own, or takes it away. */
+  /** Titles a step, or removes its title. */
   entitle(id: number, title: string | null): void {
     const s = this.step(id);
     if (!s) return;
@@ -265,16 +266,16 @@ export class History {
     this.#folds = null;
   }
 
-  /** The steps that lead to one, oldest first. */
+  /** The steps up to one, oldest first. */
   #path(id: number | null): HistoryStep[] {
     const path: HistoryStep[] = [];
     for (let s = this.step(id); s; s = this.step(s.parent)) path.push(s);
     return path.reverse();
   }
 
-  // -------------------------------------------------------------- the oldest go
+  // -------------------------------------------------------------- dropping the oldest
 
-  /** Makes room: the branch left longest ago first, from its end, then the beginning of the line one is on. */
+  /** Makes room: the end of the branch left longest ago first, then the start of the current line. */
   #drop(): void {
     const drop = (id: number): void => {
       const parent = this.#steps.get(id)?.parent;
@@ -286,7 +287,7 @@ export class History {
     while (this.#steps.size > MOST_STEPS) {
       const first = this.line()[0];
       if (!first || first.id === this.#head) break;
-      // What branched off before it goes with it: there is nothing left that it could go back to.
+      // Branches from before it are dropped too: their parent document is gone.
       for (const id of this.#under(null).filter((s) => s !== first.id)) for (const i of this.#tree(id)) drop(i);
       for (const id of this.#under(first.id)) this.#steps.set(id, { ...this.#steps.get(id)!, parent: null });
       const after = this.#ahead.get(first.id);
@@ -295,7 +296,7 @@ export class History {
     }
   }
 
-  /** The step with the lowest id that ends a branch, away from the line one is on and without a title. */
+  /** The step with the lowest id that ends a branch, off the current line and without a title. */
   #oldestEnd(): number | null {
     const stays = new Set<number | null>(this.line().map((s) => s.id));
     for (const s of this.#steps.values()) stays.add(s.parent);
@@ -312,7 +313,7 @@ export class History {
   }
 }
 
-/** The document at the head of a kept history, from the one before its first step. */
+/** The document at the head of a stored history, from the one before its first step. */
 export function replay(first: Scene, kept: KeptHistory): Scene {
   const h = new History(first, undefined, { ...kept, head: null });
   return h.goTo(kept.head);

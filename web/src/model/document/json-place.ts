@@ -1,6 +1,6 @@
-// Where in a text of JSON a value stands, by its pointer (RFC 6901): errors name pointers, people look for lines.
+// Finds a value in JSON text by its pointer (RFC 6901): errors name pointers, editors show lines.
 
-/** The offset at which the value begins; null where the text has none there. */
+/** Offset of the value's start; null where the text has none there. */
 export function offsetOf(text: string, pointer: string): number | null {
   const wanted = pointer
     .split('/')
@@ -23,7 +23,7 @@ export function lineOf(text: string, offset: number): number {
   return line;
 }
 
-/** Some lines around one, the longest cut. */
+/** Lines around one, the longest shortened. */
 export function linesAround(text: string, line: number, around = 2, longest = 120): { from: number; lines: string[] } {
   const from = Math.max(1, line - around);
   const all = text.split('\n', line + around).slice(from - 1);
@@ -40,7 +40,7 @@ function stringEnd(text: string, at: number): number {
   return at + 1;
 }
 
-/** Behind the value that begins here. */
+/** Offset after the value that begins here. */
 function skip(text: string, at: number): number {
   let depth = 0;
   for (; at < text.length; at++) {

@@ -1,4 +1,4 @@
-// The lane map as the editor uses it: lines with running lengths, a grid to find them, and routes.
+// The lane map as the editor uses it: lines with running lengths, a search grid, and routes.
 import type { AreaJson, LineJson, MapJson, Point } from './scene-json';
 import {
   boxOf,
@@ -46,10 +46,10 @@ export interface LaneMap {
   readonly grid: Grid;
 }
 
-/** So far beyond the map somebody may be, metres: logs and goals end there now and then. */
+/** Road users may be this far beyond the map, metres: recordings and goals sometimes end there. */
 const BEYOND_M = 200;
 
-/** Between which places of an axis somebody may be, metres. */
+/** Allowed range of positions along an axis, metres. */
 export const placesAlong = ({ box }: LaneMap, axis: 0 | 1): readonly [number, number] =>
   axis ? [box.y0 - BEYOND_M, box.y1 + BEYOND_M] : [box.x0 - BEYOND_M, box.x1 + BEYOND_M];
 
@@ -75,7 +75,7 @@ export function buildMap(json: MapJson): LaneMap {
     const kind = laneKind(l.type);
     const line = makeLine(flat(l.points_m));
     if (line.pts.length < 2) continue;
-    // A lane inside a crossing turns or is short and joins two others; it carries no markings of its own.
+    // A lane inside a junction turns, or is short and joins two others; it has no markings.
     const inside =
       !!l.interpolating ||
       (line.length < 45 && (l.predecessors?.length ?? 0) > 0 && (l.successors?.length ?? 0) > 0 && bend(line) > 0.6);
@@ -129,7 +129,7 @@ export function turnOf(line: Line): number {
 }
 const bend = (line: Line): number => Math.abs(turnOf(line));
 
-/** Lanes by 16 m cells, so that a drag asks only the few near the pointer. */
+/** Lanes by 16 m cells, so that a drag tests only the few near the pointer. */
 export class Grid {
   private readonly cells = new Map<string, Set<Lane>>();
   private static readonly SIZE = 16;
@@ -194,7 +194,7 @@ export interface Route {
   readonly lanes: readonly Lane[];
 }
 
-/** Shortest way along the lanes from one hit to another, lane changes to a parallel lane not included. */
+/** Shortest route along the lanes from one hit to another, without lane changes. */
 export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400): Route | null {
   if (from.lane === to.lane && to.s >= from.s - 0.5)
     return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane]);

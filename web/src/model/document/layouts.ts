@@ -1,4 +1,4 @@
-// Templates of maps in the order in which they are offered, and the ranges of their parameters.
+// Map templates in display order, and the ranges of their parameters.
 import domain from '../../../../assets/domain.json';
 import type { components } from '../base/api';
 import { TEXTS } from '../../texts/panels/layouts';
@@ -29,7 +29,7 @@ const KIND: Readonly<Record<TemplateName, keyof typeof domain.layout_ranges>> = 
   'car-park': 'car_park',
 };
 
-/** Least and greatest value of a parameter of a template, by its place, such as `arms.length_m`. */
+/** Range of a template's parameter, by its path, such as `arms.length_m`. */
 export function rangeOf(template: TemplateName, place: string): readonly [number, number] {
   const ranges: Readonly<Record<string, readonly number[]>> = domain.layout_ranges[KIND[template]];
   const [least, most] = ranges[place] ?? [-Infinity, Infinity];
@@ -59,7 +59,7 @@ export function laneOf(id: string): LaneOfArm {
 
 export const sameWay = (a: Connection, b: Connection): boolean => a.from === b.from && a.to === b.to;
 
-/** Those of connections that still have lanes; `gone` is the index of an arm that was taken away. */
+/** Connections that still have lanes; `gone` is the index of a removed arm. */
 export function fitting(
   { added, removed }: Connections,
   arms: readonly { lanes_in: number; lanes_out: number }[],

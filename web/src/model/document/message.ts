@@ -1,4 +1,4 @@
-// A sentence of the server as data: `model/words/message-text.ts` writes it out.
+// A message of the server as data: `model/words/message-text.ts` writes it out.
 import type { components } from '../base/api';
 
 export type Message = components['schemas']['Message'];

@@ -1,4 +1,4 @@
-// Somebody who comes new into a scene: placed, pasted or duplicated. Nothing of it was recorded.
+// A new road user in a scene: placed, pasted or duplicated. It has no recording.
 import type { Pose, Vec } from '../base/geometry';
 import { KIND_NAMES, PLACED_KINDS, typeOfKind, type PlacedKind, type Preset } from '../base/kinds';
 import { MOST_AGENTS, rangesOf } from '../base/domain';
@@ -15,13 +15,13 @@ export interface Newcomer {
   readonly goal: GoalSpec | null;
   readonly note: string;
   readonly does: Others | null;
-  /** What it does by itself: it comes in later, or is parked; null for one that the generator drives from the start. */
+  /** Its fixed motion: late arrival or parked; null if the generator drives it from the start. */
   readonly motion: Motion | null;
-  /** Part of the street: it stands for as long as the scene lasts. */
+  /** Part of the street: stands throughout the scene. */
   readonly parked: boolean;
 }
 
-/** It comes in after the start. */
+/** Arrives after the start. */
 export const comesLater = (n: Newcomer): boolean => n.motion !== null && n.motion.first > 0;
 
 export const newcomer = (kind: PlacedKind, size: Preset, pose: Pose): Newcomer => ({
@@ -37,7 +37,7 @@ export const newcomer = (kind: PlacedKind, size: Preset, pose: Pose): Newcomer =
   parked: false,
 });
 
-/** The road user that it becomes. */
+/** The resulting road user. */
 export function settle(n: Newcomer, id: string): Agent {
   const { x, y, heading, speed } = n.pose;
   const [vx, vy] = [speed * Math.cos(heading), speed * Math.sin(heading)];
@@ -84,14 +84,14 @@ export function settle(n: Newcomer, id: string): Agent {
   });
 }
 
-/** A road user as one that comes new; null for what can only be looked at. */
+/** A road user as a new one; null for a read-only one. */
 export function copyOf(a: Agent, pose: Pose): Newcomer | null {
   if (a.kind === 'other') return null;
   const { kind, subtype, length, width, goal, note, does } = a;
   return { kind, subtype, length, width, pose, goal, note, does, motion: null, parked: false };
 }
 
-/** The same so many metres further on, its goal with it. */
+/** The same shifted by this many metres, its goal too. */
 export function shifted(n: Newcomer, dx: number, dy: number): Newcomer {
   const { pose, goal } = n;
   const pos = goal?.pos ? (Object.freeze([goal.pos[0] + dx, goal.pos[1] + dy]) as Vec) : null;
@@ -111,10 +111,10 @@ export function shifted(n: Newcomer, dx: number, dy: number): Newcomer {
 // -------------------------------------------------------------- as text
 
 const MARK = 'dragtraffic road users';
-/** Text longer than this is not looked at: the largest scene is a tenth of it. */
+/** Longer text is ignored: the largest scene has a tenth of this. */
 const MOST_CHARACTERS = 4_000_000;
 
-/** Road users as the clipboard carries them from tab to tab. */
+/** Road users as clipboard text, for other tabs. */
 export function copiesText(all: readonly Newcomer[]): string {
   const road_users = all.map(({ kind, subtype, note, does, pose, goal, length, width }) => ({
     kind,
@@ -132,7 +132,7 @@ export function copiesText(all: readonly Newcomer[]): string {
   return JSON.stringify({ kind: MARK, version: 1, road_users });
 }
 
-/** What was copied, from whatever the clipboard holds; null where that is something else. */
+/** Copied road users from the clipboard; null where it holds something else. */
 export function readCopies(text: string): Newcomer[] | null {
   if (text.length > MOST_CHARACTERS) return null;
   let json: unknown;
@@ -179,7 +179,7 @@ function readOne(v: unknown): Newcomer | null {
   };
 }
 
-/** A place on the way as the clipboard has it, as a file would. */
+/** A via point from the clipboard, in file form. */
 function asJson(v: unknown): unknown {
   const o = (v ?? {}) as Record<string, unknown>;
   const p = Array.isArray(o.pos) ? o.pos : [];
@@ -197,7 +197,7 @@ function readGoal(v: unknown): GoalSpec | null {
     heading: finite(o.heading, -10, 10),
     speed: finite(o.speed, 0, 60),
     time: finite(o.time, 0.5, 20) ?? freeGoal().time,
-    // Edges belong to a map, and this may be another one.
+    // Edges belong to one map, and this may be another.
     mayCross: freeGoal().mayCross,
     via: readVias(Array.isArray(o.via) ? o.via.map(asJson) : null),
   });

@@ -1,7 +1,7 @@
-// Scenes as little text: columns of numbers as differences of whole numbers, which compress to a fraction. Exact:
-// what is unpacked equals what was packed, to the last bit.
+// Compact form of scenes: columns of numbers as differences of whole numbers, which compress well. Exact: unpacked
+// values equal the packed ones to the last bit.
 
-/** Marks of packed values; no member of a scene begins so. */
+/** Keys of packed values; no member of a scene starts with these. */
 import { TEXTS } from '../../texts/scene/reading';
 
 const COLUMN = '$c',
@@ -10,7 +10,7 @@ const MOST_DIGITS = 7;
 const LEAST_LENGTH = 4;
 
 type Json = unknown;
-/** Digits after the point, order of the differences, and these. */
+/** Digits after the point, order of the differences, and the differences. */
 type Column = readonly [digits: number, order: number, ...differences: number[]];
 
 const isNumbers = (v: readonly Json[]): v is number[] => v.every((x) => typeof x === 'number');
@@ -35,7 +35,7 @@ function packList(v: readonly Json[]): Json {
   return v.map(pack);
 }
 
-/** Null where the numbers are no short decimals. */
+/** Null where the numbers are not short decimals. */
 function columnOf(v: readonly number[]): Column | null {
   for (let digits = 0; digits <= MOST_DIGITS; digits++) {
     const k = 10 ** digits;

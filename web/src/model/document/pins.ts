@@ -1,5 +1,5 @@
-// Pinned futures: ways of a road user that stay while others are drawn anew. Their motion is part of the document, with
-// the start and the goal that it was made for. One that is taken is picked like any other of its futures.
+// Pinned futures: motions of a road user that stay when others are drawn again. They are part of the document, with the
+// start and goal they were made for. A taken one is picked like any other future.
 import type { Future, Futures } from './futures';
 import { wrapAngle } from '../base/geometry';
 import {
@@ -18,13 +18,13 @@ import { passed } from './vias';
 import type { AgentType } from '../base/kinds';
 import { TEXTS } from '../../texts/editing/pins';
 
-/** So many a road user has at most: with six beside them more are not told apart on the picture. */
+/** Maximum for each road user: beside six futures, more cannot be distinguished on the picture. */
 export const MOST_PINS = 3;
 
-/** Names the pick of a pinned future where rounds name theirs. */
+/** Prefix of a pinned future's pick, stored in place of a round's id. */
 const MARK = 'pin-';
 
-/** Names a motion for a road user of a kind. */
+/** Key of a motion for a type of road user. */
 export const keyOfPin = (type: AgentType, track: Columns): string => shortFor(JSON.stringify([type, track]));
 
 const motions = new WeakMap<Pin, Motion>();
@@ -35,7 +35,7 @@ export function motionOfPin(pin: Pin): Motion {
   return m;
 }
 
-/** Two motions are the same where they are nowhere further apart than this, metres; one may go on for longer. */
+/** Motions that never differ by more than this are the same, metres; one may be longer. */
 const SAME_M = 0.05;
 
 function sameWay(a: Motion, b: Motion): boolean {
@@ -48,15 +48,15 @@ function sameWay(a: Motion, b: Motion): boolean {
   return to > from;
 }
 
-/** Which of the futures a pinned one is; -1 where it is none of them. */
+/** Index of the pinned future among these; -1 where it is none of them. */
 export const indexOfPin = (f: Futures | null | undefined, pin: Pin): number =>
   f && !f.sketch ? f.modes.findIndex((m) => sameWay(m.motion, motionOfPin(pin))) : -1;
 
-/** The pinned one that a future is. */
+/** The pin of a future. */
 export const pinOf = (a: Agent, m: Future | undefined): Pin | null =>
   (m && a.pins.find((p) => sameWay(m.motion, motionOfPin(p)))) ?? null;
 
-/** The pinned one that it takes; null where it takes none. */
+/** The pin that it follows; null for none. */
 export const takenPin = (a: Agent): Pin | null =>
   a.chosen !== 0 ? null : (a.pins.find((p) => a.dealt === MARK + p.key) ?? null);
 
@@ -68,13 +68,13 @@ const SAME_SPEED_MPS = 0.3;
 const GOAL_HEADING_RAD = 0.17;
 const GOAL_SPEED_MPS = 1;
 
-/** Why a pinned future no longer answers what is asked: metres, m/s. */
+/** Why a pinned future no longer meets the conditions: metres, m/s. */
 export type PinMisfit =
   | { readonly what: 'kind' | 'start-heading' | 'goal-heading' | 'via' }
   | { readonly what: 'start' | 'goal'; readonly metres: number }
   | { readonly what: 'start-speed' | 'goal-speed'; readonly speed: number };
 
-/** The first reason why a pinned future no longer answers what is asked of its road user; null where it does. */
+/** The first reason why a pinned future no longer meets the conditions of its road user; null where it does. */
 export function pinMisfit(a: Agent, pin: Pin): PinMisfit | null {
   const m = motionOfPin(pin);
   const start = startPose(a);
@@ -100,7 +100,7 @@ export function pinMisfit(a: Agent, pin: Pin): PinMisfit | null {
 
 const put = (name: string, a: Agent, patch: AgentPatch): Command => patchAgents(name, new Map([[a.id, patch]]));
 
-/** A future stays from now on, with what it was made for. */
+/** Pins a future, with the start and goal it was made for. */
 export function pinFuture(a: Agent, m: Future, letter: string): Command {
   const track = Object.freeze(trackJson(m.motion));
   const pin: Pin = Object.freeze({
@@ -114,14 +114,14 @@ export function pinFuture(a: Agent, m: Future, letter: string): Command {
   return put(TEXTS.pinned(letter, a.name), a, { pins: Object.freeze([...a.pins, pin]) });
 }
 
-/** It does not stay any more; a road user that takes it is free again. */
+/** Removes a pin; a road user that follows it is free again. */
 export function unpin(a: Agent, pin: Pin): Command {
   const pins = Object.freeze(a.pins.filter((p) => p !== pin));
   const free = takenPin(a) === pin ? { chosen: null, profile: null, dealt: null } : {};
   return put(TEXTS.unpinned(pin.name, a.name), a, { pins, ...free });
 }
 
-/** The road user goes the pinned way. Where that does not fit, what it was made for comes back with it. */
+/** Follows the pinned future. If it does not fit, its start and goal are restored too. */
 export function takePin(a: Agent, pin: Pin): Command {
   const fits = pinMisfit(a, pin) === null;
   const asked = fits ? {} : { start: pin.start, goal: pin.goal };
@@ -132,8 +132,8 @@ export function takePin(a: Agent, pin: Pin): Command {
 // -------------------------------------------------------------- among the futures
 
 /**
- * Whoever takes a pinned future has it among its futures, whatever was drawn since: in place of the first, and alone
- * where the others answer something else. `fresh`: of this one the others still hold.
+ * A taken pinned future is always among the road user's futures, whatever was drawn since: it replaces the first. The
+ * others stay only for the id `fresh`, for which they still hold.
  */
 export function withTaken(
   scene: Scene,

@@ -1,20 +1,20 @@
-// A speed curve drawn by hand: points of speed over time on a path that is kept as it was.
+// A drawn speed profile: points of speed over time on a fixed path.
 
-/** A speed at a time, m/s and s; from then on it is held for so many seconds. */
+/** A speed at a time, m/s and s; from then on held for this many seconds. */
 export interface SpeedPoint {
   readonly t: number;
   readonly v: number;
   readonly hold: number;
 }
 
-/** Places with a heading, some way apart. */
+/** Positions with a heading, some distance apart. */
 export interface Path {
   readonly x: readonly number[];
   readonly y: readonly number[];
   readonly heading: readonly number[];
 }
 
-/** The first point is the start; points lie in the order of their times. */
+/** The first point is the start; points are in order of time. */
 export interface Profile {
   readonly path: Path;
   readonly points: readonly SpeedPoint[];
@@ -23,7 +23,7 @@ export interface Profile {
 /** The most points of one curve. */
 export const MOST_POINTS = 12;
 
-/** Reads what a file says; null for what is no profile. */
+/** Reads a profile from a file; null where it is invalid. */
 export function readProfile(v: unknown): Profile | null {
   const p = v as Partial<Profile> | null | undefined;
   const numbers = (a: unknown): a is number[] => Array.isArray(a) && a.length > 0 && a.every((n) => Number.isFinite(n));

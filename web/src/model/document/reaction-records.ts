@@ -1,15 +1,15 @@
-// Those who gave up a motion for somebody else, and what they would do had nobody been asked anything. What is asked
-// of one road user is answered by the others from there: the order in which a goal was dragged about must not show.
+// Road users that gave up a motion for another, and what they would do without conditions. A change of one road user
+// starts the others from there, so that the order of a drag's steps does not affect the answer.
 import type { Answering, GivenUp, MotionSet } from './futures';
 import type { ReactionJson } from './scene-json';
 import { takenPin } from './pins';
 import { changedByHand, touched, type Agent, type Scene } from './scene';
 
-/** Who takes up its own motion again when `asked` are asked anew, or were taken away. */
+/** Road users that return to their former motion when `asked` are computed again, or were removed. */
 export function thoseWhoAnswer(scene: Scene, set: MotionSet, asked: Iterable<string>): ReadonlySet<string> {
   const whom = new Set(asked);
   const out = new Set<string>();
-  // Nobody is asked anything of it any more: it follows its log again.
+  // Without conditions it replays the recording again.
   for (const id of whom) if (isLeftAlone(scene, set, id)) out.add(id);
   const open = [...set.answering].filter(([id, x]) => !whom.has(id) && isFree(scene.agents.get(id), x));
   for (let before = -1; before !== out.size;) {
@@ -20,7 +20,7 @@ export function thoseWhoAnswer(scene: Scene, set: MotionSet, asked: Iterable<str
   return out;
 }
 
-/** It may take up another motion, and it is known which. */
+/** It may return to another motion, which is known. */
 const isFree = (a: Agent | undefined, x: Answering): boolean =>
   a !== undefined && x.gaveUp !== undefined && a.chosen === null && !takenPin(a);
 
@@ -29,10 +29,10 @@ function isLeftAlone(scene: Scene, set: MotionSet, id: string): boolean {
   return a !== undefined && set.driving.has(id) && followsLog(scene, a);
 }
 
-/** Without being asked anything everybody follows the log, and goes on from its end where that is asked. */
+/** Without conditions all replay the recording, and continue from its end where the scene is longer. */
 const followsLog = (scene: Scene, a: Agent): boolean => !touched(a) && !scene.drawn;
 
-/** The same with those of `ids` doing what they gave up. */
+/** The same, with the road users in `ids` following the motion they gave up. */
 export function asIfNotAsked(set: MotionSet, ids: ReadonlySet<string> | undefined): MotionSet {
   if (!ids?.size) return set;
   const [futures, driving, answering] = [new Map(set.futures), new Set(set.driving), new Map(set.answering)];
@@ -50,18 +50,18 @@ export function asIfNotAsked(set: MotionSet, ids: ReadonlySet<string> | undefine
   return { ...set, futures, driving, answering };
 }
 
-/** What somebody does who is about to give it up. */
+/** The motion that a road user is about to give up. */
 export function toBeGivenUp(set: MotionSet, id: string): GivenUp | null {
   const futures = set.driving.has(id) ? set.futures.get(id) : undefined;
   const answering = set.answering.get(id);
   return futures ? { futures, ...(answering ? { answering } : {}) } : null;
 }
 
-/** Is the one way that somebody goes all that is known of it? Whoever answers another is not asked for alternatives. */
+/** Is the current motion the only known future? No alternatives are requested for a reacting road user. */
 export const goesOneWay = (set: MotionSet, a: Agent): boolean =>
   !changedByHand(a) && set.driving.has(a.id) && set.futures.get(a.id)?.modes.length === 1;
 
-/** What a file says of those who answer. Without another motion in it they can only have given up their log. */
+/** Reactions stored in a file. Without conditions of its own only the recording can have been given up. */
 export function readAnswering(scene: Scene, a: Agent, said: ReactionJson): Answering {
   return followsLog(scene, a) ? { said, gaveUp: null } : { said };
 }

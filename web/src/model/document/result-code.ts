@@ -1,12 +1,12 @@
-// A short code of what a scene's result follows from: what was recorded or placed, what is asked, the options, the seed
-// and the engine. The same code in two windows means the same scene; the name, notes and what one looks at are no part.
+// A short code of the inputs of a scene's result: recorded and placed road users, conditions, options, seed and engine.
+// The same code in two windows means the same scene; name, notes and view do not affect it.
 import { VERSION } from '../base/domain';
 import type { Motion } from '../base/motion';
 import type { LaneMap } from './lanemap';
 import type { MotionSet } from './futures';
 import { shortFor, sceneKey, touchedIn, type Scene } from './scene';
 
-/** Digits and letters without those that are taken for others. */
+/** Digits and letters without ambiguous ones. */
 const DIGITS = '0123456789ABCDEFGHJKMNPQRSTVWXYZ';
 const LENGTH = 6;
 const BITS = 5;
@@ -65,13 +65,13 @@ const ofMap = (map: LaneMap): string =>
     }
   });
 
-/** Where nothing is asked of anybody nothing was worked out, and no engine had a part in it. */
+/** Without conditions no motion was computed, so the engine's weights do not count. */
 function engineOf(scene: Scene, set: MotionSet): unknown {
   return touchedIn(scene).length || scene.drawn ? [VERSION, set.head?.weights ?? null] : [VERSION];
 }
 
 export function resultCode(scene: Scene, set: MotionSet): string {
-  // Of whom nothing was recorded what is asked says all.
+  // For placed road users the conditions are complete.
   const cast = [...scene.agents.values()].map((a) => [a.id, a.logSize, a.placed ? '' : ofMotion(a.log)]);
   const asked = sceneKey({ ...scene, id: '' });
   const text = JSON.stringify([asked, cast, ofMap(scene.map), scene.signals, engineOf(scene, set)]);

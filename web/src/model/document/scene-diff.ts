@@ -1,8 +1,8 @@
-// What differs between two versions of a document, there and back. Plain data: a browser can store it, whatever
-// command it came from.
+// The difference between two versions of a document, in both directions. Plain data that a browser can store, whatever
+// the command.
 import { withCast, type Agent, type Scene } from './scene';
 
-/** What of a road user changes; all of it where it comes or goes; null where it is not there. */
+/** Changed members of a road user; all of them when it is added or removed; null where it is absent. */
 type Side = Partial<Agent> | null;
 export type Way = 'back' | 'forth';
 
@@ -18,14 +18,14 @@ export interface SceneDiff {
   readonly agents: readonly AgentDiff[];
   readonly back: Fields;
   readonly forth: Fields;
-  /** Everybody in order, where somebody comes or goes. */
+  /** All ids in order, where road users are added or removed. */
   readonly order?: Readonly<Record<Way, readonly string[]>>;
 }
 
-/** Never part of a step: another map is another scene, and the key of the cast follows from the agents. */
+/** Never part of a step: another map is another scene, and `castKey` follows from the agents. */
 const FIXED: readonly string[] = ['agents', 'castKey', 'map', 'signals', 'id'];
 
-/** Values are frozen; equal ones may be two where one of them was stored. */
+/** Values are frozen; equal ones may be different objects after storage. */
 const same = (a: unknown, b: unknown): boolean =>
   a === b || (typeof a === 'object' && typeof b === 'object' && JSON.stringify(a) === JSON.stringify(b));
 
@@ -40,7 +40,7 @@ function differences<T extends object>(a: T, b: T, skip: readonly string[]): { b
   return { back, forth };
 }
 
-/** What the file says of a road user does not change with the document. */
+/** Data from the file that no change of the document affects. */
 const RECORDED: readonly string[] = ['log', 'logStart', 'source'];
 
 export function diffOf(before: Scene, after: Scene): SceneDiff {
@@ -86,7 +86,7 @@ function inOrder(agents: ReadonlyMap<string, Agent>, order: readonly string[]): 
   return out;
 }
 
-/** A document without what its file says anyway: the map, and what was recorded. */
+/** A document without the data of its file: the map and the recordings. */
 export interface SceneState {
   readonly agents: readonly (Partial<Agent> & { readonly id: string })[];
   readonly fields: Fields;
@@ -101,7 +101,7 @@ export function stateOf(scene: Scene): SceneState {
   };
 }
 
-/** The document in that state. Whoever its file does not know has no recording yet; a step that adds it brings it. */
+/** The document in that state. A road user missing in the file has no recording until the step that adds it. */
 export function withState(file: Scene, state: SceneState): Scene {
   const agents = new Map(
     state.agents.map((s) => [s.id, Object.freeze({ ...file.agents.get(s.id), ...s } as Agent)] as const),
@@ -109,5 +109,5 @@ export function withState(file: Scene, state: SceneState): Scene {
   return withCast({ ...file, ...state.fields }, agents);
 }
 
-/** Has everybody a recording, as a document must? */
+/** Have all road users a recording, as a document requires? */
 export const isComplete = (scene: Scene): boolean => [...scene.agents.values()].every((a) => a.log !== undefined);

@@ -1,13 +1,13 @@
-// The scene document as it travels and is stored (`dragtraffic.scene`, version 1), and what answers say of futures.
-// Of a document members that may be missing are optional: the reader is tolerant, the writer is not.
+// The scene document as sent and stored (`dragtraffic.scene`, version 1), and the futures of answers. Members of a
+// document that may be missing are optional: the reader is tolerant, the writer is not.
 import type { Feedback } from './feedback';
 import type { components } from '../base/api';
 
 type Schemas = components['schemas'];
 
-/** A string where the schema lists words: a reader takes words that it does not know. */
+/** A string where the schema lists words: the reader accepts unknown words. */
 type Open<T> = T extends string ? string : T;
-/** A part of a document as a tolerant reader takes it: the members in `Needed` are there, all others may be absent. */
+/** A part of a document for a tolerant reader: the members in `Needed` are present, all others may be absent. */
 type Read<T, Needed extends keyof T = never, Own = unknown> = {
   [K in Exclude<keyof T, keyof Own>]?: Open<T[K]>;
 } & { [K in Exclude<Needed, keyof Own>]: Open<T[K]> } & Own;
@@ -36,9 +36,9 @@ export type TrackJson = Read<
   { valid?: [number, number][]; vx_mps?: number[] | null; vy_mps?: number[] | null }
 >;
 export type StartJson = Read<Schemas['StartDoc']>;
-/** `may_cross`: ids of road edges that this one may go over on its way. */
+/** `may_cross`: ids of road edges that the road user may cross. */
 export type GoalJson = Read<Schemas['GoalDoc']>;
-/** A place on the way. */
+/** A via point. */
 export type ViaJson = Schemas['ViaDoc'];
 export type ConditionJson = Read<
   Omit<Schemas['ConditionsDoc'], 'frame'>,
@@ -55,15 +55,15 @@ export type FaultJson = Schemas['Fault'];
 export type RelationKind = Schemas['RelationKind'];
 export type RelationJson = Schemas['Relation'];
 export type Manoeuvre = Schemas['Manoeuvre'];
-/** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
+/** `anchor`: index of the anchor that the future follows; absent for staying at rest. */
 export type ModeJson = TrackJson &
   Pick<Schemas['FutureDoc'], 'probability' | 'anchor' | 'faults' | 'relations' | 'manoeuvre'> & { name?: string };
-/** A future as it was shown last: box centres every 0.5 s, the first 0.5 s after the start. */
+/** The last shown future: box centres every 0.5 s, the first 0.5 s after the start. */
 export type ShownJson = Schemas['ShownDoc'];
 export type ReactionKind = Schemas['ReactionKind'];
-/** Why a road user gave up the motion it had: whom it answers, and where it waits or is slowest. */
+/** Why a road user gave up a motion: its cause, and where it waits or is slowest. */
 export type ReactionJson = Schemas['Reaction'];
-/** `reaction`: absent for whoever was asked for or does as before. */
+/** `reaction`: absent for requested and for unaffected road users. */
 export type AgentFuturesJson = Omit<Schemas['AgentFuturesDoc'], 'modes'> & { modes: ModeJson[] };
 export type SampleJson = Omit<Schemas['SampleDoc'], 'agents'> & { agents: Record<string, AgentFuturesJson> };
 export type GeneratedJson = Read<Schemas['GeneratedDoc'], never, { samples: SampleJson[] }>;
@@ -71,7 +71,7 @@ export type FeaturesJson = Schemas['Features'];
 export type LearnedWishJson = Schemas['LearnedWish'];
 export type RoundJson = Schemas['Round'];
 export type FeedbackDocJson = Schemas['FeedbackDoc'];
-/** What only the editor knows: the generator's own choices stand in `generated`, the user's picks here. */
+/** Data of the editor only: the generator's choices are in `generated`, the user's picks here. */
 export interface EditorJson {
   seed?: number;
   diversity?: number;
@@ -80,37 +80,37 @@ export interface EditorJson {
   replan_s?: number;
   drawn?: number;
   picked?: Record<string, number>;
-  /** Speeds drawn by hand for futures that are picked. */
+  /** Drawn speed profiles of picked futures. */
   curves?: Record<string, unknown>;
-  /** The round of cards that the picked future is from. */
+  /** The round of cards of the picked future. */
   dealt?: Record<string, string>;
   names?: Record<string, string>;
   notes?: Record<string, string>;
   locked?: string[];
-  /** What single road users do while others change. */
+  /** Behaviour of single road users when others change. */
   does?: Record<string, string>;
-  /** Who was put there and not recorded. */
+  /** Ids of placed road users, which have no recording. */
   placed?: string[];
-  /** The subtype that was recorded, of those that have been given another. */
+  /** Recorded subtypes of road users with a changed one. */
   was?: Record<string, string>;
   variants?: VariantJson[];
-  /** Futures that stay while others are drawn anew, by road user. */
+  /** Pinned futures, by road user. */
   pins?: Record<string, PinJson[]>;
-  /** What was said of futures in rounds, by road user. */
+  /** Feedback on futures, by road user. */
   feedback?: Record<string, Feedback>;
-  /** The same of the whole scene. */
+  /** The same for the whole scene. */
   scene_feedback?: Feedback;
-  /** What counts as an event, where that is not as usual. */
+  /** Thresholds of events that differ from the usual ones. */
   thresholds?: Record<string, number>;
 }
-/** A pinned future: its motion, and the start and the goal that it was made for. */
+/** A pinned future: its motion, and the start and goal it was made for. */
 export interface PinJson {
   name: string;
   type: string;
   track: TrackJson;
   conditions: ConditionJson;
 }
-/** A way that the scene could go: what is asked in it, and what is thought of it. */
+/** A variant of the scene: its conditions, and its rating. */
 export interface VariantJson {
   id: number;
   name?: string;
@@ -122,16 +122,16 @@ export interface VariantJson {
   length_s: number;
   replan_s: number;
   drawn?: number;
-  /** Whose futures it and those made with it were; absent where everybody was worked out anew. */
+  /** Subject of its set of variants; absent for all road users. */
   subject?: string;
-  /** Who was in the scene, and of which kinds. */
+  /** Road users of the scene, with their kinds. */
   roster: string;
   conditions?: Record<string, ConditionJson>;
   picked?: Record<string, number>;
   dealt?: Record<string, string>;
   does?: Record<string, string>;
   curves?: Record<string, unknown>;
-  /** Which of `generated.samples` holds its motion. */
+  /** Index of its motion in `generated.samples`. */
   sample?: number;
 }
 export interface SceneJson {
@@ -146,7 +146,7 @@ export interface SceneJson {
   agents: AgentJson[];
   generated?: GeneratedJson | null;
   x_editor?: EditorJson;
-  /** What the map was made from. */
+  /** The layout of the map. */
   x_layout?: unknown;
 }
 

@@ -1,4 +1,4 @@
-// Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
+// Scene JSON -> document. Tolerates missing members; counts unreadable ones.
 import { readAnswering } from './reaction-records';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
@@ -90,7 +90,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   });
 }
 
-/** The key of the cast of a document, as `Scene.castKey` has it. */
+/** The `castKey` of a document in JSON. */
 export const castKeyOfJson = (json: SceneJson): string =>
   json.agents
     .map((a) => {
@@ -107,7 +107,7 @@ const typeOf = (t: string | null | undefined): AgentType =>
 
 const NO_TRACK: TrackJson = { x_m: [], y_m: [], heading_rad: [] };
 
-/** Somebody of whom nothing but a fixed start is said. */
+/** A road user with only a fixed start. */
 function startTrack({ start: s }: ConditionJson): TrackJson | null {
   if (s?.x_m == null || s.y_m == null) return null;
   const h = s.heading_rad ?? 0,
@@ -115,13 +115,13 @@ function startTrack({ start: s }: ConditionJson): TrackJson | null {
   return { x_m: [s.x_m], y_m: [s.y_m], heading_rad: [h], vx_mps: [v * Math.cos(h)], vy_mps: [v * Math.sin(h)] };
 }
 
-/** One state and a fixed start is how road users look that were put there. */
+/** One state and a fixed start identify placed road users. */
 function isPlaced(json: AgentJson, log: Motion, ed: EditorJson): boolean {
   const single = log.valid.length === 1 && log.valid[0][0] === 0 && log.valid[0][1] === 1;
   return single && json.type !== 'other' && (json.conditions?.start?.x_m != null || !!ed.placed?.includes(json.id));
 }
 
-/** `name`: what it is called unless it was given a name. */
+/** `name`: the default name. */
 export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: EditorJson = {}): Agent {
   const c = json.conditions ?? {};
   const log = motionFrom(json.track?.x_m?.length ? json.track : (startTrack(c) ?? json.track ?? NO_TRACK));
@@ -153,7 +153,7 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
   });
 }
 
-/** What is asked of a road user. */
+/** The conditions of a road user. */
 function readConditions(
   json: AgentJson,
   c: ConditionJson,
@@ -177,12 +177,12 @@ function readConditions(
   };
 }
 
-/** So many states are as long as the longest future. */
+/** The length of the longest future, in states. */
 const MOST_STATES = 202;
 const isColumn = (v: unknown, n: number): boolean =>
   Array.isArray(v) && v.length === n && v.every((x) => Number.isFinite(x));
 
-/** Pinned futures as far as they can be read. */
+/** The readable pinned futures. */
 function readPins(json: unknown, logStart: Pose | null): readonly Pin[] {
   const all = (Array.isArray(json) ? json.slice(0, MOST_PINS) : []) as Partial<PinJson>[];
   const pins = all.flatMap((p): Pin[] => {
@@ -201,17 +201,17 @@ function readPins(json: unknown, logStart: Pose | null): readonly Pin[] {
   return Object.freeze(pins);
 }
 
-/** The pose before the first of the futures: the start, or for one that comes in later where the log first shows it. */
+/** The pose before the first of the futures: the start, or for a late arrival its first recorded pose. */
 export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
   startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
 
-/** The futures saved beside a scene, when they still belong to it. */
+/** The futures saved in a scene, if they still belong to it. */
 export function savedFutures(json: SceneJson, scene: Scene): MotionSet | null {
   const g = json.generated;
   return g && !g.stale ? readSample(json, scene, g.chosen_sample ?? 0) : null;
 }
 
-/** One of the answers that were saved beside a scene; `scene` is the document that it answers. */
+/** One of the answers saved in a scene; `scene` is its document. */
 function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | null {
   const g = json.generated;
   const agents = g?.samples?.[index]?.agents;
@@ -231,7 +231,7 @@ function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | n
   return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), answering, head };
 }
 
-/** What a file keeps of a variant's motion; null where it keeps nothing. */
+/** The stored motions of a variant; null where there are none. */
 export function savedVariantFutures(json: SceneJson, id: number, scene: Scene): MotionSet | null {
   const all = json.x_editor?.variants;
   const sample = Array.isArray(all) ? all.find((v) => v?.id === id)?.sample : undefined;
@@ -270,10 +270,10 @@ function readGoal(c: ConditionJson): GoalSpec {
 
 const whole = (v: unknown, least: number, most: number): v is number =>
   Number.isSafeInteger(v) && (v as number) >= least && (v as number) <= most;
-/** Diversity is 0 to this. */
+/** Upper bound of the diversity. */
 const MOST_DIVERSITY = 2;
 
-/** Those that can be read; each id once. */
+/** The readable variants; each id once. */
 function readVariants(json: unknown, agents: ReadonlyMap<string, Agent>): Pick<Scene, 'variants' | 'variantStates'> {
   const variants = new Map<number, Variant>();
   const states: Record<number, VariantState> = {};
@@ -304,7 +304,7 @@ function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>):
     const a = agents.get(id);
     if (!a?.source || !c || typeof c !== 'object') continue;
     const ed = { picked: v.picked, dealt: v.dealt, curves: v.curves, does: v.does };
-    // Read as the file's road user is; the lanes matter for what is parked alone.
+    // Read like the file's road user; the lanes matter only for parked ones.
     asked[id] = askedOf({ ...a, ...readConditions(a.source, c, a.logStart, ed) });
   }
   return Object.freeze(asked);
@@ -313,14 +313,14 @@ function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>):
 const firstSeen = (log: Motion): Pose | null => (log.valid.length ? poseAtStep(log, log.valid[0][0]) : null);
 
 /**
- * Parked means still for as long as it is seen and off every lane centre, also where it is seen later: a queue at a
- * red light keeps its colour.
+ * Parked means still while seen, and off every lane centre, also for a late arrival: a queue at a red light keeps its
+ * colour.
  */
 function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }
 
-/** Names carry the number in the id where that is short and unique, else a count of their own. */
+/** Names contain the number of the id where it is short and unique, else a running number. */
 function namer(all: readonly AgentJson[]): (a: AgentJson) => string {
   const digits = new Map<string, number>();
   const key = (a: AgentJson) => numberIn(a.id);

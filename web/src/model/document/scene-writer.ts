@@ -37,7 +37,7 @@ import {
 import type { Futures, MotionSet } from './futures';
 import { viasJson } from './vias';
 
-/** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
+/** The conditions of a road user: a number fixes a field, null leaves it free, absent means "as recorded". */
 const conditions = new WeakMap<Agent, ConditionJson>();
 
 export function conditionOf(a: Agent): ConditionJson {
@@ -48,7 +48,7 @@ export function conditionOf(a: Agent): ConditionJson {
 
 function writtenCondition(a: Agent): ConditionJson {
   const c: ConditionJson = {};
-  // What was put here says all of itself: the motion that it has in the file is its start alone.
+  // A placed road user is written completely: its track in the file is only its start.
   if (a.type !== a.logType && !a.placed && a.type !== 'other') c.type = a.type;
   if (sizeChanged(a) || a.placed) {
     c.length_m = a.length;
@@ -90,7 +90,7 @@ function futuresJson(f: Futures, chosen: number): AgentFuturesJson {
   };
 }
 
-/** Futures in the shape the server keeps beside a scene, so that the next request starts from what is on screen. */
+/** Futures in the server's stored form, so that the next request starts from the shown ones. */
 export function generatedJson(
   scene: Scene,
   futures: Iterable<readonly [string, Futures]>,
@@ -112,7 +112,7 @@ export function generatedJson(
     request: { steps: DEFAULTS.steps, diversity: scene.diversity },
     created_at: '1970-01-01T00:00:00Z',
     ...head,
-    // The server cannot know that a picked future still answers what is asked; who writes it here does.
+    // The server cannot know that a picked future still meets the conditions; the writer does.
     stale: false,
     chosen_sample: 0,
     samples: [{ agents }],
@@ -124,7 +124,7 @@ function reactionOf(answering: MotionSet['answering'] | undefined, id: string): 
   return reaction ? { reaction } : {};
 }
 
-/** What everybody does in a variant; of those who were asked nothing the one way that they take. */
+/** The motions of all in a variant; for road users without conditions only the followed future. */
 export function variantSample(scene: Scene, set: MotionSet): SampleJson {
   const agents: SampleJson['agents'] = {};
   for (const id of set.driving) {
@@ -137,7 +137,7 @@ export function variantSample(scene: Scene, set: MotionSet): SampleJson {
   return { agents };
 }
 
-/** One state, for somebody of whom nothing else is known. */
+/** A single state, for a road user without other data. */
 function startTrack(a: Agent): TrackJson {
   const p = startPose(a)!;
   const [x, y, h, v] = [round(p.x, 1000), round(p.y, 1000), round(p.heading, 10000), Math.abs(p.speed)];
@@ -145,7 +145,7 @@ function startTrack(a: Agent): TrackJson {
   return { first_step: 0, valid: [[0, 1]], x_m: [x], y_m: [y], heading_rad: [h], ...velocity };
 }
 
-/** A road user as it stands in the file, its conditions left as they came. */
+/** A road user in file form, its conditions unchanged. */
 function agentJson(a: Agent): AgentJson {
   if (!a.placed && a.source) return kindChanged(a) && a.subtype ? { ...a.source, subtype: a.subtype } : a.source;
   return {
@@ -159,13 +159,13 @@ function agentJson(a: Agent): AgentJson {
   };
 }
 
-/** Everybody in the scene, as a question sends them; conditions go beside it. */
+/** All road users, as a request sends them; conditions are separate. */
 export const castJson = (scene: Scene): AgentJson[] => [...scene.agents.values()].map(agentJson);
 
-/** A road user as a whole: for files and for copies. */
+/** A complete road user: for files and for copies. */
 export const wholeAgentJson = (a: Agent): AgentJson => ({ ...agentJson(a), conditions: conditionOf(a) });
 
-/** The scene as loaded with the user's changes written in; nothing else is touched. */
+/** The loaded scene with the user's changes written in; all else is unchanged. */
 export function writeScene(
   raw: SceneJson,
   scene: Scene,
@@ -193,11 +193,11 @@ export function writeScene(
   };
 }
 
-/** What counts, where that is not as usual: for files and for questions. */
+/** Thresholds that differ from the usual ones: for files and for requests. */
 export const thresholdsOf = (s: Scene): { thresholds?: Record<string, number> } =>
   Object.keys(s.thresholds).length ? { thresholds: { ...s.thresholds } } : {};
 
-/** Variants as the file has them. */
+/** Variants in file form. */
 export const variantsJson = (scene: Scene): VariantJson[] =>
   scene.variants.map((v) => {
     const { seed, diversity, others, length, replan, drawn, subject, roster, asked } = scene.variantStates[v.id];
@@ -234,7 +234,7 @@ const pinJson = (a: Agent, { name, type, track, start, goal }: Pin): PinJson => 
   conditions: writtenCondition({ ...a, start, goal }),
 });
 
-/** What only the editor knows of single road users. */
+/** Editor-only data of single road users. */
 export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   const all = [...agents];
   const entries = <T>(of: (a: Agent) => T | null | undefined): Record<string, T> | undefined => {
@@ -264,7 +264,7 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   return Object.fromEntries(Object.entries(ed).filter(([, v]) => v !== undefined));
 }
 
-/** The same with those who hold still standing where they start. Who would come in later then stays away. */
+/** The same with held road users standing at their start. Late arrivals that hold still are left out. */
 export function withStill(scene: Scene, cast: readonly AgentJson[], keep: ReadonlySet<string>): AgentJson[] {
   return cast.flatMap((json) => {
     const a = scene.agents.get(json.id);

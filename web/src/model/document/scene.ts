@@ -1,5 +1,5 @@
-// The document: what the user made. Frozen and structurally shared; motion that the generator worked out
-// is not part of it, it is looked up by the document's key (see futures.ts).
+// The document: the user's input. Frozen and structurally shared; generated motion is not part of it, but is looked up
+// by the document's key (see futures.ts).
 import type { AgentType, Kind } from '../base/kinds';
 import type { LaneMap } from './lanemap';
 import { DEFAULTS } from '../base/domain';
@@ -12,7 +12,7 @@ import { NO_VIAS, type Via } from './vias';
 
 export type Others = 'react' | 'log' | 'still';
 
-/** A field that is null is Free: the generator decides it. Position counts as one field. */
+/** A null field is Free: the generator decides it. Position counts as one field. */
 export interface StartSpec {
   readonly pos: Vec | null;
   readonly heading: number | null;
@@ -20,9 +20,9 @@ export interface StartSpec {
 }
 export interface GoalSpec extends StartSpec {
   readonly time: number;
-  /** Ids of the road edges that it may go over on its way there. */
+  /** Ids of road edges that it may cross on its way there. */
   readonly mayCross: readonly string[];
-  /** Places on the way there, or on the way that the generator chooses. */
+  /** Via points on the way there, or on the way that the generator chooses. */
   readonly via: readonly Via[];
 }
 
@@ -30,49 +30,49 @@ export interface Agent {
   readonly id: string;
   readonly type: AgentType;
   readonly kind: Kind;
-  /** What the scene's author calls it; the kind is a guess from the size where nothing is said. */
+  /** The subtype of the file; without one the kind is inferred from the size. */
   readonly subtype: string | null;
   readonly name: string;
-  /** The name that was given by hand; null where the kind and the number are the name. */
+  /** Name given by the user; null where kind and number form the name. */
   readonly called: string | null;
   readonly note: string;
-  /** Refuses to be moved, changed and removed. */
+  /** Cannot be moved, changed or removed. */
   readonly locked: boolean;
-  /** What it does while others change, where that is another thing than what the scene says of all. */
+  /** Its behaviour when others change, where it differs from the scene's. */
   readonly does: Others | null;
   readonly length: number;
   readonly width: number;
   readonly logSize: readonly [number, number];
   readonly logType: AgentType;
   readonly logSubtype: string | null;
-  /** Put here by hand or by a program: nothing of it was recorded, so the generator decides all that it does. */
+  /** Placed by a user or a program: without a recording, so the generator decides its whole motion. */
   readonly placed: boolean;
-  /** As it came in the file; null for one that was put here since. */
+  /** As read from the file; null for one placed since. */
   readonly source: AgentJson | null;
   readonly log: Motion;
-  /** State at 0 s in the log; null when the road user appears later. */
+  /** Recorded state at 0 s; null when the road user appears later. */
   readonly logStart: Pose | null;
   readonly parked: boolean;
   readonly ego: boolean;
   readonly start: StartSpec;
   readonly goal: GoalSpec;
-  /** Index of the future the user picked; null leaves the choice to the generator. */
+  /** Index of the picked future; null leaves the choice to the generator. */
   readonly chosen: number | null;
-  /** How fast it goes along it, where that was drawn by hand; it goes with the pick. */
+  /** Drawn speed profile along the picked future; removed with the pick. */
   readonly profile: Profile | null;
-  /** Names the round of cards that its futures are from, where one of those was picked. */
+  /** Round id of the cards that the picked future is from. */
   readonly dealt: string | null;
-  /** Futures that stay while others are drawn anew, in the order in which they were pinned. */
+  /** Pinned futures, in the order of pinning. */
   readonly pins: readonly Pin[];
-  /** What was said of its futures in rounds; null where nothing was. */
+  /** Feedback on its futures; null where there is none. */
   readonly feedback: Feedback | null;
 }
 
-/** A future that stays: its motion, and what it was made for. */
+/** A pinned future: its motion, and what it was made for. */
 export interface Pin {
-  /** Names the motion. */
+  /** Identifies the motion. */
   readonly key: string;
-  /** What it was called. */
+  /** Its name when it was pinned. */
   readonly name: string;
   readonly track: Columns;
   readonly type: AgentType;
@@ -86,18 +86,18 @@ export interface Signal {
   readonly states: readonly (readonly [number, string])[];
 }
 
-/** How a variant is called and what is thought of it. */
+/** Name and rating of a variant. */
 export interface Variant {
-  /** Counts up in a scene and is never used twice. */
+  /** Increases within a scene and is never reused. */
   readonly id: number;
-  /** The name that was given by hand; null where what differs is the name. */
+  /** Name given by the user; null where the difference is the name. */
   readonly called: string | null;
-  /** Stays when others are made. */
+  /** Stays when new variants are made. */
   readonly kept: boolean;
   readonly starred: boolean;
 }
 
-/** What a variant consists of. */
+/** The content of a variant. */
 export interface VariantState {
   readonly seed: number;
   readonly diversity: number;
@@ -105,11 +105,11 @@ export interface VariantState {
   readonly length: Length;
   readonly replan: Replan;
   readonly drawn: number;
-  /** Whose futures the variants made with it were; null where everybody was worked out anew. */
+  /** Subject of its set of variants; null for all road users. */
   readonly subject: string | null;
-  /** Who was in the scene, as `Scene.castKey` has it. */
+  /** Road users of the scene, as in `Scene.castKey`. */
   readonly roster: string;
-  /** What is asked of whom; of everybody else nothing is. */
+  /** Conditions by id; road users not listed have none. */
   readonly asked: Readonly<Record<string, Asked>>;
 }
 
@@ -124,41 +124,41 @@ export interface Scene {
   readonly source: string;
   readonly licence: string;
   readonly steps: number;
-  /** Seconds that are worked out and played: the length, or less for a shorter recording. */
+  /** Computed and played seconds: the length, or less for a shorter recording. */
   readonly duration: number;
-  /** Seconds asked for; past 9 s the generator plans anew from where everybody is by then. */
+  /** Requested seconds; past 9 s the generator replans from the reached state. */
   readonly length: Length;
-  /** Seconds after which everybody plans anew. */
+  /** Interval of replanning, seconds. */
   readonly replan: Replan;
   readonly map: LaneMap;
   readonly signals: readonly Signal[];
   readonly agents: ReadonlyMap<string, Agent>;
-  /** Who is in the scene and of which kind, as text: equal for equal casts. */
+  /** Ids and kinds of the road users, as text: equal for equal casts. */
   readonly castKey: string;
-  /** The largest number that an id has ever had here: who comes new gets a larger one, also after somebody went. */
+  /** The largest number ever used in an id here: new ones get a larger one, also after a removal. */
   readonly issued: number;
   readonly seed: number;
   readonly diversity: number;
   readonly others: Others;
-  /** How often everybody was worked out anew: each time is a step that can be taken back. */
+  /** Number of times that all were drawn again: each is a step that can be undone. */
   readonly drawn: number;
-  /** Ways that the scene could go, in the order in which they were made. */
+  /** Variants of the scene, in the order they were made. */
   readonly variants: readonly Variant[];
-  /** What they consist of, by their ids. Apart from them: a star is a small step. */
+  /** Their content, by id. Stored separately, so that a star is a small step. */
   readonly variantStates: Readonly<Record<number, VariantState>>;
-  /** What was said in rounds of the whole scene; null where nothing was. */
+  /** Feedback on the whole scene; null where there is none. */
   readonly feedback: Feedback | null;
-  /** What counts as an event, where that is not as usual. */
+  /** Thresholds of events that differ from the usual ones. */
   readonly thresholds: Thresholds;
 }
 
-/** Numbers by the names that the server has for them. */
+/** Numbers by the server's names. */
 export type Thresholds = Readonly<Record<string, number>>;
 export const NO_THRESHOLDS: Thresholds = Object.freeze({});
 
-/** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
+/** Planning horizon of the generator, seconds, and the default goal time. */
 export const GOAL_TIME = DEFAULTS.horizon_s;
-/** Nearer than this to its place a goal is reached, metres. */
+/** A goal within this distance is reached, metres. */
 export const AT_GOAL_M = 1;
 export const LENGTHS = [9, 12, 15, 20] as const;
 export const REPLANS = [3, 6, 9] as const;
@@ -168,7 +168,7 @@ export type Replan = (typeof REPLANS)[number];
 export const readLength = (v: unknown): Length => LENGTHS.find((l) => l === v) ?? 9;
 export const readReplan = (v: unknown): Replan => REPLANS.find((r) => r === v) ?? 9;
 
-/** A recording may be shorter than 9 s; past that the generator goes on by itself. */
+/** A recording may be shorter than 9 s; beyond that the generator continues. */
 export const durationOf = (length: Length, steps: number): number =>
   length > GOAL_TIME ? length : Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S);
 const NO_EDGES: readonly string[] = Object.freeze([]);
@@ -184,7 +184,7 @@ export function logStartSpec(p: Pose | null): StartSpec {
   );
 }
 
-/** The start pose in force: fixed fields from the document, free ones from the log. */
+/** The effective start pose: fixed fields from the document, free ones from the recording. */
 export function startPose(a: Agent): Pose | null {
   const l = a.logStart;
   if (!l) return null;
@@ -192,10 +192,10 @@ export function startPose(a: Agent): Pose | null {
   return { x, y, heading: wrapAngle(a.start.heading ?? l.heading), speed: a.start.speed ?? Math.abs(l.speed) };
 }
 
-/** The speed curve in force: one belongs to a picked future, and is gone when that is. */
+/** The effective speed profile: it belongs to a picked future, and disappears with the pick. */
 export const profileOf = (a: Agent): Profile | null => (a.chosen === null ? null : a.profile);
 
-/** When somebody is to be at its goal, seconds; null where no place is asked for. */
+/** Goal time, seconds; null without a goal position. */
 export const goalTimeOf = (a: Agent): number | null => (a.goal.pos ? a.goal.time : null);
 
 export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
@@ -208,14 +208,14 @@ const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.lo
 export const sizeChanged = (a: Agent): boolean => a.length !== a.logSize[0] || a.width !== a.logSize[1];
 export const kindChanged = (a: Agent): boolean => a.type !== a.logType || a.subtype !== a.logSubtype;
 
-/** Has the user asked anything of this road user that the log could take back? */
+/** Has the user set a condition that "as recorded" would remove? */
 export const changedByHand = (a: Agent): boolean =>
   hasGoal(a.goal) || a.goal.via.length > 0 || a.chosen !== null || startChanged(a) || sizeChanged(a) || kindChanged(a);
 
-/** Is anything asked of this road user? One without a log has nothing else to follow. */
+/** Has this road user a condition? One without a recording has nothing else to follow. */
 export const touched = (a: Agent): boolean => a.placed || changedByHand(a);
 
-/** Ids of everybody whom somebody asked something of. */
+/** Ids of all road users with conditions. */
 export const touchedIn = (scene: Scene): string[] =>
   [...scene.agents.values()].filter((a) => touched(a) && canChange(a)).map((a) => a.id);
 
@@ -229,25 +229,25 @@ const subtypeOf = (a: Pick<Agent, 'subtype' | 'kind'>): string => a.subtype ?? a
 export const castKeyOf = (agents: Iterable<Agent>): string =>
   Array.from(agents, (a) => `${a.id}:${a.type}:${subtypeOf(a)}`).join(' ');
 
-/** Another cast; the road users in the order they are given. */
+/** Another cast; road users in the given order. */
 export function withCast(scene: Scene, agents: ReadonlyMap<string, Agent>, issued = scene.issued): Scene {
   return Object.freeze({ ...scene, agents, castKey: castKeyOf(agents.values()), issued });
 }
 
-/** The number at the end of an id, where it is short enough to be read. */
+/** The number at the end of an id, where it is short enough to read. */
 export const numberIn = (id: string): string | undefined => /(\d{1,5})$/.exec(id)?.[1];
 
-/** Ids of their own for `n` who come new. */
+/** Unique ids for `n` new road users. */
 export function newIds(scene: Scene, n: number): string[] {
   const ids: string[] = [];
   for (let k = scene.issued + 1; ids.length < n; k++) if (!scene.agents.has(String(k))) ids.push(String(k));
   return ids;
 }
 
-/** What a road user does while others change. */
+/** Behaviour of a road user when others change. */
 export const doing = (s: Scene, a: Agent): Others => a.does ?? s.others;
 
-/** Text that names everything the generator's answer depends on; equal keys, equal answers. */
+/** Text of all inputs of the generator's answer; equal keys, equal answers. */
 const keys = new WeakMap<Scene, string>();
 
 export function sceneKey(scene: Scene): string {
@@ -277,12 +277,12 @@ function keyOf(scene: Scene): string {
   return JSON.stringify(parts);
 }
 
-/** Names all that the cards depend on in a document, wherever it is kept. */
+/** Key of all inputs of the cards in a document, independent of its id. */
 export const printOf = (scene: Scene): string => shortFor(sceneKey({ ...scene, id: '' }));
 
-/** A short text in place of a long one. */
+/** A short digest of a long text. */
 export function shortFor(text: string): string {
-  // FNV-1a, twice with different beginnings: 64 bits.
+  // FNV-1a, twice with different offsets: 64 bits.
   let [a, b] = [0x811c9dc5, 0x9dc5811c];
   for (const ch of text) {
     const c = ch.codePointAt(0)!;
@@ -294,14 +294,14 @@ export function shortFor(text: string): string {
 
 const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];
 
-/** Recorded maps know nothing of what lies beside the road; made ones are drawn with grass and pavement. */
+/** Recorded maps lack the surroundings of the road; made ones are drawn with grass and pavement. */
 export const isRecorded = (source: string): boolean => !MADE.includes(source);
 
-/** Held still nobody comes in from outside: it would run into those that stand. */
+/** With "hold still" late arrivals stay out: they would drive into standing ones. */
 export const staysAway = (s: Scene, a: Agent): boolean =>
   doing(s, a) === 'still' && a.type !== 'other' && a.logStart === null;
 
-/** What road users are called, by id; null for one that is not there. */
+/** Names of road users by id; null for an absent one. */
 export const nameIn =
   (s: Scene) =>
   (id: string): string | null =>
@@ -309,5 +309,5 @@ export const nameIn =
 
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;
 
-/** May it be moved and asked things? */
+/** Can it be moved and given conditions? */
 export const canMove = (a: Agent): boolean => canChange(a) && !a.locked;

@@ -1,10 +1,10 @@
-// What counts as an event in a scene. Only what differs from the usual is kept.
+// Thresholds of events in a scene. Only values that differ from the usual ones are stored.
 import { patchScene, type Command } from './commands';
 import { THRESHOLDS } from '../base/domain';
 import { NO_THRESHOLDS, type Scene, type Thresholds } from './scene';
 import { TEXTS } from '../../texts/panels/thresholds';
 
-/** Those that the editor offers, in the order in which they are shown. */
+/** Thresholds that the editor offers, in display order. */
 export const OFFERED = ['gap_m', 'ttc_s', 'harsh_brake_mps2', 'harsh_lateral_mps2'] as const;
 export type ThresholdName = (typeof OFFERED)[number];
 
@@ -12,7 +12,7 @@ export const usual = (name: ThresholdName): number => THRESHOLDS[name].usual;
 export const threshold = (s: Scene, name: ThresholdName): number => s.thresholds[name] ?? usual(name);
 export const isUsual = (s: Scene): boolean => !Object.keys(s.thresholds).length;
 
-/** Numbers that can be read and are not the usual ones. */
+/** Readable numbers that differ from the usual ones. */
 export function readThresholds(json: unknown): Thresholds {
   const given = Object.entries(typeof json === 'object' && json ? json : {}).filter(([name, v]) => {
     const known = Object.hasOwn(THRESHOLDS, name) ? THRESHOLDS[name] : null;

@@ -1,5 +1,5 @@
-// Variants: ways that the scene could go, side by side. A variant is what was asked and which numbers the generator
-// drew with; its motion is worked out from that like any other and not part of the document.
+// Variants: alternatives of the scene, side by side. A variant is conditions and the generator's seed; its motion is
+// computed from these and not part of the document.
 import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
 import {
   type Asked,
@@ -13,11 +13,11 @@ import {
 } from './scene';
 import { TEXTS } from '../../texts/editing/variants';
 
-/** So many are made at most, and so many a scene holds with those that were kept. */
+/** Maximum number made at once, and in a scene, kept ones included. */
 export const MOST_NEW = 10;
 export const MOST_VARIANTS = 30;
 
-/** The document as it is now, as a variant of it. */
+/** The current document, as a variant. */
 export function stateOfVariant(scene: Scene, subject: string | null): VariantState {
   const { seed, diversity, others, length, replan, drawn, castKey: roster } = scene;
   const asked = [...scene.agents.values()].filter((a) => touched(a) || a.does !== null);
@@ -48,12 +48,12 @@ export const askedOf = ({
   does,
 }: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
 
-/** Are the road users of a variant those that are here? */
+/** Has the scene the road users of the variant? */
 export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.castKey;
 
 const NOTHING = { does: null } as const;
 
-/** Makes the document that of a variant. */
+/** Makes the document equal to a variant. */
 export function takeVariant(scene: Scene, state: VariantState, name: string): Command {
   const { seed, diversity, others, length, replan, drawn } = state;
   const patches = new Map<string, AgentPatch>();
@@ -75,7 +75,7 @@ export function takeVariant(scene: Scene, state: VariantState, name: string): Co
 
 export const sceneOfVariant = (scene: Scene, state: VariantState): Scene => takeVariant(scene, state, '').apply(scene);
 
-/** Text that names the answer to a variant: that of the document it stands for. */
+/** Document key of a variant. */
 export const keyOfVariant = (scene: Scene, state: VariantState): string => sceneKey(sceneOfVariant(scene, state));
 
 // -------------------------------------------------------------- commands
@@ -85,7 +85,7 @@ type States = Scene['variantStates'];
 const put = (name: string, variants: readonly Variant[], variantStates: States): Command =>
   patchScene(name, { variants: Object.freeze(variants), variantStates: Object.freeze(variantStates) });
 
-/** New ones take the place of all that nobody kept. */
+/** New ones replace all that are neither kept nor starred. */
 export function replaceVariants(scene: Scene, fresh: readonly VariantState[]): Command {
   const stay = scene.variants.filter((v) => v.kept || v.starred);
   const first = nextVariant(scene);
@@ -99,7 +99,7 @@ export function replaceVariants(scene: Scene, fresh: readonly VariantState[]): C
   return put(TEXTS.oneVariantMade(n), [...stay, ...come], states);
 }
 
-/** The number of the next one: larger than any before it. */
+/** Id of the next one: larger than any before. */
 const nextVariant = (scene: Scene): number => 1 + Math.max(0, ...scene.variants.map((v) => v.id));
 
 export type VariantPatch = Partial<Omit<Variant, 'id'>>;
@@ -109,11 +109,11 @@ export const patchVariant = (scene: Scene, id: number, patch: VariantPatch, name
     variants: Object.freeze(scene.variants.map((v) => (v.id === id ? Object.freeze({ ...v, ...patch }) : v))),
   });
 
-/** The document as it is joins the variants, kept. */
+/** Adds the current document to the variants, kept. */
 export const keepAsVariant = (scene: Scene, name: string): Command | null =>
   keepStates(scene, [stateOfVariant(scene, null)], name);
 
-/** Others join them, kept; null where there is no room for all. */
+/** Adds others, kept; null where there is no room for all. */
 export function keepStates(
   scene: Scene,
   fresh: readonly VariantState[],

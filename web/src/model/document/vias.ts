@@ -1,24 +1,24 @@
-// Places that a road user passes on its way to its goal, in the order in which it passes them.
+// Via points of a road user on its way to its goal, in order.
 import { VIAS } from '../base/domain';
 import type { Vec } from '../base/geometry';
 import { STEP_S, type Motion } from '../base/motion';
 
 export interface Via {
   readonly pos: Vec;
-  /** Passed no farther away than this, metres. */
+  /** Largest passing distance, metres. */
   readonly tolerance: number;
-  /** When it is passed; null where that is free. */
+  /** Passing time, seconds; null where free. */
   readonly time: number | null;
 }
 
 const { most, tolerance_m, default_tolerance_m, within_s } = VIAS;
 export const MOST_VIAS = most;
 export const VIA_TOLERANCE: readonly [number, number] = [tolerance_m[0], tolerance_m[1]];
-/** Nobody is anywhere else sooner, and a goal is due so much later than the last place on the way. */
+/** Earliest time of a via point, and least time between the last one and the goal. */
 export const LEAST_TIME_S = 0.5;
 export const NO_VIAS: readonly Via[] = Object.freeze([]);
 
-/** Places to the decimetre, as handles go; tolerances to the centimetre, as tenths of feet need. */
+/** Positions to the decimetre, like handles; tolerances to the centimetre, for tenths of feet. */
 const rounded = (v: number, steps: number): number => Math.round(v * steps) / steps;
 
 export const via = (pos: Vec, tolerance = default_tolerance_m, time: number | null = null): Via =>
@@ -27,18 +27,18 @@ export const via = (pos: Vec, tolerance = default_tolerance_m, time: number | nu
 export const heldTolerance = (m: number): number =>
   rounded(Math.min(VIA_TOLERANCE[1], Math.max(VIA_TOLERANCE[0], m)), 100);
 
-/** The list with one of it in another way; without it for null. */
+/** The list with one changed; without it for null. */
 export const withVia = (all: readonly Via[], i: number, patch: Partial<Via> | null): readonly Via[] =>
   Object.freeze(all.flatMap((v, k) => (k !== i ? [v] : patch ? [Object.freeze({ ...v, ...patch })] : [])));
 
-/** Times at which one may be passed: after those before it, before those after it and the goal. */
+/** Possible times of one: after those before it, before those after it and the goal. */
 export function timesOf(all: readonly Via[], i: number, due: number): readonly [number, number] {
   const before = all.slice(0, i).flatMap((v) => v.time ?? []);
   const after = all.slice(i + 1).flatMap((v) => v.time ?? []);
   return [Math.max(LEAST_TIME_S, ...before.map((t) => t + 0.1)), Math.min(due - 0.1, ...after.map((t) => t - 0.1))];
 }
 
-/** The same with times that can be kept: one that is not before what follows is free. */
+/** The same with consistent times: one that is not before its successor becomes free. */
 export function inOrder(all: readonly Via[], due: number): readonly Via[] {
   const kept = all.map((v, i) => {
     if (v.time === null) return v;
@@ -51,7 +51,7 @@ export function inOrder(all: readonly Via[], due: number): readonly Via[] {
 export const shiftedVias = (all: readonly Via[], to: (x: number, y: number) => Vec): readonly Via[] =>
   all.length ? Object.freeze(all.map((v) => Object.freeze({ ...v, pos: Object.freeze(to(v.pos[0], v.pos[1])) }))) : all;
 
-/** Where a motion comes nearest to a place, seconds and metres; from a time on. */
+/** Time and distance of a motion's closest point to a place, seconds and metres; within a time range. */
 export function nearestOn(m: Motion, [x, y]: Vec, from = 0, to = Infinity): { time: number; away: number } {
   let best = { time: from, away: Infinity };
   for (let i = 0; i + 1 < m.x.length; i++) {
@@ -66,7 +66,7 @@ export function nearestOn(m: Motion, [x, y]: Vec, from = 0, to = Infinity): { ti
   return best;
 }
 
-/** How a motion passes each: when, how near, and whether that is near enough. */
+/** Passing time and distance of each, and whether it is within the tolerance. */
 export function passed(all: readonly Via[], m: Motion): { time: number; away: number; ok: boolean }[] {
   let from = 0;
   return all.map((v) => {
@@ -76,7 +76,7 @@ export function passed(all: readonly Via[], m: Motion): { time: number; away: nu
   });
 }
 
-/** Where a new one comes in the order along a motion: before the first that is passed later. */
+/** Index of a new one in the order along a motion: before the first that is passed later. */
 export function placeIn(all: readonly Via[], m: Motion, pos: Vec): number {
   const { time } = nearestOn(m, pos);
   const i = passed(all, m).findIndex((p) => p.time > time);
@@ -86,7 +86,7 @@ export function placeIn(all: readonly Via[], m: Motion, pos: Vec): number {
 export const withNew = (all: readonly Via[], i: number, added: Via): readonly Via[] =>
   Object.freeze([...all.slice(0, i), added, ...all.slice(i)]);
 
-/** From whatever a file has; those that can be read. */
+/** The readable via points of a file. */
 export function readVias(json: unknown): readonly Via[] {
   if (!Array.isArray(json) || !json.length) return NO_VIAS;
   const all = json

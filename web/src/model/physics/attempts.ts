@@ -1,47 +1,46 @@
-// Numbers that are tried on a road user, one set after the other: its speed at the start, its goal time,
-// where it starts, the seed.
+// Attempts that vary numbers of a road user in turn: start speed, goal time, start place, seed.
 import { patchScene, setGoal, setStart } from '../document/commands';
 import { touching } from './boxes';
 import { wrapAngle, type Pose } from '../base/geometry';
 import { nearestLanes, type Lane } from '../document/lanemap';
 import { startPose, type Agent, type Scene, type StartSpec } from '../document/scene';
 
-/** What of a road user may be changed. */
+/** Numbers of a road user that may vary. */
 export interface MayChange {
   readonly speed: boolean;
   readonly time: boolean;
   readonly seed: boolean;
-  /** Where it starts, along its lane. */
+  /** Start place, along its lane. */
   readonly place: boolean;
 }
 
-/** One thing to try: numbers of its own for a road user. */
+/** One attempt: its numbers for a road user. */
 export interface Attempt {
   readonly seed: number;
-  /** Speed at the start, m/s; null for as it is. */
+  /** Start speed, m/s; null for unchanged. */
   readonly speed: number | null;
-  /** Goal time, seconds; null for as it is. */
+  /** Goal time, seconds; null for unchanged. */
   readonly time: number | null;
-  /** How much further on it starts, metres; null for where it is. */
+  /** Shift of the start, metres; null for unchanged. */
   readonly ahead: number | null;
 }
 
-/** Speeds are tried within this share of what it is and so many m/s more or less, whichever is wider. */
+/** Speeds vary within this share of the present one, or by this many m/s, whichever is wider. */
 const SPEED_SHARE = 0.5;
 const SPEED_MORE_MPS = 4;
-/** Goal times are tried so many seconds around what it is. */
+/** Goal times vary by this many seconds. */
 const TIME_MORE_S = 3;
 const TIME_LEAST_S = 1;
-/** Starts are tried so far before and behind where it is. */
+/** Starts vary by this many metres forwards and backwards. */
 export const PLACE_MORE_M = 5;
-/** Fractions of these fill a range evenly, however many are taken. */
+/** Multiples of this, modulo 1, fill a range evenly, however many are taken. */
 const GOLDEN = 0.6180339887498949;
 const PLASTIC = 0.7548776662466927;
 const SILVER = 0.41421356237309515;
-/** So near to the middle of a lane one starts on it. */
+/** Within this distance of a lane's centre a road user starts on it. */
 const ON_LANE_M = 2.5;
 
-/** The n-th attempt; the first is the scene as it is. Nothing of it is drawn by chance, so it can be done again. */
+/** The n-th attempt; the first is the unchanged scene. Deterministic, so it can be repeated. */
 export function attempt(a: Agent, scene: Scene, may: MayChange, n: number, top: number): Attempt {
   const seed = may.seed ? scene.seed + n : scene.seed;
   if (n === 0) return { seed, speed: null, time: null, ahead: null };
@@ -58,7 +57,7 @@ export function attempt(a: Agent, scene: Scene, may: MayChange, n: number, top: 
   };
 }
 
-/** The document with an attempt in it, and no future picked for the one who is tried. */
+/** The document with an attempt, and without a picked future for the varied road user. */
 export function withAttempt(scene: Scene, id: string, { seed, speed, time, ahead }: Attempt): Scene {
   const a = scene.agents.get(id)!;
   let s = patchScene('', { seed }).apply(scene);
@@ -69,8 +68,8 @@ export function withAttempt(scene: Scene, id: string, { seed, speed, time, ahead
 }
 
 /**
- * The place so many metres further on, with what it is beside the middle of its lane kept; off the lanes straight on.
- * Half as far, or not at all, where somebody stands there.
+ * The place this many metres ahead, with its lateral offset in the lane; off the lanes straight on. Half as far, or not
+ * at all, where that is occupied.
  */
 function movedAlong(scene: Scene, a: Agent, ahead: number): Partial<StartSpec> {
   for (const metres of [ahead, ahead / 2]) {

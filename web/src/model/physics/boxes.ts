@@ -1,4 +1,4 @@
-// Road users as boxes on the ground: whether two touch, and how far they are apart.
+// Road users as boxes on the ground: overlap and distance.
 import { clamp, type OnLine, type Vec } from '../base/geometry';
 
 /** A box on the ground. */
@@ -23,7 +23,7 @@ function corners({ pose, length, width }: Footprint): Vec[] {
   });
 }
 
-/** Whether two boxes share ground: no line along one of their sides lies between them. */
+/** Do two boxes overlap? They do if no line along one of their sides separates them. */
 export function touching(a: Footprint, b: Footprint): boolean {
   const far = (a.length + a.width + b.length + b.width) / 2;
   if (Math.abs(a.pose.x - b.pose.x) > far || Math.abs(a.pose.y - b.pose.y) > far) return false;
@@ -43,7 +43,7 @@ export function touching(a: Footprint, b: Footprint): boolean {
   return true;
 }
 
-/** From a point to the stretch between two others. */
+/** Distance from a point to a segment. */
 function toStretch([x, y]: Vec, [ax, ay]: Vec, [bx, by]: Vec): number {
   const dx = bx - ax,
     dy = by - ay;
@@ -52,7 +52,7 @@ function toStretch([x, y]: Vec, [ax, ay]: Vec, [bx, by]: Vec): number {
   return Math.hypot(x - ax - dx * t, y - ay - dy * t);
 }
 
-/** The shortest way between two boxes, metres; 0 where they meet. */
+/** Distance between two boxes, metres; 0 where they overlap. */
 export function gapBetween(a: Footprint, b: Footprint): number {
   if (touching(a, b)) return 0;
   const p = corners(a),
@@ -64,7 +64,7 @@ export function gapBetween(a: Footprint, b: Footprint): number {
   return best;
 }
 
-/** Less than their boxes can be apart, by their middles alone. */
+/** Lower bound of the distance between boxes, from their centres only. */
 export const gapAtLeast = (a: Footprint, b: Footprint): number =>
   Math.hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) -
   (Math.hypot(a.length, a.width) + Math.hypot(b.length, b.width)) / 2;

@@ -1,4 +1,4 @@
-// A case that is looked for: what is to happen to whom, whether it happens in a motion, and how near to it one comes.
+// A searched case: the event and its road users, whether a motion contains it, and how near it comes.
 import { compareMarks } from '../document/future-facts';
 import { motionOf } from './playback';
 import { closestTo, timeGapOf, type Closest, type Moving } from './proximity';
@@ -12,18 +12,18 @@ import { AT_GOAL_M, canChange, type Agent, type Scene } from '../document/scene'
 
 export type What = 'near' | 'collision' | 'first' | 'braking' | 'goal' | 'red';
 
-/** What is looked for. */
+/** The target of the search. */
 export interface Sought {
   readonly what: What;
-  /** Whose start, goal time and numbers are tried. */
+  /** The road user that is varied. */
   readonly who: string;
-  /** The other one; null where anybody else will do. */
+  /** The other party; null for any. */
   readonly other: string | null;
   /** The bound of the kind: metres of gap, seconds between the two, or m/s² of braking. */
   readonly limit: number;
 }
 
-/** Each kind with the bound that it begins with, what the bound counts, and whether it is between two. */
+/** Each kind with its initial bound, the unit of the bound, and whether it involves two. */
 export const KINDS: Readonly<
   Record<
     What,
@@ -38,10 +38,10 @@ export const KINDS: Readonly<
   red: { limit: 0, step: 0, unit: 'm', range: [0, 0], two: false },
 };
 
-/** Where the other one is as seen from the one who is tried. */
+/** Side of the other party, seen from the varied road user. */
 export type Side = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
 
-/** The moment in a motion that a case is about. */
+/** The moment of a case in a motion. */
 export interface Moment {
   /** In the unit of the kind. */
   readonly value: number;
@@ -51,16 +51,16 @@ export interface Moment {
   readonly other: string | null;
   readonly side: Side | null;
   readonly found: boolean;
-  /** How far from what is looked for, smaller is nearer; below others' where it is found. */
+  /** Distance from the target, smaller is nearer; below that of others where it is met. */
   readonly miss: number;
 }
 
-/** Two ways that pass each other at a greater distance do not cross, metres. */
+/** Paths with a greater distance do not cross, metres. */
 const CROSSING_M = 1.5;
-/** No case is so far off. */
+/** Further than any case. */
 const FAR = 1e6;
 
-/** What of the kind happens; null where it cannot: somebody is not there, or has no goal. */
+/** The moment nearest to the target; null where it is impossible: a road user is absent, or has no goal. */
 export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const who = scene.agents.get(s.who);
   if (!who) return null;
@@ -84,8 +84,8 @@ export function momentOf(scene: Scene, set: MotionSet, s: Sought): Moment | null
 }
 
 /**
- * What is found is an event of the scene, with its own numbers: who takes a near miss finds one in the list. Wider gaps
- * than count as near misses are no events; they are measured.
+ * A result is an event of the scene with its own numbers, so that a taken near miss is in the list. Gaps wider than the
+ * near-miss threshold are no events; they are measured.
  */
 function meeting(one: Moving, others: readonly Moving[], scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const c = closestTo(one, others, scene.duration);
@@ -98,17 +98,17 @@ function meeting(one: Moving, others: readonly Moving[], scene: Scene, set: Moti
   const gap = hit ? 0 : (near?.gap ?? c.gap);
   const isNear = gap > 0 && gap <= s.limit && (near !== undefined || s.limit > counts);
   const found = s.what === 'collision' ? gap === 0 : isNear;
-  // A collision is no near miss: it counts as far as the limit is from it.
+  // A collision is not a near miss: it counts as twice the limit away.
   const miss = s.what === 'collision' ? gap : gap === 0 ? s.limit * 2 : gap;
   const b = e ? others.find(([a]) => a === (e.a.id === s.who ? e.b : e.a))?.[0] : undefined;
   return momentAt(one, b ?? c.b, others, { value: gap, time: b ? e!.time : c.time, found, miss });
 }
 
-/** They touch, at a step or between two. */
+/** They overlap, at a step or between two. */
 const collides = (c: Closest | null, scene: Scene, set: MotionSet, s: Sought): boolean =>
   c?.gap === 0 || eventsBetween(scene, set, s)[0]?.kind === 'collision';
 
-/** What happens between the two, or between one and anybody, the worst first. */
+/** Events between the two, or between one and any other, the worst first. */
 function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): SceneEvent[] {
   const is = (a: Agent | null, id: string | null): boolean => a !== null && (id === null || a.id === id);
   return eventsIn(scene, set)
@@ -123,7 +123,7 @@ interface Found {
   readonly miss: number;
 }
 
-/** With the place and the side at the time. */
+/** With place and side at that time. */
 function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Found): Moment | null {
   const p = poseAt(one[1], m.time);
   const other = others.find(([a]) => a === b);
@@ -146,12 +146,12 @@ const sideOf = (bearing: number): Side =>
         ? 'on-the-left'
         : 'on-the-right';
 
-/** Does it come before the other one to where their ways cross, and by how little? */
+/** Does it reach the crossing point before the other one, and by how little? */
 function precedence(one: Moving, two: Moving, scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const crossing = crossingOf(one[1], two[1], scene.duration);
   if (!crossing) return null;
   const { mine, theirs } = crossing;
-  // As the score has it: from the one leaving the ground to the other coming to it.
+  // As in the score: from one leaving the ground to the other reaching it.
   const between = timeGapOf(one, two, scene.duration);
   const ahead = between ? (between.first === one[0] ? between.gap : -between.gap) : theirs - mine;
   const hit = collides(closestTo(one, [two], scene.duration), scene, set, s);
@@ -160,7 +160,7 @@ function precedence(one: Moving, two: Moving, scene: Scene, set: MotionSet, s: S
   return momentAt(one, two[0], [two], { value: ahead, time: mine, found, miss });
 }
 
-/** When each of two comes to where their ways are closest; null where the ways do not cross. */
+/** Arrival times of two at their closest point; null where their paths do not cross. */
 function crossingOf(m: Motion, n: Motion, duration: number): { mine: number; theirs: number } | null {
   const steps = Math.round(duration / STEP_S);
   let best = CROSSING_M ** 2;
@@ -211,12 +211,12 @@ function arrival(one: Moving, others: readonly Moving[], scene: Scene, set: Moti
   return momentAt(one, c.b, others, { value: c.gap, time: c.time, found, miss });
 }
 
-/** A signal that one goes by stands no further than this from its way, metres. */
+/** A signal for a road user is within this distance of its path, metres. */
 const BESIDE_M = 6;
-/** One that is for it lies in the direction that it drives in, radians. */
+/** Its direction differs from the road user's by less than this, radians. */
 const OWN_RAD = 0.8;
 
-/** Does the generator's verdict on its motion say that it runs a red light? Else how near it comes to a red one. */
+/** A red-light violation in the generator's verdict, otherwise the distance to a red signal. */
 function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment | null {
   const f = set.futures.get(s.who);
   const m = f?.modes[Math.min(f.modes.length - 1, one[0].chosen ?? f.chosen)];
@@ -231,7 +231,7 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     const into = line ? pointAt(line, 0).heading : null;
     for (let step = 0; stop && step * STEP_S <= scene.duration; step++) {
       const p = isRed(states, step) ? poseAtStep(one[1], step) : null;
-      // Those of who comes from elsewhere are not for this one.
+      // Signals for other approaches do not apply.
       const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < OWN_RAD);
       const d = own ? Math.hypot(stop[0] - p.x, stop[1] - p.y) : Infinity;
       if (d < (best?.d ?? Infinity)) best = { d, time: step * STEP_S };
@@ -240,14 +240,14 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
   return best && momentAt(one, null, [], { value: best.d, time: best.time, found: false, miss: best.d + BESIDE_M });
 }
 
-/** States hold from their step on until the next. */
+/** A state holds from its step until the next one. */
 function isRed(states: Scene['signals'][number]['states'], step: number): boolean {
   let now = '';
   for (const [from, state] of states) if (from <= step) now = state;
   return /stop/.test(now);
 }
 
-/** Closer together than this in time and in the value, and on the same side, two are the same case. */
+/** Cases closer than this in time and value, on the same side, are the same. */
 const SAME_S = 0.3;
 const SAME_VALUE = 0.5;
 

@@ -1,4 +1,4 @@
-// Who does something else than before, how much, and why.
+// Changed motions: road user, size and cause.
 import { distances, lastStep, poseAt, STEP_S, type Motion } from '../base/motion';
 import { asIfNotAsked } from '../document/reaction-records';
 import type { MotionSet } from '../document/futures';
@@ -8,39 +8,39 @@ import { answersAhead, guessReaction, type Answered, type Reaction } from './rea
 import type { Agent, Scene } from '../document/scene';
 import { knownMotion, motionOf } from './playback';
 
-/** A road user that does something else, and where it waits or is slowest. */
+/** A road user with a changed motion, and where it waits or is slowest. */
 export interface MotionChange {
   readonly id: string;
   readonly name: string;
-  /** What it does and for whom; null when everybody was worked out anew and nobody in particular is the cause. */
+  /** The reaction and its cause; null when all were drawn again and there is no single cause. */
   readonly reaction: Reaction | null;
-  /** The road user that it answered before and answers no longer. */
+  /** The road user that it reacted to before, and no longer does. */
   readonly released: Agent | null;
-  /** Metres between both motions where they are furthest apart. */
+  /** Largest distance between both motions, metres. */
   readonly size: number;
-  /** Seconds that it comes later than before; negative when earlier. */
+  /** Delay against before, seconds; negative when earlier. */
   readonly lost: number;
   readonly before: Motion;
   readonly after: Motion;
-  /** Scene time at which it waits or is slowest. */
+  /** Scene time when it waits or is slowest. */
   readonly at: number;
-  /** Where that is. */
+  /** Its pose then. */
   readonly place: Pose;
 }
 
-/** Less than this, in metres and in seconds, is no change. */
+/** Smaller differences, in metres and in seconds, are no change. */
 const LEAST_M = 0.5;
 const LEAST_S = 0.5;
 
 interface Moved {
   readonly agent: Agent;
-  /** Whom it answered and answers no more. */
+  /** Cause of a former reaction that has ended. */
   readonly released: Agent | undefined;
   readonly before: Motion;
   readonly after: Motion;
 }
 
-/** Everybody but `except`, the ones asked something, whose motion is another; who loses most time comes first. */
+/** All changed road users except those in `except`; the one with the largest delay first. */
 export function changesBetween(
   scene: Scene,
   before: MotionSet,
@@ -49,11 +49,11 @@ export function changesBetween(
 ): MotionChange[] {
   const moved: Moved[] = [];
   for (const agent of scene.agents.values()) {
-    // Past the end of what was known nobody does anything else than before.
+    // Beyond the known time no motion counts as changed.
     const m0 = knownMotion(scene, before, agent),
       m1 = motionOf(scene, after, agent);
     if (m0 === m1 || m1 === motionOf(scene, before, agent)) continue;
-    // Whoever answers again is compared with what it does otherwise: it may answer as it did the last time.
+    // A repeated reaction is compared with the motion that it gave up: it may equal the last one.
     const [was, is] = [before.answering.get(agent.id), after.answering.get(agent.id)];
     const own = is?.gaveUp === undefined ? m0 : knownMotion(scene, asIfNotAsked(after, new Set([agent.id])), agent);
     const released = was && !is ? scene.agents.get(was.said.cause) : undefined;
@@ -97,7 +97,7 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   };
 }
 
-/** What the generator said of it. */
+/** The reaction that the generator gives. */
 function readReaction(scene: Scene, set: MotionSet, after: Motion, r: ReactionJson): Reaction | null {
   const cause = scene.agents.get(r.cause);
   const time = r.time_s ?? 0;
@@ -111,7 +111,7 @@ function readReaction(scene: Scene, set: MotionSet, after: Motion, r: ReactionJs
   return { kind: r.kind, cause: { id: cause.id, name: cause.name }, delay: r.delay_s ?? null, time, place, ahead };
 }
 
-/** How far two motions are apart where they are furthest apart, metres, and when. */
+/** Largest distance between two motions, metres, and its time. */
 export function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
   let d = 0,
     at = 0;
@@ -128,9 +128,9 @@ export function furthest(a: Motion, b: Motion, duration: number): { d: number; t
   return { d, t: at };
 }
 
-/** How much later the second motion comes as far as the first; negative when earlier. */
+/** Delay of the second motion over the same distance; negative when earlier. */
 function secondsLost(before: Motion, after: Motion): number {
-  // Of two that end at different times the rest of the longer one says nothing.
+  // If they end at different times, the rest of the longer one is ignored.
   const last = Math.min(lastStep(before), lastStep(after));
   const upTo = (m: Motion): Float64Array => distances(m).subarray(0, Math.max(0, last - m.first + 1));
   const s0 = upTo(before),

@@ -1,4 +1,4 @@
-// Where the ways of two road users cross within a short time of each other: the ground of a junction as a heat map.
+// Ground where the paths of two road users cross within a short time: the conflict heat map of a junction.
 import { JUDGING, THRESHOLDS } from '../base/domain';
 import { motionOf } from './playback';
 import type { MotionSet } from '../document/futures';
@@ -6,19 +6,21 @@ import { wrapAngle } from '../base/geometry';
 import { poseAtStep, STEP_S } from '../base/motion';
 import type { Agent, Scene } from '../document/scene';
 
-/** Edge of a square of ground, metres. */
+/** Edge of a ground cell, metres. */
 export const CELL_M = 2;
-/** Two who come to a place further apart in time than this have nothing to do with each other, seconds. */
+/** Arrivals further apart in time than this are no conflict, seconds. */
 export const WITHIN_S = 3;
-/** Every so many steps somebody is looked for: at 20 m/s that is 4 m, less than a car's length. */
+/** Steps between samples: 4 m at 20 m/s, less than a car's length. */
 const STRIDE = 2;
 
-/** A square of ground that two come to. */
+/** A ground cell that two road users reach. */
 export interface Zone {
-  /** Its middle, metres. */
+  /** Its centre, metres. */
   readonly x: number;
   readonly y: number;
-  /** Seconds between one leaving it and the other coming, the least of all pairs; 0 where both are there at once. */
+  /**
+   * Least time between one leaving it and the other arriving, seconds, over all pairs; 0 where both are there at once.
+   */
   readonly gap: number;
 }
 
@@ -31,7 +33,7 @@ interface Visit {
 
 type Ground = Map<string, Visit[]>;
 
-/** All of them, by what everybody is shown to do. */
+/** All conflict cells of the shown motions. */
 export function conflictZones(scene: Scene, set: MotionSet): Zone[] {
   const ground: Ground = new Map();
   for (const a of scene.agents.values()) if (a.type !== 'other' && !a.parked) visit(ground, scene, set, a);
@@ -55,7 +57,7 @@ function visit(ground: Ground, scene: Scene, set: MotionSet, a: Agent): void {
   }
 }
 
-/** The squares along the middle of a box. */
+/** The cells along the centre line of a box. */
 function under(x: number, y: number, heading: number, length: number): Set<string> {
   const [c, s] = [Math.cos(heading), Math.sin(heading)];
   const n = Math.max(1, Math.ceil(length / CELL_M));
@@ -70,7 +72,7 @@ function under(x: number, y: number, heading: number, length: number): Set<strin
 function enter(ground: Ground, key: string, id: string, heading: number, time: number): void {
   const all = ground.get(key);
   const own = all?.findLast((v) => v.id === id);
-  // It is still there, or has come again.
+  // It is still there, or has returned.
   if (own && time - own.until < 2 * STRIDE * STEP_S) own.until = time;
   else if (all) all.push({ id, heading, from: time, until: time });
   else ground.set(key, [{ id, heading, from: time, until: time }]);

@@ -1,5 +1,5 @@
-// What of a speed curve cannot be done: a speed that is not reached by its time, a goal that is not reached by its own.
-// And what would be possible instead: the same curve with one thing changed, each tried before it is offered.
+// Infeasible parts of a speed profile: a speed or goal that is not reached in time. And feasible alternatives: the same
+// profile with one change, each tested before it is offered.
 import { AT_GOAL_M } from '../document/scene';
 import type { Limits } from '../base/domain';
 import { clamp, type Vec } from '../base/geometry';
@@ -7,9 +7,9 @@ import { STEP_S, type Motion } from '../base/motion';
 import { alongOf, APART_S, motionOf, movedPoint } from './speed-profile';
 import type { Profile, SpeedPoint } from '../document/profile';
 
-/** A speed that is missed by less is as it was asked for, m/s. */
+/** A speed deviation below this is accepted, m/s. */
 const SLACK_MPS = 0.3;
-/** A goal lies on the path where it is no further beside it, metres. */
+/** A goal within this distance is on the path, metres. */
 const BESIDE_M = 3;
 const TICK_S = 0.1;
 const STEP_MPS = 0.25;
@@ -19,14 +19,14 @@ export interface Asked {
   readonly limits: Limits;
   /** Of the scene, seconds. */
   readonly duration: number;
-  /** Most that may be asked, m/s. */
+  /** Highest allowed speed, m/s. */
   readonly top: number;
-  /** Where it should be, and when; null where no place is asked for. */
+  /** Goal position and time; null without a goal position. */
   readonly goal: { readonly at: Vec; readonly time: number } | null;
 }
 
 export type Way = { readonly points: readonly SpeedPoint[]; readonly goalTime?: number } &
-  /** More time, seconds. */
+  /** Later by this many seconds. */
   (
     | { readonly kind: 'later'; readonly by: number }
     /** Another speed at the point, m/s. */
@@ -36,14 +36,14 @@ export type Way = { readonly points: readonly SpeedPoint[]; readonly goalTime?: 
   );
 
 export type Misfit = { readonly ways: readonly Way[] } &
-  /** A point whose speed is not there in time, since one brakes or gathers speed no faster. */
+  /** A point whose speed is not reached in time by possible braking or acceleration. */
   (
     | { readonly what: 'braking' | 'gathering'; readonly point: SpeedPoint; readonly reached: number }
-    /** So many metres before the goal at its time. */
+    /** This many metres before the goal at its time. */
     | { readonly what: 'short'; readonly time: number; readonly by: number }
   );
 
-/** The first thing that cannot be done; null where all can. */
+/** The first infeasible part; null where all is feasible. */
 export function misfitOf(asked: Asked): Misfit | null {
   const { points } = asked.profile;
   const m = motionWith(asked, points);
@@ -54,7 +54,7 @@ export function misfitOf(asked: Asked): Misfit | null {
 const motionWith = ({ profile, limits, duration }: Asked, points: readonly SpeedPoint[]): Motion =>
   motionOf({ path: profile.path, points }, limits, duration);
 
-/** How much too fast it is at a point, m/s; below zero where it is too slow. */
+/** Excess speed at a point, m/s; negative where it is too slow. */
 function missedBy(m: Motion, points: readonly SpeedPoint[], i: number): number {
   const at = Math.min(m.speed.length - 1, Math.round(points[i].t / STEP_S));
   return m.speed[at] - points[i].v;
@@ -76,7 +76,7 @@ function pointMisfit(asked: Asked, m: Motion, i: number): Misfit {
 
 type Fits = (points: readonly SpeedPoint[]) => boolean;
 
-/** The same point as much later as it has to be. */
+/** The same point delayed as far as needed. */
 function later({ profile: { points }, duration }: Asked, i: number, fits: Fits): Way | null {
   const next = i + 1 < points.length ? points[i + 1].t - points[i].hold - APART_S : duration;
   for (let n = 1; points[i].t + n * TICK_S <= next + 1e-6; n++) {
@@ -86,7 +86,7 @@ function later({ profile: { points }, duration }: Asked, i: number, fits: Fits):
   return null;
 }
 
-/** A stop that ends as much sooner as it has to, if any of it is left. */
+/** A stop shortened as far as needed, if any of it is left. */
 function shorter(points: readonly SpeedPoint[], i: number, fits: Fits): Way | null {
   const hold = points[i]?.hold ?? 0;
   for (let n = 1; hold - n * TICK_S > TICK_S; n++) {
@@ -97,7 +97,7 @@ function shorter(points: readonly SpeedPoint[], i: number, fits: Fits): Way | nu
   return null;
 }
 
-/** The speed nearest to the one asked for that is there in time: a curve to it is steeper halfway than on the whole. */
+/** The speed nearest to the requested one that is reached in time: a curve is steeper halfway than on average. */
 function otherSpeed(points: readonly SpeedPoint[], i: number, reached: number, fits: Fits): Way | null {
   const away = Math.sign(reached - points[i].v) * STEP_MPS;
   for (let v = reached; v >= 0 && Math.abs(v - reached) < Math.abs(points[i - 1].v - reached); v += away) {
@@ -127,7 +127,7 @@ function goalMisfit(asked: Asked, m: Motion): Misfit | null {
   return { what: 'short', time: goal.time, by, ways: ways.filter((w) => w !== null) };
 }
 
-/** Metres from the start to a goal by the path; null where it does not lie on it. */
+/** Metres from the start to a goal along the path; null where it is not on the path. */
 function wayTo({ profile: { path } }: Asked, [gx, gy]: Vec): number | null {
   const along = alongOf(path);
   const off = path.x.map((x, i) => Math.hypot(x - gx, path.y[i] - gy));
@@ -135,7 +135,7 @@ function wayTo({ profile: { path } }: Asked, [gx, gy]: Vec): number | null {
   return off[i] <= BESIDE_M ? along[i] : null;
 }
 
-/** Metres driven by a time. */
+/** Distance driven by a time, metres. */
 function gone(m: Motion, time: number): number {
   let s = 0;
   const last = Math.min(m.speed.length - 1, Math.round(time / STEP_S));
@@ -143,7 +143,7 @@ function gone(m: Motion, time: number): number {
   return s;
 }
 
-/** The time at which it is there as the curve is. */
+/** The arrival time of the unchanged curve. */
 function arriving({ goal, profile }: Asked, m: Motion, way: number, duration: number): Way | null {
   for (let time = goal!.time + TICK_S; time <= duration + 1e-6; time += TICK_S)
     if (way - gone(m, time) <= AT_GOAL_M)
@@ -151,7 +151,7 @@ function arriving({ goal, profile }: Asked, m: Motion, way: number, duration: nu
   return null;
 }
 
-/** Faster at the end, by as little as does. */
+/** Faster at the end, by the least sufficient amount. */
 function faster({ profile: { points }, top, goal }: Asked, there: (time: number) => Fits): Way | null {
   const last = points.length - 1;
   for (let v = Math.ceil(points[last].v); v < top; v++) {

@@ -1,23 +1,23 @@
-// On which side of the road one drives: as the scene was made, else as its lanes lie.
+// Driving side: as stored in the layout, otherwise inferred from the lanes.
 import { pointAt, wrapAngle } from '../base/geometry';
 import { nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
 
 export type DrivingSide = 'right-hand' | 'left-hand';
 
-/** Lanes of the other direction lie beside each other within so many metres. */
+/** Lanes of opposite directions are within this distance of each other, metres. */
 const BESIDE_M = 10;
-/** Nearer than this it is one lane that is driven both ways, metres. */
+/** Closer than this they are one two-way lane, metres. */
 const SAME_M = 1;
-/** From so much of a half turn on a lane leads the other way, radians. */
+/** A lane turned by more than this leads the other way, radians. */
 const OPPOSITE_RAD = 2.6;
-/** So much of what speaks for a side has to agree. */
+/** Share of the evidence that must agree. */
 const AGREED = 0.65;
-/** On a large map so many lanes say enough. */
+/** Number of sampled lanes on a large map. */
 const MOST_LANES = 400;
 
 const known = new WeakMap<LaneMap, DrivingSide | null>();
 
-/** The side of a map; `layout` is what it was made from here, where it was. Null where nothing says. */
+/** The side of a map; `layout`: its source, where it was made here. Null where undecided. */
 export function drivingSide(map: LaneMap, layout?: unknown): DrivingSide | null {
   const said = (layout as { parameters?: { traffic?: unknown } } | null | undefined)?.parameters?.traffic;
   if (said === 'right-hand' || said === 'left-hand') return said;
@@ -45,7 +45,9 @@ function asLanesLie(map: LaneMap): DrivingSide | null {
 
 const isRoad = (l: Lane): boolean => l.kind === 'road' && !l.inside;
 
-/** How far to the left of a lane the nearest one of the other direction lies, metres; 0 where there is none. */
+/**
+ * Lateral distance to the nearest lane of the opposite direction, metres, positive to the left; 0 where there is none.
+ */
 function otherWayAt(map: LaneMap, lane: Lane, s: number): number {
   const { x, y, heading } = pointAt(lane.line, s);
   const [other] = nearestLanes(map, x, y, null, BESIDE_M, isRoad)

@@ -1,5 +1,5 @@
-// Events as the timeline and the list show them: what is wrong with the futures that are followed, and the facts of
-// the score about everybody else. What the log does by itself is marked so and does not count.
+// Events for the timeline and the list: faults of followed futures, and the score's events of all others. Events of the
+// recording are marked and do not count.
 import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '../document/future-facts';
 import { JUDGING } from '../base/domain';
 import { motionOf } from './playback';
@@ -13,26 +13,26 @@ export interface SceneEvent {
   readonly what: FaultKind;
   readonly time: number;
   readonly until: number;
-  /** How near the two of a near miss come, metres; null of anything else, and where nobody knows. */
+  /** Gap of a near miss, metres; null for other kinds, and where unknown. */
   readonly gap: number | null;
   readonly a: Agent;
-  /** The other one, where there is one. */
+  /** The other party, where there is one. */
   readonly b: Agent | null;
-  /** It happens in the log or in the example itself; nobody was asked for it. */
+  /** In the recording or the example itself, without conditions. */
   readonly inLog: boolean;
   readonly at: Vec;
-  /** How bad it is, in the unit of its kind; null where nobody knows. */
+  /** Severity, in the unit of its kind; null where unknown. */
   readonly extent: number | null;
-  /** Time to collision, seconds; null where nobody knows. */
+  /** Time to collision, seconds; null where unknown. */
   readonly ttc: number | null;
-  /** Where both are then. */
+  /** Poses of both at that time. */
   readonly poses: readonly [Pose | null, Pose | null];
 }
 
-/** Events of one kind and the same road users closer together than this are one, seconds. */
+/** Events of one kind and the same road users within this time are merged, seconds. */
 const SAME_S = JUDGING.same_event_s;
 
-/** An event before the same ones are merged. */
+/** An event before merging. */
 interface Raw {
   readonly what: FaultKind;
   readonly time: number;
@@ -45,7 +45,7 @@ interface Raw {
   readonly inLog: boolean;
 }
 
-/** Everything that happens in the scene as it is followed. */
+/** All events of the followed motions. */
 export function eventsIn(scene: Scene, set: MotionSet): SceneEvent[] {
   const said: Raw[] = [];
   const judged = new Set<string>();
@@ -57,14 +57,14 @@ export function eventsIn(scene: Scene, set: MotionSet): SceneEvent[] {
     if (m?.about && touched(a!)) judged.add(id);
   }
   const scored = set.score ? ofScore(scene, set, set.score) : [];
-  // Of those that were asked something the timeline says what the verdict on their shown future says, nothing else.
+  // For a conditioned road user, events come only from the verdict on its shown future.
   const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
   const near = scored.filter((r) => r.what === 'near_miss');
   const own = said.filter((r) => judged.has(r.a) || !told(r)).map((r) => withTime(r, near));
   return merged(scene, set, [...own, ...scored.filter((r) => !told(r))]);
 }
 
-/** The verdict of a future on a near miss, with the time to collision that the score has of the same moment. */
+/** A near miss from the verdict, with the time to collision from the score at the same moment. */
 function withTime(r: Raw, near: readonly Raw[]): Raw {
   if (r.what !== 'near_miss') return r;
   const pair = (s: Raw): boolean => (s.a === r.a && s.b === r.b) || (s.a === r.b && s.b === r.a);
@@ -72,7 +72,7 @@ function withTime(r: Raw, near: readonly Raw[]): Raw {
   return same ? { ...r, ttc: same.ttc } : r;
 }
 
-/** What is wrong with one future on its way, while nobody follows it yet. */
+/** Faults of one future that no road user follows yet. */
 export function eventsOfFuture(scene: Scene, set: MotionSet, id: string, f: Futures, chosen: number): SceneEvent[] {
   return merged(
     scene,
@@ -125,20 +125,20 @@ function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
   return [...two, ...near, ...one];
 }
 
-/** Does it do what was recorded, or what the example says? */
+/** Does it replay the recording, or the example? */
 function replaysLog(scene: Scene, set: MotionSet, id: string, time: number): boolean {
   const a = scene.agents.get(id);
   if (!a || set.driving.has(id) || (scene.others === 'still' && a.type !== 'other')) return false;
   return poseAt(a.log, time) !== null;
 }
 
-/** One event a meeting and a stretch, by time. */
+/** One event for each meeting and stretch, by time. */
 function merged(scene: Scene, set: MotionSet, all: readonly Raw[]): SceneEvent[] {
   const kept: Raw[] = [];
   const pairOf = (r: Raw): string => (r.b === null ? '' : r.a < r.b ? `${r.a}|${r.b}` : `${r.b}|${r.a}`);
   const hit = new Set(all.filter((r) => r.what === 'collision').map(pairOf));
   const byTime = [...all].sort((p, q) => p.time - q.time);
-  // Faults name the place and the extent, so they stand before what the score says of the same.
+  // Faults have place and extent, so they precede the score's entry for the same event.
   for (const r of [...byTime.filter((x) => x.at), ...byTime.filter((x) => !x.at)]) {
     const same = r.b === null ? kept.findIndex((k) => sameStretch(k, r)) : -1;
     if (same >= 0) kept[same] = joined(kept[same], r);
@@ -154,14 +154,14 @@ function merged(scene: Scene, set: MotionSet, all: readonly Raw[]): SceneEvent[]
 
 const near = (a: Raw, b: Raw): number => Math.abs(a.time - b.time);
 
-/** To the score a median is off the road like any other. */
+/** The score does not distinguish a median from other off-road ground. */
 const sameKind = (a: FaultKind, b: FaultKind): boolean =>
   a === b || (a === 'over_median' && b === 'off_road') || (a === 'off_road' && b === 'over_median');
 
 const sameStretch = (a: Raw, b: Raw): boolean =>
   a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_S && b.time <= a.until + SAME_S;
 
-/** Two stretches as one: as long as both, as bad as the worse; metres that follow each other add up. */
+/** Merges two stretches: the length of both, the worse severity; consecutive metres add up. */
 function joined(a: Raw, b: Raw): Raw {
   if (a.what !== b.what) return a;
   const adds = a.what === 'wrong_way' && (b.time > a.until || a.time > b.until);
@@ -188,19 +188,19 @@ function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
   return own && pb ? [(own[0] + pb.x) / 2, (own[1] + pb.y) / 2] : own;
 }
 
-/** Those that count: what is in the log does not. */
+/** Events that count: those of the recording do not. */
 export const counted = <E extends SceneEvent>(events: readonly E[]): E[] => events.filter((e) => !e.inLog);
 
-/** The worst of those that count; null where nothing does. */
+/** The worst event that counts; null without one. */
 export function worstOf(events: readonly SceneEvent[]): SceneEvent['kind'] | null {
   const kinds = counted(events).map((e) => e.kind);
   return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
 }
 
-/** One who comes to a place so soon after another has left it was close, whatever counts as a near miss, seconds. */
+/** An arrival within this time after another road user has left is close, whatever the near-miss threshold, seconds. */
 const CLOSE_S = 1;
 
-/** The least time between two in one place, where it is that short and one of them does not just replay its log. */
+/** Least post-encroachment time of road users that do not only replay the recording, if it is that short. */
 export function closeInTime(set: MotionSet): number | null {
   const all = [...set.driving].flatMap((id) => set.score?.petOf?.get(id) ?? []);
   const least = Math.min(...all);

@@ -1,15 +1,15 @@
-// Where on the picture something is wrong with the futures of one: a word for each place, not one for each future.
+// Places of faults on the picture for the futures of one road user: one word for each place, not for each future.
 import { compareMarks, faultMark, type Fault, type Mark } from '../document/future-facts';
 import type { Futures } from '../document/futures';
 import type { Vec } from '../base/geometry';
 import { STEP_S, type Motion } from '../base/motion';
 
-/** Futures that break the same rule nearer to each other than this share a word, metres. */
+/** Futures that break the same rule within this distance share a word, metres. */
 const TOGETHER_M = 8;
 
 export interface FaultPlace {
   readonly mark: Mark;
-  /** The one whose words are shown: that of the shown future where it is one of them, else the worst. */
+  /** The displayed fault: the shown future's, where it is one of them, else the worst. */
   readonly fault: Fault;
   /** Indices of the futures. */
   readonly futures: readonly number[];
@@ -18,7 +18,7 @@ export interface FaultPlace {
 interface Found {
   readonly index: number;
   readonly fault: Fault;
-  /** Places along the stretch, in metres. */
+  /** Points along the stretch, in metres. */
   readonly along: readonly Vec[];
 }
 
@@ -30,14 +30,14 @@ function placesAlong(m: Motion, fault: Fault): Vec[] {
   const last = Math.min(m.x.length - 1, Math.round(fault.until / STEP_S) - m.first);
   const first = Math.max(0, Math.round(fault.time / STEP_S) - m.first);
   for (let i = first; i <= last; i += EVERY) out.push([m.x[i], m.y[i]]);
-  // The end belongs to it: what breaks the same rule next to it is the same place.
+  // The end point is included: a violation of the same rule beside it is the same place.
   if (last > first) out.push([m.x[last], m.y[last]]);
   return out;
 }
 
 /**
- * The places of what is wrong with the futures in `visible`; those of the shown one first, then the worst. Of a goal
- * that is missed the shown one alone tells: that others end elsewhere is plain to see.
+ * Fault places of the futures in `visible`; the shown one's first, then the worst. Missed goals are listed only for the
+ * shown one: where the others end is visible.
  */
 export function faultPlaces(f: Futures, visible: readonly number[], chosen: number): FaultPlace[] {
   const clusters: Found[][] = [];
@@ -72,7 +72,7 @@ function placeOf(found: readonly Found[], chosen: number): FaultPlace {
   };
 }
 
-/** Of a near miss the smaller gap is worse, of all else the larger figure. */
+/** For a near miss the smaller gap is worse, for all else the larger figure. */
 const worse = (a: Fault, b: Fault): boolean => {
   if (a.extent === null || b.extent === null) return a.extent !== null;
   return a.kind === 'near_miss' ? a.extent < b.extent : a.extent > b.extent;

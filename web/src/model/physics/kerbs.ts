@@ -1,8 +1,8 @@
-// Kerbs: what of a map divides, and whether the road leads to its other side all the same.
+// Kerbs: road edges that separate, and whether the road still leads to the other side.
 import { wrapAngle, type Point, type Pose, type Vec } from '../base/geometry';
 import { findRoute, nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
 
-/** How far along `a` to `b` it meets `c` to `d`, 0 to 1; null where it does not. */
+/** Intersection of segment `a`-`b` with `c`-`d`, as a share of `a`-`b`; null where they do not intersect. */
 function meets(a: Vec, b: Vec, c: Vec, d: Vec): number | null {
   const rx = b[0] - a[0],
     ry = b[1] - a[1],
@@ -17,7 +17,7 @@ function meets(a: Vec, b: Vec, c: Vec, d: Vec): number | null {
   return t >= 0 && t <= 1 && u >= 0 && u <= 1 ? t : null;
 }
 
-/** The first place on the straight way from one point to another where a road edge is crossed. */
+/** The first intersection of the straight line between two points with a road edge. */
 export function firstKerb(map: LaneMap, from: Vec, to: Vec): Vec | null {
   let first = Infinity;
   for (const { line } of map.edges)
@@ -28,16 +28,16 @@ export function firstKerb(map: LaneMap, from: Vec, to: Vec): Vec | null {
   return first <= 1 ? [from[0] + (to[0] - from[0]) * first, from[1] + (to[1] - from[1]) * first] : null;
 }
 
-/** A place nearer to a lane than this, with no kerb between, is one that the lane leads to, metres. */
+/** A lane leads to places within this distance without a kerb between, metres. */
 const BESIDE_LANE_M = 8;
-/** Lanes beside the start, which it may change to on its way, metres. */
+/** Lanes within this distance of the start can be entered by a lane change, metres. */
 const BESIDE_START_M = 8;
 const SAME_WAY_RAD = Math.PI / 3;
-/** A way along the lanes that is so much longer than the straight one leads there: metres, or a corner's share. */
+/** Allowed detour of a route over the straight line: metres, or a share for corners. */
 const DETOUR_M = 25;
 const DETOUR_SHARE = 1.5;
 
-/** Does a lane lead from a start to a place, without much of a detour? */
+/** Does a lane lead from a start to a place, without a large detour? */
 export function laneLeadsTo(map: LaneMap, start: Pose, to: Point, fits: (l: Lane) => boolean): boolean {
   const ends = nearestLanes(map, to.x, to.y, null, BESIDE_LANE_M, fits)
     .filter((hit) => !firstKerb(map, [to.x, to.y], [hit.x, hit.y]))

@@ -1,11 +1,11 @@
-// Which motion each road user follows in playback.
+// The followed motion of each road user in playback.
 import type { Future, MotionSet } from '../document/futures';
 import { doing, GOAL_TIME, startPose, staysAway, type Agent, type Scene } from '../document/scene';
 import { endsBefore, heldStill, lastStep, nowhere, STEP_S, straightOn, type Motion } from '../base/motion';
 
 /**
- * The motion a road user follows in playback. Past 9 s it goes on where nobody says more, as the generator takes it
- * to: straight on from where it was last seen. Who was seen to go away stays away.
+ * The followed motion of a road user in playback. Past 9 s a motion without an answer continues straight from its last
+ * pose, as the generator assumes. A road user that left the recording stays away.
  */
 export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   const m = knownMotion(scene, set, a);
@@ -13,25 +13,25 @@ export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   return straightOn(m, Math.round(scene.duration / STEP_S));
 }
 
-/** Until when somebody is there who only does what was recorded, seconds; null for one that stays to the end. */
+/** Last recorded time of a road user that only replays, seconds; null for one that stays to the end. */
 export function seenUntil(scene: Scene, set: MotionSet, a: Agent): number | null {
   const gone = !a.placed && motionOf(scene, set, a) === a.log && goesAway(scene, a.log);
   return gone ? lastStep(a.log) * STEP_S : null;
 }
 
-/** Was it seen for a while, and no more when the recording ended? */
+/** Was it recorded for a while, but no longer at the end of the recording? */
 function goesAway(scene: Scene, log: Motion): boolean {
   const seen = log.valid.reduce((sum, [from, to]) => sum + to - from, 0);
   return seen > 1 && lastStep(log) < scene.steps - 1;
 }
 
-/** The future that a road user follows, where it follows one. */
+/** The followed future of a road user, where there is one. */
 function followed(set: MotionSet, a: Agent): Future | undefined {
   const f = set.driving.has(a.id) ? set.futures.get(a.id) : undefined;
   return f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
 }
 
-/** Is somebody at its goal in time, as it goes now? Null where nobody has said. */
+/** Is a road user at its goal in time with its current motion? Null where unknown. */
 export function meetsGoal(set: MotionSet, a: Agent): boolean | null {
   const future = followed(set, a);
   if (future?.about && !endsBefore(future.motion, a.goal.time))
@@ -40,11 +40,11 @@ export function meetsGoal(set: MotionSet, a: Agent): boolean | null {
   return reach ? reach.status === 'reached' : null;
 }
 
-/** The same up to where a motion is known alone. */
+/** The same, only as far as a motion is known. */
 export function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
   const future = followed(set, a);
   if (future) return future.motion;
-  // Until the generator has decided, who was put here stands there.
+  // Until the generator answers, a placed road user stands still.
   if (a.placed || (doing(scene, a) === 'still' && a.type !== 'other')) {
     if (staysAway(scene, a)) return nowhere;
     return standing(scene, a);

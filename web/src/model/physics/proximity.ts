@@ -1,21 +1,21 @@
-// When several come closest to each other.
+// Closest approach of several road users.
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import { JUDGING } from '../base/domain';
 import type { Pose, Vec } from '../base/geometry';
 import { poseAtStep, STEP_S, type Motion } from '../base/motion';
 import type { Agent } from '../document/scene';
 
-/** Two road users at the moment at which they are closest. */
+/** Two road users at their closest approach. */
 export interface Closest {
   readonly a: Agent;
   readonly b: Agent;
-  /** Between their boxes, metres. */
+  /** Distance between their boxes, metres. */
   readonly gap: number;
   /** Seconds of the scene. */
   readonly time: number;
 }
 
-/** Beyond so many it is not looked for. */
+/** Larger groups are skipped. */
 const MOST = 80;
 
 export type Moving = readonly [Agent, Motion];
@@ -26,8 +26,8 @@ function boxAt([agent, motion]: Moving, step: number): Footprint | null {
 }
 
 /**
- * The two that come closest, with the moment. Where the road users are of more than one type, those of unlike types
- * are compared: that a crowd walks close together is no news. Null where there are not two to compare, or too many.
+ * Closest approach among all, with the moment. With several types only unlike types are compared, since pedestrians in
+ * a crowd are always close. Null for fewer than two, or too many.
  */
 export function closestOf(all: readonly Moving[], duration: number): Closest | null {
   if (all.length < 2 || all.length > MOST) return null;
@@ -50,7 +50,7 @@ export function closestOf(all: readonly Moving[], duration: number): Closest | n
   return best;
 }
 
-/** Who of the others comes closest to one of them, and when; at equal gaps the earliest. Null where none is near. */
+/** The closest approach of the others to one road user; at equal gaps the earliest. Null where none is near. */
 export function closestTo(one: Moving, others: readonly Moving[], duration: number): Closest | null {
   const steps = Math.round(duration / STEP_S);
   let best: Closest | null = null;
@@ -67,20 +67,20 @@ export function closestTo(one: Moving, others: readonly Moving[], duration: numb
   return best;
 }
 
-/** One is where the other was a moment before. */
+/** One road user reaches the place that the other has just left. */
 export interface TimeGap {
   readonly first: Agent;
   readonly second: Agent;
-  /** From the first leaving the ground that they share to the second coming to it, seconds. */
+  /** From the first leaving the shared ground to the second reaching it, seconds. */
   readonly gap: number;
-  /** When the second comes, seconds of the scene. */
+  /** Arrival of the second, seconds of the scene. */
   readonly time: number;
 }
 
 /**
- * Post-encroachment time of two: the least shift in time at which their boxes would meet, as the engine's score has it
- * of ways that cross; of one behind the other it is the time between them. Null where their ways share no ground, where
- * one hardly moves, and where they touch.
+ * Post-encroachment time of two: the least time shift at which their boxes would overlap, equal to the engine's score
+ * for crossing paths; for one behind the other it is the time between them. Null without shared ground, where one
+ * hardly moves, and where they overlap.
  */
 export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap | null {
   const steps = Math.round(duration / STEP_S);
@@ -96,14 +96,14 @@ export function timeGapOf(one: Moving, other: Moving, duration: number): TimeGap
   return null;
 }
 
-/** A box on its way. */
+/** A moving box. */
 export interface Driven extends Footprint {
   readonly pose: Pose;
 }
 
 /**
- * Seconds until two share ground if both keep their velocities; null where they do already, or would not soon. Exact:
- * on each of the four side directions their shadows overlap for one interval, and they share ground while all four do.
+ * Seconds until two boxes overlap at constant velocities; null where they already do, or would not soon. Exact: on each
+ * of the four side directions the projections overlap for one interval, and the boxes overlap while all four do.
  */
 export function timeToCollision(p: Driven, q: Driven): number | null {
   const [dx, dy] = [q.pose.x - p.pose.x, q.pose.y - p.pose.y];
@@ -140,7 +140,7 @@ function wayOf(boxes: readonly (Footprint | null)[]): number {
   return way;
 }
 
-/** The same at one moment: how far the two closest are apart, metres. */
+/** The same at one moment: distance of the two closest, metres. */
 export function gapNow(boxes: readonly Footprint[]): number | null {
   if (boxes.length < 2 || boxes.length > MOST) return null;
   let best = Infinity;

@@ -1,5 +1,5 @@
-// Local reachability while dragging: no network, a fraction of a millisecond. The generator's own verdict
-// replaces it when it arrives.
+// Local reachability during a drag: no network, a fraction of a millisecond. The generator's verdict replaces it on
+// arrival.
 import {
   curveBetween,
   makeLine,
@@ -14,7 +14,7 @@ import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from
 import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
 
-/** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
+/** Furthest distance in `t` seconds from speed `v`: at full acceleration, then at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
   const { accel_mps2: accel, speed_mps: top } = l;
   if (v >= top) return v * t;
@@ -22,7 +22,7 @@ export function furthestReach(l: Limits, v: number, t: number): number {
   return t <= t1 ? v * t + (accel * t * t) / 2 : v * t1 + (accel * t1 * t1) / 2 + top * (t - t1);
 }
 
-/** Shortest distance in `t` seconds: braking as hard as it goes. */
+/** Shortest distance in `t` seconds: at full braking. */
 export function leastReach(l: Limits, v: number, t: number): number {
   const { brake_mps2: brake } = l;
   const ts = v / brake;
@@ -39,7 +39,7 @@ export interface GoalReach {
   readonly max: number;
   readonly min: number;
   readonly nearest: Pose | null;
-  /** What would make it work: seconds, start speed in m/s. */
+  /** Values that would make it reachable: seconds, start speed in m/s. */
   readonly time: number | null;
   readonly speed: number | null;
 }
@@ -49,7 +49,7 @@ const fitsAgent =
   (l: Lane): boolean =>
     a.type === 'cyclist' ? l.kind === 'bike' || l.kind === 'road' : l.kind === 'road';
 
-/** The way to the goal: along the lanes when both ends lie on lanes that join up, else a plain curve. */
+/** The path to the goal: along the lanes when both ends are on connected lanes, else a plain curve. */
 export function pathTo(
   map: LaneMap,
   a: Pick<Agent, 'type'>,
@@ -78,7 +78,7 @@ export function pathTo(
   return { line: makeLine(curveBetween(start, goal)), onLanes: false };
 }
 
-/** Whether a goal can be reached in its time, by the limits of motion alone; null without a place to reach. */
+/** Is a goal reachable in its time by the limits of motion only? Null without a goal position. */
 export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, latest = GOAL_TIME): GoalReach | null {
   if (!goal.pos) return null;
   const l = limitsOf(a),
@@ -92,7 +92,7 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, l
     min = leastReach(l, v, t);
   const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
-  // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
+  // No path is shorter than the straight line: only beyond it the goal is certainly too far.
   const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
   if (straight > max + THRESHOLDS.goal_position_m.usual) {
     return {
@@ -130,8 +130,8 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, l
 }
 
 /**
- * How far it gets and how much is missing, from whoever gave the verdict: the generator measures straight from the
- * start, the quick look along the way. The two are never mixed, or the numbers on one screen contradict each other.
+ * Reached and missing distance, from the source of the verdict: the generator measures straight from the start, the
+ * local check along the path. The two are never mixed, or numbers on one screen would contradict each other.
  */
 export function shortfall(
   start: Pose,
@@ -156,7 +156,7 @@ function speedFor(l: Limits, t: number, d: number): number | null {
   return null;
 }
 
-// -------------------------------------------------------------- all that it reaches
+// -------------------------------------------------------------- reachable lanes
 
 /** A stretch of lane, with the lane's width in metres. */
 export interface Stretch {
@@ -164,19 +164,19 @@ export interface Stretch {
   readonly width: number;
 }
 
-/** Who stands so near to a lane can take it, metres and radians. */
+/** A road user this near to a lane can enter it, metres and radians. */
 const TAKES_M = 5;
 const TAKES_RAD = 0.6;
-/** No more lanes than this are followed. */
+/** Limit of followed lanes. */
 const MOST_LANES = 400;
 
-/** Least and most that it can have gone by a time, metres. */
+/** Least and greatest distance by a time, metres. */
 export const reachBetween = (a: Agent, start: Pose, t: number): readonly [number, number] => [
   leastReach(limitsOf(a), start.speed, t),
   furthestReach(limitsOf(a), start.speed, t),
 ];
 
-/** Where it can be at a time, along the lanes that it is on or beside; nothing for somebody on foot. */
+/** Reachable stretches at a time, along the lanes under or beside it; none for pedestrians. */
 export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): Stretch[] {
   if (a.type === 'pedestrian') return [];
   const [least, most] = reachBetween(a, start, t);
@@ -186,7 +186,7 @@ export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): S
     .map((h) => ({ lane: h.lane, at: -h.s }));
   const seen = new Set<string>();
   const out: Stretch[] = [];
-  // The shortest way to a lane is followed first, so that a lane met again adds nothing.
+  // The shortest way to a lane comes first, so a lane met again adds nothing.
   for (let n = 0; open.length && n < MOST_LANES; n++) {
     open.sort((p, q) => q.at - p.at);
     const { lane, at } = open.pop()!;

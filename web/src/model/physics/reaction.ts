@@ -1,4 +1,4 @@
-// How one road user answers another: what it does, for whom and where.
+// The reaction of one road user to another: what it does, its cause and its place.
 import { wrapAngle, type Pose } from '../base/geometry';
 import type { ReactionKind } from '../document/scene-json';
 import { poseAt, STEP_S, type Motion } from '../base/motion';
@@ -6,33 +6,33 @@ import type { Agent } from '../document/scene';
 
 export interface Reaction {
   readonly kind: ReactionKind;
-  /** Whom it answers, directly. */
+  /** The direct cause. */
   readonly cause: { readonly id: string; readonly name: string };
-  /** Seconds that it loses; null where nobody says. */
+  /** Delay in seconds; null where unknown. */
   readonly delay: number | null;
-  /** Scene time at which it waits or is slowest. */
+  /** Scene time when it waits or is slowest. */
   readonly time: number;
-  /** Where that is, with the speed there. */
+  /** Its pose then, with the speed. */
   readonly place: Pose;
-  /** Is the cause ahead on the same way? It may also cross. */
+  /** Is the cause ahead on the same path? It may also cross. */
   readonly ahead: boolean;
 }
 
-/** One that may be the cause of another's change, with the motion it has now. */
+/** A possible cause of another's change, with its current motion. */
 export interface Answered {
   readonly id: string;
   readonly name: string;
   readonly motion: Motion;
-  /** Was it asked something, or did it answer somebody itself? */
+  /** Is it conditioned, or reacting itself? */
   readonly asked: boolean;
 }
 
-/** Ahead within this many metres, at most so far aside, and going nearly the same way. */
+/** Ahead within this many metres, with at most this lateral offset and a similar heading. */
 const AHEAD_M = 40;
 const ASIDE_M = 2.5;
 const SAME_WAY_RAD = Math.PI / 4;
 
-/** Is the other one ahead on the same way at that time? */
+/** Is the other one ahead on the same path at that time? */
 export function answersAhead(mine: Motion, other: Motion, t: number): boolean {
   const p = poseAt(mine, t),
     q = poseAt(other, t);
@@ -44,15 +44,15 @@ export function answersAhead(mine: Motion, other: Motion, t: number): boolean {
   return ahead > 0 && ahead < AHEAD_M && aside < ASIDE_M;
 }
 
-/** Slower than this is standing, in m/s; shorter stops than this, in seconds, are no waits. */
+/** Standing means slower than this, m/s; shorter stops than this, in seconds, are no waits. */
 const STANDS = { walking: 0.2, driving: 0.6 };
 const WAITS_S = 0.8;
-/** An apparent cause further away than this is none, in metres. */
+/** A road user further away than this is no cause, in metres. */
 const NEAR_M = 25;
-/** One that was itself asked something is the cause unless another one comes nearer than this share. */
+/** A conditioned road user is the cause unless another one comes nearer than this share. */
 const ASKED_SHARE = 0.5;
 
-/** What a change looks like, for a generator that says no reason; null when nobody may be the cause. */
+/** Infers the reaction from a change without a given reason; null when there is no possible cause. */
 export function guessReaction(
   a: Agent,
   before: Motion,
@@ -87,7 +87,7 @@ function kindOf(
   return { kind: 'keeps_clear', time: part.widest };
 }
 
-/** From when on two motions are apart, and when most. */
+/** Time from which two motions differ, and time of the largest difference. */
 function partWhereApart(a: Motion, b: Motion, duration: number): { from: number; widest: number } {
   let from = -1,
     widest = 0,
@@ -133,7 +133,7 @@ function longestStop(m: Motion, below: number, from: number): { seconds: number;
   return best;
 }
 
-/** Who comes nearest to the motion that was given up, or to the one taken instead. */
+/** The road user nearest to the motion that was given up, or to the new one. */
 function nearestCause(
   id: string,
   before: Motion,
@@ -154,7 +154,7 @@ function nearestCause(
   return best ?? causes.find((c) => c.asked && c.id !== id) ?? null;
 }
 
-/** How near two motions come in the seconds around a time. */
+/** Least distance of two motions around a time. */
 function closest(a: Motion, b: Motion, time: number): number {
   let least = Infinity;
   for (let t = Math.max(0, time - 2); t <= time + 5; t += 2 * STEP_S) {

@@ -1,9 +1,9 @@
-// Where something goes on in a scene: for the first look at it, and for its small picture.
+// The active part of a scene: for the first view, and for its thumbnail.
 import { boxOf, type Box, type Vec } from '../base/geometry';
 import { poseAtStep } from '../base/motion';
 import { startPose, type Scene } from '../document/scene';
 
-/** The middle of what moves: the median, so that one queue far out does not pull it away. */
+/** The centre of movement: the median, so that one distant queue does not shift it. */
 function busyCentre(scene: Scene): [number, number] {
   const at = [...scene.agents.values()]
     .filter((a) => !a.parked && a.type !== 'other')
@@ -14,10 +14,10 @@ function busyCentre(scene: Scene): [number, number] {
   return [median(at.map((p) => p.x)), median(at.map((p) => p.y))];
 }
 
-/** Who has gone so far in the recording moves. */
+/** A road user moves if its recording covers this distance. */
 const MOVES_M = 3;
 
-/** Where those start, or come in, who go anywhere. */
+/** Starts, or first poses, of moving road users. */
 function movers(scene: Scene): Vec[] {
   const out: Vec[] = [];
   for (const a of scene.agents.values()) {
@@ -30,10 +30,10 @@ function movers(scene: Scene): Vec[] {
   return out;
 }
 
-/** A junction keeps the picture unless elsewhere so many times as much moves. */
+/** A junction stays in view unless this many times as much moves elsewhere. */
 const RATHER_THE_JUNCTION = 1.25;
 
-/** The middle of a picture of this size, in metres from its middle to its edges, in which most things move. */
+/** The centre of a view of this half size, in metres, with the most movement. */
 export function openingCentre(scene: Scene, halfWidth: number, halfHeight: number): [number, number] {
   const junction = sceneCentre(scene);
   const all = movers(scene);
@@ -52,8 +52,8 @@ export function openingCentre(scene: Scene, halfWidth: number, halfHeight: numbe
 const JUNCTION_M = 30;
 
 /**
- * The middle of the junction the busy part is about; without one near it, the busy middle itself. Where nobody is,
- * the largest junction, else a place on a road near the middle of the map.
+ * The centre of the junction near the active part; without one, the active centre itself. Without road users, the
+ * largest junction, else a place on a road near the map's centre.
  */
 export function sceneCentre(scene: Scene): [number, number] {
   const [bx, by] = busyCentre(scene);
@@ -82,7 +82,7 @@ export function sceneCentre(scene: Scene): [number, number] {
   return [mean(0), mean(1)];
 }
 
-/** Where the road users are: the middle four fifths of them, so that one far away does not shrink the rest. */
+/** The box of the road users: their middle four fifths, so that a distant one does not shrink the rest. */
 export function busyBox(scene: Scene, margin = 8): Box {
   const moving = [...scene.agents.values()].filter((a) => !a.parked && a.type !== 'other');
   const at = moving.map(startPose).filter((p) => p !== null);

@@ -1,5 +1,5 @@
-// How fast a road user goes, drawn by hand: points of speed over time on a path that is kept as it was. The motion
-// that follows from both is worked out here, within what the road user can do.
+// A drawn speed profile: points of speed over time on a fixed path. The motion is computed here, within the road user's
+// limits.
 import type { Limits } from '../base/domain';
 import {
   clamp,
@@ -15,14 +15,14 @@ import {
 import { MOST_POINTS, type Path, type Profile, type SpeedPoint } from '../document/profile';
 import { lastStep, poseAt, STEP_S, type Motion } from '../base/motion';
 
-/** Points of one curve are at least so far apart, seconds. */
+/** Least distance of points on a curve, seconds. */
 export const APART_S = 0.3;
-/** Places of a path are at least so far apart, metres. */
+/** Least distance of places on a path, metres. */
 const SPACING_M = 0.25;
 
 const round = (v: number, k: number): number => Math.round(v * k) / k;
 
-/** The path of a motion; null for one that goes backwards or nowhere at all. */
+/** The path of a motion; null for one that reverses or does not move. */
 export function pathOf(m: Motion): Path | null {
   const path = { x: [] as number[], y: [] as number[], heading: [] as number[] };
   const last = lastStep(m);
@@ -37,19 +37,19 @@ export function pathOf(m: Motion): Path | null {
   return path.x.length ? path : null;
 }
 
-/** The points of a motion that nobody has drawn: its start and its end. */
+/** Start and end of an undrawn motion. */
 export function endsOf(m: Motion, end: number): SpeedPoint[] {
   const at = (t: number): SpeedPoint => ({ t, v: Math.max(0, poseAt(m, t)?.speed ?? 0), hold: 0 });
   return [at(0), at(end)];
 }
 
-/** A change of acceleration takes so long, seconds, and at most this share of the time between two points. */
+/** Duration of a change of acceleration, seconds, and its largest share of the time between two points. */
 export const EASING_S = 0.5;
 const EASING_SHARE = 1 / 3;
 
 /**
- * The speed that is asked for at a time: through the points, at one acceleration from each to the next but for a short
- * easing at both, so that a line of even braking is one.
+ * The requested speed at a time: through the points, with constant acceleration between them except for a short easing
+ * at both ends, so that even braking stays a straight line.
  */
 export function wantedSpeed(points: readonly SpeedPoint[], t: number): number {
   const next = points.findIndex((p) => p.t > t);
@@ -63,7 +63,7 @@ export function wantedSpeed(points: readonly SpeedPoint[], t: number): number {
   const easing = Math.min(EASING_S, lasts * EASING_SHARE);
   const [first, last] = [slopeAt(points, at), slopeAt(points, next)];
   const even = (to.v - from.v - ((first + last) / 2) * easing) / (lasts - easing);
-  // The acceleration goes from the one at the first point to the even one, and from that to the one at the second.
+  // The acceleration changes from the first point's to the constant one, and from that to the second point's.
   const eased = (slope: number, for_s: number): number => slope * for_s + ((even - slope) / easing / 2) * for_s * for_s;
   const [gone, left_s] = [t - left, to.t - t];
   if (gone < easing) return from.v + eased(first, gone);
@@ -71,7 +71,7 @@ export function wantedSpeed(points: readonly SpeedPoint[], t: number): number {
   return from.v + eased(first, easing) + even * (gone - easing);
 }
 
-/** Acceleration at a point, m/s²: none where the speed is held or turns, else between those on both sides. */
+/** Acceleration at a point, m/s²: zero where the speed is held or turns, else between both sides. */
 function slopeAt(points: readonly SpeedPoint[], i: number): number {
   const [before, here, after] = [points[i - 1], points[i], points[i + 1]];
   if (!before || !after || here.hold) return 0;
@@ -80,7 +80,7 @@ function slopeAt(points: readonly SpeedPoint[], i: number): number {
   return a * b > 0 ? (2 * a * b) / (a + b) : 0;
 }
 
-/** The motion along the path at these speeds; what cannot be done in time is done as soon as it can be. */
+/** The motion along the path at these speeds; an infeasible speed is reached as soon as possible. */
 export function motionOf({ path, points }: Profile, limits: Limits, duration: number): Motion {
   const n = Math.round(duration / STEP_S) + 1;
   const along = alongOf(path);
@@ -109,7 +109,7 @@ export function motionOf({ path, points }: Profile, limits: Limits, duration: nu
   return { first: 0, ...m, valid: [[0, n]] };
 }
 
-/** Metres from the beginning of a path to each of its places. */
+/** Distance of each place from the start of the path, metres. */
 export function alongOf({ x, y }: Path): number[] {
   let s = 0;
   return x.map((_, i) => (i ? (s += Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1])) : 0));
@@ -117,7 +117,7 @@ export function alongOf({ x, y }: Path): number[] {
 
 export const lineOf = (path: Path): Line => makeLine(path.x.map((x, i): Vec => [x, path.y[i]]));
 
-/** Past its end the path goes straight on. */
+/** Past its end the path continues straight. */
 function placeAt(path: Path, along: readonly number[], s: number): OnLine {
   const at = (i: number): OnLine => ({ x: path.x[i], y: path.y[i], heading: path.heading[i] });
   const last = along.length - 1;
@@ -132,20 +132,19 @@ function placeAt(path: Path, along: readonly number[], s: number): OnLine {
   return { x: lerp(p.x, q.x, k), y: lerp(p.y, q.y, k), heading: lerpAngle(p.heading, q.heading, k) };
 }
 
-/** A place at which it stands. */
+/** A stop on the path. */
 export interface Stop {
   readonly pose: Pose;
   readonly from: number;
-  /** Seconds that it stands there; to the end where nothing follows. */
+  /** Duration in seconds; to the end where nothing follows. */
   readonly lasts: number;
 }
 
-/** A stop that begins and lasts like a drawn one within this is that one, seconds: who hardly moves stands already. */
+/** A stop that matches a drawn one within this is that one, seconds: a crawl counts as standing. */
 const SAME_STOP_S = 0.5;
 
 /**
- * Where a motion stands for at least half a second. A stop that was drawn lasts as long as it was drawn: states, one
- * each 0.1 s, say it only to a step.
+ * Stops of a motion of at least 0.5 s. A drawn stop has its drawn duration: states every 0.1 s give it only to a step.
  */
 export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
   const out: Stop[] = [];
@@ -170,7 +169,7 @@ export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
 
 type Range = readonly [number, number];
 
-/** When a point of a curve may come, and for how long it may hold if it comes at `t`, seconds: it passes no other. */
+/** Possible time of a curve's point, and possible hold at `t`, seconds: it passes no other point. */
 export function roomOf(
   points: readonly SpeedPoint[],
   i: number,
@@ -182,7 +181,7 @@ export function roomOf(
   return { t: i ? [before, Math.max(before, after)] : [0, 0], hold: [0, Math.max(0, after - t)] };
 }
 
-/** A point moved; it passes no other, and the start stays at 0 s. */
+/** A moved point; it passes no other, and the start stays at 0 s. */
 export function movedPoint(
   points: readonly SpeedPoint[],
   i: number,
@@ -196,7 +195,7 @@ export function movedPoint(
   return points.map((q, k) => (k === i ? p : q));
 }
 
-/** When a stop has to be asked for, so that it is next to a place with so many metres of the road user ahead of it. */
+/** The time for a stop at which the front of the road user is beside a place, given the length ahead of its centre. */
 export function timeOfStop(
   profile: Profile,
   i: number,
@@ -207,14 +206,14 @@ export function timeOfStop(
 ): number {
   const { path, points } = profile;
   const wanted = project(lineOf(path), x, y).s - ahead;
-  // The later it stops the further it has come.
+  // A later stop is further along the path.
   let [from, to] = [0, duration];
   for (let n = 0; n < 12; n++) {
     const t = (from + to) / 2;
     const moved = movedPoint(points, i, { t }, duration);
     const { speed } = motionOf({ path, points: moved }, limits, duration);
     const stands = speed.findIndex((v, k) => v === 0 && k * STEP_S >= moved[i].t - 1e-6);
-    // As the motion itself adds them up.
+    // Summed as in the motion itself.
     const upTo = stands < 0 ? speed.length - 1 : stands;
     let gone = 0;
     for (let k = 1; k <= upTo; k++) gone += ((speed[k - 1] + speed[k]) / 2) * STEP_S;
@@ -224,7 +223,7 @@ export function timeOfStop(
   return Math.round(from * 100) / 100;
 }
 
-/** One more point; null where there is no room for it. */
+/** Adds a point; null where there is no room for it. */
 export function addedPoint(points: readonly SpeedPoint[], p: SpeedPoint): { points: SpeedPoint[]; at: number } | null {
   const near = points.some((q) => p.t > q.t - APART_S && p.t < q.t + q.hold + APART_S);
   if (near || points.length >= MOST_POINTS) return null;

@@ -1,25 +1,25 @@
-// Where one stops on a way: at a stop line, before a crosswalk, behind somebody who stands.
+// Stop places on a path: at a stop line, before a crosswalk, behind a standing road user.
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
 import { alongOf, lineOf } from './speed-profile';
 import type { Path } from '../document/profile';
 import { TEXTS } from '../../texts/scene/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 
-/** A place along a way, in metres from its beginning, to which the front comes. */
+/** A place along a path for the front, in metres from its start. */
 export interface StopPlace {
   readonly s: number;
   readonly words: string;
 }
 
-/** The front stands so far before a line, and so far behind somebody, metres. */
+/** Distance of the front before a line, and behind a standing road user, metres. */
 const BEFORE_LINE_M = 0.3;
 const GAP_M = 2;
-/** A stop line lies on the way when its lane ends so near to it, and leads the same way, metres and radians. */
+/** A stop line belongs to the path when its lane ends this near and has its direction, metres and radians. */
 const ON_WAY_M = 1.5;
 const ALONG_RAD = 0.5;
-/** Somebody stands on the way when its middle is so near to it, metres. */
+/** A standing road user blocks the path when its centre is this near, metres. */
 const IN_WAY_M = 1.2;
-/** Places closer together than this are one: the line before the crosswalk is meant. */
+/** Places closer than this are one: the line before the crosswalk counts. */
 const APART_M = 1;
 
 export function stopPlaces(scene: Scene, a: Agent, path: Path): StopPlace[] {
@@ -52,7 +52,7 @@ function crosswalks({ map }: Scene, path: Path): StopPlace[] {
   });
 }
 
-/** Where between two places of a path an area begins. */
+/** The point between two places of a path where an area begins. */
 function edgeOf(path: Path, along: readonly number[], i: number, area: readonly Vec[]): number {
   let [out, into] = [0, 1];
   const at = (k: number): Vec => [

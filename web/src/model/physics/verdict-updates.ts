@@ -1,5 +1,5 @@
-// A picked future is not judged anew with the answers of the others to it: what it does by itself stays as it was
-// judged, and whom it hits or nearly hits is what the score of the whole scene says.
+// A picked future is not judged again when others react: its own faults stay, and collisions and near misses come from
+// the score of the whole scene.
 import { FAULT_KINDS, NOTHING_SAID, type FutureFacts, type Fault } from '../document/future-facts';
 import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import type { Vec } from '../base/geometry';
@@ -15,7 +15,7 @@ const SAME_S = JUDGING.same_event_s;
 const rank = (x: Fault): number => FAULT_KINDS.indexOf(x.kind);
 const meets = (f: Pick<Fault, 'kind'>): boolean => f.kind === 'collision' || f.kind === 'near_miss';
 
-/** The future of `id` with the meetings that the score knows, and no others. */
+/** The future of `id` with only the meetings of the score. */
 export function withMeetingsOf(score: Score, id: string, f: Future): Future {
   if (!f.about) return f;
   const old = f.about.faults.filter(meets);
@@ -31,7 +31,7 @@ export function withMeetingsOf(score: Score, id: string, f: Future): Future {
   return { ...f, about: { ...f.about, faults }, sent: { ...f.sent, faults: faults.map(faultJson) } };
 }
 
-/** A motion that was drawn by hand, as the score of the whole scene judges it. */
+/** A drawn motion, judged by the score of the whole scene. */
 export function judgedBy(score: Score, a: Agent, f: Future): Future {
   const { id, goal } = a;
   const place = (t: number): Vec => {
@@ -68,7 +68,7 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
 const isHarsh = (x: { readonly kind: Fault['kind'] }): boolean =>
   x.kind === 'harsh_braking' || x.kind === 'harsh_steering';
 
-/** The futures in force after what counts was changed: the motions are the same, what is said of them may be less. */
+/** The followed futures after a change of thresholds: motions are unchanged, verdicts may shrink. */
 export function countedAnew(
   scene: Scene,
   futures: ReadonlyMap<string, Futures>,
@@ -100,15 +100,15 @@ export function countedAnew(
 
 // -------------------------------------------------------------- others have changed
 
-/** Somebody who does another thing than when futures were judged. */
+/** A road user whose motion changed after futures were judged. */
 export interface Changed {
   readonly agent: Agent;
   readonly motion: Motion;
 }
 
 /**
- * Futures that were judged before others changed what they do: whom of them each hits now. That one comes close to
- * another is kept only while it does.
+ * Futures judged before others changed: collisions with the new motions are added. A near miss stays only while it
+ * still occurs.
  */
 export function metAnew(a: Agent, f: Futures, changed: readonly Changed[]): Futures {
   const others = changed.filter((c) => c.agent.id !== a.id);
@@ -133,7 +133,7 @@ function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[
     const pose = poseAtStep(m, step);
     return pose && { pose, length: of.length, width: of.width };
   };
-  // Fast towards each other is close at a larger distance, too.
+  // At a high closing speed a larger distance is close too.
   const was = old.find((x) => x.kind === 'near_miss' && x.with === other.agent.id);
   const near = Math.max(THRESHOLDS.gap_m.usual, (was?.extent ?? 0) + JUDGING.same_gap_m);
   let least = Infinity;
@@ -153,7 +153,7 @@ function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[
   return least < near ? (was ?? null) : null;
 }
 
-/** Null for a meeting of others, or one where the future knows no place. */
+/** Null for a meeting of others, or one without a place on the future. */
 function meeting(
   f: Future,
   id: string,

@@ -1,25 +1,24 @@
-// What a lane is called at a junction: by its arm, and by what it does there. Where there is no junction, or more than
-// one, compass words say more.
+// Names of lanes at a junction: by arm and manoeuvre. Without a single junction, compass directions are used.
 import { pointAt, type Vec } from '../base/geometry';
 import { TEXTS } from '../../texts/scene/places';
 import { turnOf, type Lane, type LaneMap } from '../document/lanemap';
 
-/** A turn is one from here on, radians. */
+/** Least angle of a turn, radians. */
 const TURNS_RAD = 0.35;
-/** Ways across within so many metres of a place are of one junction, and its arms begin within them. */
+/** Connectors within this distance belong to one junction, and its arms begin within it. */
 const JUNCTION_M = 45;
-/** The junction that is meant has most of all ways across: those into a car park do not count. */
+/** The main junction has this share of all connectors: those into a car park do not count. */
 const MOST = 0.6;
-/** More ways across than any one junction has. */
+/** More connectors than any one junction has. */
 const MANY = 400;
-/** So far out a lane is seen from the junction, metres. */
+/** Lanes are seen from the junction at this distance, metres. */
 const OUT_M = 20;
-/** Lanes so many before or after the junction are its arms. */
+/** Lanes within this many steps of the junction are its arms. */
 const FAR_LANES = 4;
 
 const known = new WeakMap<LaneMap, { readonly centre: Vec | null; readonly names: Map<string, string | null> }>();
 
-/** `W arm, left-turn lane`; null where compass words say more. */
+/** `W arm, left-turn lane`; null where compass directions are used. */
 export function armWords(map: LaneMap, lane: Lane): string | null {
   let of = known.get(map);
   if (!of) known.set(map, (of = { centre: mainJunction(map), names: new Map() }));
@@ -38,10 +37,10 @@ const middle = (l: Lane): Vec => {
 
 const near = (p: Vec, q: Vec): boolean => Math.hypot(p[0] - q[0], p[1] - q[1]) < JUNCTION_M;
 
-/** The middle of the junction that most ways across belong to; null where there is none such. */
+/** The centre of the junction with most connectors; null where there is none. */
 function mainJunction(map: LaneMap): Vec | null {
   const all = [...map.lanes.values()].filter((l) => l.inside).map(middle);
-  // On a large map nobody waits for all pairs: it has more than one junction.
+  // A large map has more than one junction, and all pairs would take too long.
   if (!all.length || all.length > MANY) return null;
   const around = all.map((p) => all.filter((q) => near(p, q)));
   const most = around.reduce((a, b) => (b.length > a.length ? b : a));
@@ -55,7 +54,7 @@ const manner = (l: Lane): 'left' | 'right' | 'straight' => {
   return turn > TURNS_RAD ? 'left' : turn < -TURNS_RAD ? 'right' : 'straight';
 };
 
-/** Those on the crossing that go straight on are lanes like others. */
+/** Connectors straight across are named like other lanes. */
 function across(lane: Lane, junction: Vec): string | null {
   return near(middle(lane), junction) ? TEXTS.across[manner(lane)] : null;
 }
@@ -66,19 +65,19 @@ function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
   const away = outFrom.length && onTo.length ? leadsAway(lane, junction) : !onTo.length;
   const into = away ? [] : onTo;
   const ways = away ? outFrom : onTo;
-  // A part of a ring is on no arm.
+  // A part of a ring belongs to no arm.
   if (away === null || !ways.length) return null;
   const centre = meanOf(ways.map(middle));
   if (!near(centre, junction)) return null;
-  // Seen from the junction a place a little way out says which arm it is, however the road bends further out. At its
-  // very end an outer lane of a wide road lies beside the arm.
+  // A place a little outside the junction identifies the arm, however the road bends further out. At the far end an
+  // outer lane of a wide road is beside the arm.
   const { length } = lane.line;
   const at = pointAt(lane.line, into.length ? Math.max(0, length - OUT_M) : Math.min(length, OUT_M));
   const arm = TEXTS.arm(compass(Math.atan2(at.y - junction[1], at.x - junction[0])));
   if (lane.kind === 'bike') return TEXTS.bikeLane(arm);
   if (lane.type === 'bus_lane') return TEXTS.busLane(arm);
   const turns = new Set(into.map(manner));
-  // Of a way into a roundabout nobody knows yet where it leads.
+  // A way into a roundabout does not determine the exit.
   const after = into.flatMap((l) => l.next.flatMap((id) => map.lanes.get(id) ?? []));
   const leadsOut = after.every((l) => !l.inside && leadsAway(l, junction) !== null);
   const one = turns.size === 1 && leadsOut ? [...turns][0] : null;
@@ -87,7 +86,7 @@ function named(map: LaneMap, lane: Lane, junction: Vec): string | null {
   return into.length ? TEXTS.inboundLane(arm) : TEXTS.outboundLane(arm);
 }
 
-/** A lane that comes no nearer to a place than this and gets no further from it leads round it, metres. */
+/** A lane leads round a place if its distance varies by less than this, metres. */
 const ROUND_M = 3;
 
 /** Does a lane lead away from a place? Null where it leads round it. */
@@ -102,7 +101,7 @@ function leadsAway({ line }: Lane, from: Vec): boolean | null {
 
 const mean = (v: readonly number[]): number => v.reduce((s, x) => s + x, 0) / v.length;
 
-/** The ways across that a lane leads to, or comes from, over a few lanes. */
+/** The connectors that a lane leads to, or comes from, over a few lanes. */
 function reach(map: LaneMap, lane: Lane, way: 'next' | 'prev'): Lane[] {
   let now: Lane[] = [lane];
   for (let n = 0; n < FAR_LANES && now.length; n++) {
@@ -121,6 +120,6 @@ function compass(angle: number): string {
   return COMPASS[((Math.round((angle * 4) / Math.PI) % 8) + 8) % 8];
 }
 
-/** The server's words for an arm, `North-west 2`, in those of the page. */
+/** The server's name of an arm, `North-west 2`, in the language of the page. */
 export const armTitle = (english: string): string =>
   english.replace(/^[a-z]+(?:-[a-z]+)?/i, (way) => ARMS[way.toLowerCase() as keyof typeof ARMS] ?? way);

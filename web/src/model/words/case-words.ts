@@ -1,4 +1,4 @@
-// A case in words: what is looked for, what a found one is, and what came nearest.
+// A case in words: target, results, and the closest attempt.
 import { KINDS, type Moment, type Sought, type What } from '../physics/cases';
 import type { Pose } from '../base/geometry';
 import { startPose, type Agent, type Scene } from '../document/scene';
@@ -14,7 +14,7 @@ export const KIND_WORDS: Readonly<Record<What, string>> = {
   red: TEXTS.redLight,
 };
 
-/** What the search is called. */
+/** Titles of the search. */
 export const TITLES: Readonly<Record<What, string>> = {
   near: TEXTS.findANearMiss,
   collision: TEXTS.findACollision,
@@ -46,14 +46,14 @@ export function momentWords({ what }: Sought, m: Moment): string {
   return `${unit === 'm' ? metres(m.value, 1) : unit === 's' ? seconds(m.value) : acceleration(m.value)} ${at}`;
 }
 
-/** Metres from one place to another, below 0 where it lies behind. */
+/** Metres from one place to another, negative when behind. */
 function along(p: Pose, q: Pose): number {
   const d = Math.hypot(q.x - p.x, q.y - p.y);
   const ahead = (q.x - p.x) * Math.cos(p.heading) + (q.y - p.y) * Math.sin(p.heading);
   return d < 0.05 ? 0 : ahead < 0 ? -d : d;
 }
 
-/** How it happens: where the other one is, and what the one who is tried begins with. */
+/** How it happens: side of the other party, and initial values of the varied road user. */
 export function howWords(a: Agent, scene: Scene, m: Moment, unit: SpeedUnit, was?: Agent): string[] {
   const start = startPose(a);
   const before = was && startPose(was);

@@ -1,4 +1,4 @@
-// Who does something else than before, in one sentence each.
+// Changed motions, one sentence each.
 import type { MotionSet } from '../document/futures';
 import type { Agent, Scene } from '../document/scene';
 import { distances, poseAtStep, STEP_S, type Motion } from '../base/motion';
@@ -12,7 +12,7 @@ export interface Change extends MotionChange {
   readonly words: string;
 }
 
-/** Road users whose motion changed, but for those in `except`, in words; the greatest loss of time comes first. */
+/** Road users with a changed motion, except those in `except`, in words; the largest delay first. */
 export function findChanges(
   scene: Scene,
   before: MotionSet,
@@ -27,7 +27,7 @@ export function findChanges(
   });
 }
 
-/** Shorter waits than this are not told in seconds. */
+/** Shorter waits than this have no number of seconds. */
 const TOLD_S = 0.5;
 
 /** `waits 2 s for Car 7`, `slows to 8 km/h behind Car 12`: the verb first, the other's name last. */
@@ -50,7 +50,7 @@ export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'):
   }
 }
 
-/** Half seconds below two, whole ones above: nobody counts a wait in tenths. */
+/** Half seconds below two, whole ones above: tenths of a wait are meaningless. */
 function roundSeconds(v: number): string {
   const step = v < 1.75 ? 2 : 1;
   const r = Math.round(v * step) / step;
@@ -59,7 +59,7 @@ function roundSeconds(v: number): string {
 
 const firstStep = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
 
-/** Words for the ghost of the log: how far the edited road user gets from what was recorded, where it was. */
+/** Words for the recorded ghost: largest distance of the edited road user from its recording, and where. */
 export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: number; t: number; words: string } | null {
   if (m === a.log || a.placed) return null;
   const f = furthest(a.log, m, duration);
@@ -69,7 +69,7 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
     log = poseAtStep(a.log, last);
   let words = TEXTS.differs;
   if (end && log) {
-    // A recording may begin before, and go on after what is worked out.
+    // A recording may begin earlier and end later than the planned time.
     const from = Math.max(firstStep(m), firstStep(a.log));
     const gone = (of: Motion): number => {
       const s = distances(of);

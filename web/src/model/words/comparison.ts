@@ -1,4 +1,4 @@
-// What differs between two variants: who does another thing, since when, and what comes of it.
+// Differences between two variants: changed road users, since when, and the outcome.
 import { JUDGING } from '../base/domain';
 import { compareMarks } from '../document/future-facts';
 import { meetsGoal, motionOf } from '../physics/playback';
@@ -13,14 +13,14 @@ import { metres, num, seconds } from '../base/units';
 import { TEXTS } from '../../texts/scene/parting';
 
 export interface Side {
-  /** What it is called in a sentence: its number. */
+  /** Its number, as the name in a sentence. */
   readonly label: string;
   readonly scene: Scene;
   readonly set: MotionSet;
   readonly events: readonly TrafficEvent[];
 }
 
-/** A moment at which they part, in a sentence. */
+/** A moment when they diverge, in a sentence. */
 export interface Moment {
   readonly time: number;
   readonly words: string;
@@ -34,32 +34,32 @@ export interface Row {
   readonly differs: boolean;
 }
 
-/** One who does another thing. */
+/** A road user with different motions. */
 export interface Diverging {
   readonly agent: Agent;
   readonly left: Motion;
   readonly right: Motion;
-  /** Metres between both where they are furthest apart. */
+  /** Largest distance between both, metres. */
   readonly far: number;
-  /** When they are first apart. */
+  /** Time of the first difference. */
   readonly since: number;
 }
 
 export interface Comparison {
-  /** Those furthest apart first. */
+  /** The largest distance first. */
   readonly parted: readonly Diverging[];
   readonly rows: readonly Row[];
   readonly moments: readonly Moment[];
-  /** How many do the same in both. */
+  /** Number of road users with equal motions. */
   readonly same: number;
   readonly all: number;
 }
 
-/** Apart by more than this is another motion, metres. */
+/** Motions further apart than this differ, metres. */
 const APART_M = 1;
 const MOST_MOMENTS = 6;
 const MOST_ROWS = 5;
-/** Within so many seconds after they part somebody stops, or slows. */
+/** A stop or slowdown within this many seconds of the divergence counts. */
 const SOON_S = 4;
 const SLOWS_MPS = 1;
 
@@ -141,18 +141,18 @@ function goals(left: Side, right: Side): Row[] {
 function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Moment[] {
   const said = (e: TrafficEvent): string =>
     e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
-  // Where there are too many the worst are told, and of these the first, whichever side they are on.
+  // If there are too many the worst are listed, and of these the earliest, on either side.
   const events = [left, right]
     .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))
     .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time);
-  // What happens in both, if not quite as close, is no parting.
+  // An event in both, with a slightly different gap, is no difference.
   const alone = events.filter((m) => !events.some((o) => o !== m && sameMeeting(o.e, m.e)));
   const own = alone.map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
   const ways = parted.map((p) => wayOf(left, right, p));
   return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
 }
 
-/** The same happens to the same ones at about the same time. */
+/** The same event of the same road users at about the same time. */
 const sameMeeting = (p: TrafficEvent, q: TrafficEvent): boolean =>
   p.what === q.what && p.a.id === q.a.id && p.b?.id === q.b?.id && Math.abs(p.time - q.time) < 0.5;
 
@@ -164,7 +164,7 @@ function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: 
   const say = (words: string): Moment => ({ time: t, words: `${agent.name} ${words}`, at });
   if (Math.abs(aside) > Math.abs(along))
     return say(aside > 0 ? TEXTS.keepsFurther(right.label) : TEXTS.keepsFurtherRight(right.label));
-  // Whoever is behind there has slowed, or the other one goes on.
+  // The one behind has slowed, or the other one continues.
   const [slow, motion, other] = along < 0 ? [right, n, m] : [left, m, n];
   const least = (of: Motion): number => {
     let v = Infinity;

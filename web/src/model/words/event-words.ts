@@ -14,20 +14,20 @@ import { TEXTS } from '../../texts/scene/events';
 export interface TrafficEvent extends SceneEvent {
   /** The road users. */
   readonly title: string;
-  /** What and when, for the timeline. */
+  /** Kind and time, for the timeline. */
   readonly label: string;
-  /** What and how bad, for the list: `Near miss, 0.6 m`. */
+  /** Kind and severity, for the list: `Near miss, 0.6 m`. */
   readonly words: string;
-  /** The closest of it, for a label on the map. */
+  /** Closest value, for a label on the map. */
   readonly short: string;
   readonly facts: readonly (readonly [string, string])[];
 }
 
-/** Everything that happens in the scene as it is followed. */
+/** All events of the followed motions. */
 export const readEvents = (scene: Scene, set: MotionSet, unit: SpeedUnit = 'km/h'): TrafficEvent[] =>
   eventsIn(scene, set).map((e) => inWords(scene, set, e, unit));
 
-/** What is wrong with one future on its way, while nobody follows it yet. */
+/** Faults of one future that no road user follows yet. */
 export const eventsOf = (
   scene: Scene,
   set: MotionSet,
@@ -50,10 +50,10 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   goal_missed: TEXTS.goalMissed,
 };
 
-/** They come no nearer than this, metres, or nobody knows how near: what counts is how little time there was. */
+/** Their gap exceeds the threshold, or is unknown: the time to collision made it a near miss. */
 const isMissInTime = ({ extent }: SceneEvent): boolean => extent === null || extent > THRESHOLDS.gap_m.usual;
 
-/** How bad it is, in the unit of its kind. */
+/** Severity, in the unit of its kind. */
 function extentWords(r: SceneEvent, unit: SpeedUnit): string | null {
   if (r.what === 'near_miss' && isMissInTime(r)) return r.ttc === null ? null : TEXTS.ttc(num(r.ttc, 1));
   if (r.extent === null) return null;

@@ -1,11 +1,11 @@
-// What was said of futures as a table: a line an answer, a column a feature.
+// Feedback on futures as a table: one row for each answer, one column for each feature.
 import type { Answer, Feedback } from '../document/feedback';
 import { whyWords } from './feedback-words';
 import { TEXTS } from '../../texts/scene/feedback';
 
 type NameOf = (id: string) => string | null;
 
-/** A spreadsheet would take a text that begins so for a formula. */
+/** A spreadsheet would read a text with such a start as a formula. */
 const FORMULA = /^[=+\-@\t\r]/;
 
 function cell(v: string | number | boolean | null | undefined): string {
@@ -14,7 +14,7 @@ function cell(v: string | number | boolean | null | undefined): string {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-/** Comma-separated values; speeds in m/s, the rest in the unit that the heading ends with. */
+/** Comma-separated values; speeds in m/s, the rest in the unit at the end of the heading. */
 export function feedbackTable(id: string | null, f: Feedback, nameOf: NameOf): string {
   const rowOf = (a: Answer) => (id === null ? undefined : a.features.first?.[id]);
   const met = [...new Set(f.answers.flatMap((a) => Object.keys(rowOf(a) ?? {})))];

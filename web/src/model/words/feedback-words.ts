@@ -1,4 +1,4 @@
-// Wishes, what they rest on, and why a card was kept or rejected, in plain words.
+// Preferences, their evidence, and reasons of verdicts, in plain words.
 import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from '../document/feedback';
 import type { LearnedWishJson } from '../document/scene-json';
 import {
@@ -41,7 +41,7 @@ const PLAIN = {
 
 const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? TEXTS.roadUser(id);
 
-/** A shorter gap than this is nothing to be kept, seconds. */
+/** Shorter gaps are no preference, seconds. */
 const LEAST_GAP_S = 1;
 
 /** `Smoother`, `Car 12 first`, `Keeps a 2 s gap`. `kept`: the range of the kept ones. */
@@ -112,7 +112,7 @@ function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | nu
   }
 }
 
-/** Does a card show what is wished? Null where that cannot be said of it. */
+/** Does a card show the preferred trait? Null where undecidable. */
 function shows(f: Features, w: Wish): boolean | null {
   const is =
     w.trait === 'first'
@@ -134,7 +134,7 @@ function shares(w: Wish, answers: readonly Answer[]): string {
   return kept ? TEXTS.trueOfKept(kept) : rejected ? TEXTS.trueOfRejected(rejected) : '';
 }
 
-/** Which answers contradict a wish: `A of round 1, “After Car 12”, was kept.` */
+/** Verdicts that contradict a preference: `A of round 1, “After Car 12”, was kept.` */
 export const againstWords = (a: Answer): string =>
   a.name
     ? a.verdict === 'keep'
@@ -144,10 +144,10 @@ export const againstWords = (a: Answer): string =>
       ? TEXTS.unnamedWasKept(a.letter, a.round)
       : TEXTS.unnamedWasRejected(a.letter, a.round);
 
-// -------------------------------------------------------------- why
+// -------------------------------------------------------------- reasons
 
 export interface Choice {
-  /** Names the wish; equal for equal ones. */
+  /** Identifies the preference; equal for equal ones. */
   readonly key: string;
   readonly words: string;
   readonly wish: Wish;
@@ -171,19 +171,19 @@ const REASONS: readonly Row[] = [
   ['from_log', 'less', TEXTS.tooUnlikeTheLog, TEXTS.likeTheLog],
 ];
 
-/** More orders of two than this are no choice but a list, in a scene. */
+/** Beyond this number the orders of a scene are a list, not a choice. */
 const MOST_ORDERS = 12;
 
-/** Who goes before whom, as far as it is known: of one road user, or of everybody. */
+/** Known passing orders: of one road user, or of all. */
 function orders(id: string | null, f: Features): (readonly [who: string, other: string, first: boolean])[] {
   const all = Object.entries(f.first ?? {}).filter(([who]) => id === null || who === id);
   const pairs = all.flatMap(([who, row]) => Object.entries(row).map(([other, first]) => [who, other, first] as const));
-  // Of a scene the same two stand there from both sides.
+  // A scene lists the same pair from both sides.
   const once = pairs.filter(([p, q], i) => !pairs.slice(0, i).some(([r, s]) => r === q && s === p));
   return id === null ? once.slice(0, MOST_ORDERS) : pairs;
 }
 
-/** What may be said about a card: what is wrong with it, or what was liked. */
+/** Possible reasons for a verdict: faults of the card, or what was liked. */
 export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf: NameOf): Choice[] {
   const liked = verdict === 'keep';
   const plain = REASONS.filter(([t]) => t !== 'from_log' || f.from_log_m != null).map(([trait, wants, fault, good]) =>
@@ -192,7 +192,7 @@ export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf
   const order = orders(id, f).map(([me, other, first]) => {
     const who = called(nameOf, other);
     const wish: Wish = { trait: 'first', who: me, with: other, wants: first === liked ? 'more' : 'less' };
-    // Of a whole scene it must be said who.
+    // For a whole scene the road user must be named.
     const it = id === null ? `${called(nameOf, me)} ` : '';
     if (liked) return choice(wish, it + (first ? TEXTS.goesBefore(who) : TEXTS.yieldsTo(who)));
     return choice(wish, it + (first ? TEXTS.shouldGoAfter(who) : TEXTS.shouldGoBefore(who)));
@@ -200,7 +200,7 @@ export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf
   return [...plain, ...order];
 }
 
-/** All that may be wished, given the cards on the table. */
+/** All possible preferences for the current cards. */
 export function wishes(id: string | null, cards: readonly Features[], nameOf: NameOf): Choice[] {
   const logged = cards.some((f) => f.from_log_m != null);
   const plain = (Object.keys(PLAIN) as Plain[])
@@ -215,7 +215,7 @@ export function wishes(id: string | null, cards: readonly Features[], nameOf: Na
   return [...plain, ...order, ...does].map((w) => choice(w, firstWords(w, nameOf) ?? wishWords(w, nameOf)));
 }
 
-/** Whom it lets go first, where several could be meant. */
+/** Passing order with the name of the other one, where several are possible. */
 const firstWords = (w: Wish, nameOf: NameOf): string | null =>
   w.trait === 'first' && w.wants === 'more' ? TEXTS.calledBefore(called(nameOf, w.who), called(nameOf, w.with)) : null;
 
@@ -224,9 +224,9 @@ export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string =
   return key ? (reasons(id, a.features, a.verdict, nameOf).find((c) => c.key === key)?.words ?? '') : '';
 };
 
-/** What a card is like, in two facts. */
+/** A card in two facts. */
 export function factWords(f: Features): string {
-  // The widest gap that is counted says only that nobody is near.
+  // The widest counted gap means only that no road user is near.
   const gap = f.gap_s >= 5 ? TEXTS.clear : TEXTS.gap(seconds(f.gap_s));
   return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.waitsFor(seconds(f.standing_s)) : acceleration(f.harshness_mps2)}`;
 }

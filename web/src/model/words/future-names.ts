@@ -1,5 +1,5 @@
-// Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
-// the same. No two in one list are alike.
+// Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones. No two in a
+// list are equal.
 import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
 import { LETTERS } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
@@ -17,30 +17,30 @@ import {
 import { TEXTS as KINDS } from '../../texts/scene/kinds';
 import { TEXTS } from '../../texts/scene/names';
 
-/** What a name is made from. */
+/** Inputs of a name. */
 export interface Nameable {
   readonly motion: Motion;
   readonly about?: FutureFacts | null;
 }
 
-/** Who is named, and what the others are called. */
+/** The named road user, and the names of the others. */
 export interface Naming {
   readonly onFoot: boolean;
   readonly nameOf: (id: string) => string | null;
-  /** What was recorded of it; null where nothing was. */
+  /** Its recording; null where there is none. */
   readonly log?: Motion | null;
 }
 
-/** A name and what it rests on: `after:12`, or a manner such as `Turns left`. */
+/** A name and its basis: `after:12`, or a manner such as `Turns left`. */
 export interface Named {
   readonly name: string;
   readonly basis: string;
 }
 
-/** Letters that a row of the list has room for. */
+/** Letters that fit in a row of the list. */
 const LONGEST = 24;
 
-/** Words for one thing to say of a future, the best first, shorter ones after it. */
+/** Words for one property of a future, the best first, then shorter ones. */
 interface Candidate {
   readonly basis: string;
   readonly forms: readonly string[];
@@ -55,7 +55,7 @@ const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
 
 const nameless: Naming['nameOf'] = () => null;
 
-/** A name for each. What all share says nothing and is not used. */
+/** A name for each. A property shared by all is not used. */
 export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): Named[] =>
   nameRest(
     modes,
@@ -63,11 +63,11 @@ export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: fals
     modes.map(() => null),
   );
 
-/** Names for those that have none yet, told apart from the others, which keep theirs. */
+/** Names for those without one, distinct from the others, which keep theirs. */
 export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (Named | null)[]): Named[] {
   const list = new NameList(modes, kept);
   const said = candidates(modes, who);
-  // What says most first; who cannot be told apart by it is named by something else.
+  // The most informative property first; one that it does not distinguish is named by another.
   for (let rank = 0; list.unnamed.length; rank++) {
     const groups = new Map<string, number[]>();
     for (const i of list.unnamed) {
@@ -77,7 +77,7 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
     if (!groups.size) break;
     for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
   }
-  // A small difference that is so says more than whom it is like.
+  // A small true difference is more informative than a similarity.
   for (const part of SMALL) for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c, part));
   for (const i of list.unnamed) list.likenToOther(i, said[i][0]);
   return list.names;
@@ -113,7 +113,7 @@ class NameList {
     return true;
   }
 
-  /** The first of a group is called what all of it do; each other one by what tells it from all the rest. */
+  /** The first of a group is named by its common property; each other one by its difference from the rest. */
   tellApart(group: readonly number[], c: Candidate): void {
     const named = this.#names.flatMap((n, i) => (n?.basis === c.basis ? [i] : []));
     const left = [...group];
@@ -126,17 +126,17 @@ class NameList {
         if (left.includes(i) && this.#give(i, c, word)) left.splice(left.indexOf(i), 1);
     };
     const [pace] = traits;
-    // Of two the plainest difference is said. Several are told apart by their pace first.
+    // For two, the plainest difference. Several are distinguished by pace first.
     if (all.length > 2) take(scaleOf(pace, all));
     take(traits.flatMap((t) => extremesOf(t, all)));
-    // Those of one pace, beside each other and the first.
+    // Those of equal pace, against each other and the first.
     for (const i of [...left]) {
       const same = all.filter((j) => j === all[0] || Math.abs(pace.values.get(j)! - pace.values.get(i)!) < pace.least);
       take([...traits, halfway].flatMap((t) => extremesOf(t, same)).filter((claim) => claim.i === i));
     }
   }
 
-  /** By what it differs a little from the first of those that do the same; `part` of what can be seen is enough. */
+  /** Named by a small difference from the first of its group; `part` of the visible threshold is enough. */
   tellSlightly(i: number, c: Candidate, part: number): boolean {
     const named = this.#names.flatMap((n, j) => (n?.basis === c.basis ? [j] : []));
     if (!named.length) return false;
@@ -161,7 +161,7 @@ class NameList {
     return false;
   }
 
-  /** Of one that nothing tells from another, to which it is likened: to one that is called by what it does. */
+  /** An indistinguishable future is named by its similarity to one with a name of its own. */
   likenToOther(i: number, c: Candidate): void {
     const others = this.#names.flatMap((n, j) => (n && j !== i && !isLikened(n.name) ? [j] : []));
     const far = new Map(others.map((j) => [j, furthestApart(this.modes[j].motion, this.modes[i].motion)]));
@@ -175,14 +175,14 @@ class NameList {
   }
 }
 
-/** Parts of what can be seen that are named where nothing else tells. */
+/** Shares of the visible threshold, used where nothing else distinguishes. */
 const SMALL = [0.5, 0.2] as const;
 
 const LIKES = [TEXTS.like, TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
 
 const isLikened = (name: string): boolean => LIKES.some((like) => [...LETTERS].some((l) => name.endsWith(like(l))));
 
-// -------------------------------------------------------------- what can be said of each
+// -------------------------------------------------------------- properties of each
 
 function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   const relations = modes.map((m) => relationsOf(m, who));
@@ -194,7 +194,7 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
       kinds.set(r.other, (kinds.get(r.other) ?? new Set()).add(r.basis));
     }
   const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.basis)! < modes.length;
-  // Somebody that one future is before and another is after says most about both.
+  // A road user that one future passes before and another after is the most informative for both.
   const contrast = (r: RelationCandidate): number => Number(kinds.get(r.other)!.size > 1);
   const onRoad = modes.map((m) => !!m.about && m.about.faults.every((f) => faultMark(f) === 'near'));
   const alone = onRoad.filter(Boolean).length === 1 && modes.some((m) => m.about?.faults.some(leavesRoad));
@@ -204,12 +204,12 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
     ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
     ...(alone && onRoad[i] ? [{ basis: TEXTS.byRoad, forms: [TEXTS.byRoad] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
-    // One that stops is not called by how it goes on.
+    // One that stops is not named by its direction.
     stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
   ]);
 }
 
-/** Never further from what was recorded than this is like it, metres; one that hardly moves is not compared. */
+/** It is like the recording if it never differs by more than this, metres; one that hardly moves is not compared. */
 const LIKE_LOG_M = 2;
 const MOVES_M = 4;
 
@@ -217,7 +217,7 @@ function isLike(m: Motion, log: Motion): boolean {
   if (pathLength(log) < MOVES_M) return false;
   for (let t = 0; t <= lastStep(m) * STEP_S + 1e-6; t += 5 * STEP_S) {
     const [p, q] = [poseAt(m, t), poseAt(log, t)];
-    // Where it was not seen there is nothing to be like.
+    // Unrecorded steps cannot be compared.
     if (!q) continue;
     if (!p || Math.hypot(p.x - q.x, p.y - q.y) > LIKE_LOG_M) return false;
   }
@@ -232,13 +232,13 @@ interface RelationCandidate extends Candidate {
 
 function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
   const out = new Map<string, RelationCandidate>();
-  // Nobody waits for whom it hits.
+  // A future does not wait for a road user that it hits.
   const hit = new Set(m.about?.faults.flatMap((f) => (f.kind === 'collision' && f.with !== null ? [f.with] : [])));
   for (const r of m.about?.relations ?? []) {
     const name = hit.has(r.with) ? null : who.nameOf(r.with);
     const basis = `${r.kind}:${r.with}`;
     if (!name || out.has(basis)) continue;
-    // Who gives way at speed does not wait.
+    // Giving way at speed is not waiting.
     const rolls = r.kind === 'gives_way_to' && !waitsBy(m.motion, r.time, who.onFoot);
     const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
     const short = shortName(name);
@@ -258,7 +258,7 @@ function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
   return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
 }
 
-/** A name of its own with the long word cut. */
+/** A given name with the long word shortened. */
 const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
 const SHORT = [
   [KINDS.pedestrian, TEXTS.ped],
@@ -269,15 +269,15 @@ const SHORT = [
 /** Slower than this is standing, m/s. */
 const STANDING_M_S = 0.25;
 const standing = (onFoot: boolean): number => (onFoot ? STANDING_M_S : 0.5);
-/** Less than this is no way at all, metres. */
+/** Shorter paths count as no movement, metres. */
 const STAYS_M = 1.5;
-/** Less than this is not seen, metres. */
+/** Smaller movements are invisible, metres. */
 const CREEPS_M = 0.4;
 
 function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
   const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
   if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
-  // One that rolls on into the other lane has not stopped in this one.
+  // One that rolls into the other lane has not stopped in this one.
   const changesLane = manoeuvre === 'lane_left' || manoeuvre === 'lane_right';
   return Math.abs(endPose(m).speed) < (changesLane ? STANDING_M_S : standing(onFoot));
 }
@@ -313,14 +313,14 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>
 
 // -------------------------------------------------------------- shapes
 
-/** What it does, from its shape alone. */
+/** The manoeuvre, from the shape only. */
 function shapeOf(m: Motion, onFoot: boolean): NonNullable<FutureFacts['manoeuvre']> {
   const n = m.x.length - 1;
   if (n < 2 || pathLength(m) < STAYS_M) return 'stays';
   const turn = totalTurn(m);
   if (Math.abs(turn) > 2.5) return 'turn_round';
   if (Math.abs(turn) > 0.6) return turn > 0 ? 'left' : 'right';
-  // Sideways without a turn; a long road that bends a little is still straight on.
+  // Sideways without a turn; a long road with a slight bend is still straight on.
   const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2;
   const far = Math.hypot(m.x[n] - m.x[0], m.y[n] - m.y[0]);
   const left = sideways(m, n, h);
@@ -338,7 +338,7 @@ function totalTurn(m: Motion): number {
 const sideways = (m: Motion, i: number, heading: number): number =>
   -(m.x[i] - m.x[0]) * Math.sin(heading) + (m.y[i] - m.y[0]) * Math.cos(heading);
 
-/** About a lane's width, and a heading that is a turn and no change of lanes, radians. */
+/** About a lane's width, and the heading from which it is a turn and not a lane change, radians. */
 const LANE_M = 2.4;
 const TURNING = 0.3;
 
@@ -348,18 +348,18 @@ function shiftsFirst(m: Motion): boolean {
   return i > 0 && Math.abs(sideways(m, i, m.heading[0])) > LANE_M;
 }
 
-// -------------------------------------------------------------- what tells one from another
+// -------------------------------------------------------------- differences
 
-/** Something that can be seen of each of a group. */
+/** A visible property of each of a group. */
 interface Trait {
   readonly values: ReadonlyMap<number, number>;
-  /** Less than this is not seen. */
+  /** Smaller differences are invisible. */
   readonly least: number;
   readonly more: string;
   readonly less: string;
   /** Shorter words for more and for less of it. */
   readonly short?: readonly [more: string, less: string];
-  /** What is said, in place of less, of one that has next to nothing of it. */
+  /** The word for almost nothing of it, in place of "less". */
   readonly none?: { readonly below: number; readonly word: string };
 }
 
@@ -369,11 +369,11 @@ const lessOf = ({ values, less, none }: Trait, i: number): string =>
 interface Claim {
   readonly i: number;
   readonly word: string;
-  /** By how many times what can be seen it differs. */
+  /** Difference in multiples of the visible threshold. */
   readonly margins: number;
 }
 
-/** Who has most and least of a trait: each beyond all of the others. */
+/** The largest and smallest of a trait: each beyond all of the others. */
 function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
   const { values, least, more } = trait;
   const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
@@ -385,7 +385,7 @@ function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
   ].filter((claim) => claim.margins >= 1);
 }
 
-/** Words of a scale, from the first of a group outwards: one on each level that can be seen apart. */
+/** Words of a scale, from the first of a group outwards: one for each visible level. */
 const SCALE: Readonly<Record<number, readonly string[]>> = {
   1: ['', ''],
   2: ['', '', TEXTS.much],
@@ -404,7 +404,7 @@ function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): 
     const levels: number[] = [];
     for (const i of [...all].sort((a, b) => beyond(a) - beyond(b)))
       if (beyond(i) >= 1 + (levels.length ? beyond(levels.at(-1)!) : 0)) levels.push(i);
-    // Of more levels than there are words the outermost have them.
+    // With more levels than words, the outermost get them.
     const kept = levels.length > 3 ? [levels[0], levels[levels.length >> 1], levels.at(-1)!] : levels;
     kept.forEach((i, k) => out.push({ i, word: SCALE[kept.length][k + 1] + word, margins: beyond(i) }));
   }
@@ -414,7 +414,7 @@ function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): 
 /** Less than this is no braking, m/s². */
 const BRAKES_MPS2 = 0.4;
 
-/** When it brakes hardest, seconds; nobody is told from those that hardly brake. */
+/** Time of the hardest braking, seconds; unused if one of them hardly brakes. */
 function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trait {
   const at = (m: Motion): number => {
     let most = 1,
@@ -432,11 +432,11 @@ function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trai
 interface Traits {
   /** The pace first. */
   readonly traits: readonly Trait[];
-  /** Who is ahead halfway. */
+  /** Progress at half time. */
   readonly halfway: Trait;
 }
 
-/** Everything by which the members of a group may differ in what is seen of them. */
+/** All visible traits in which members of a group may differ. */
 function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
   const motion = (i: number): Motion => modes[i].motion;
   const gone = new Map(group.map((i) => [i, distances(motion(i))]));
@@ -453,7 +453,7 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const together = Math.max(...ends) - Math.min(...ends) < far;
   const halfway = trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later);
   const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
-  // With a goal all get as far in the end; then it is told on the way who is ahead.
+  // With a goal all get equally far, so progress is compared on the way.
   const pace = together ? halfway : trait(at(1), far, more, less);
   const [first] = group;
   const turn = totalTurn(motion(first));
@@ -475,11 +475,11 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   return { traits, halfway };
 }
 
-/** The furthest that the second path lies to the left of the first, metres; negative to the right. */
+/** Largest offset of the second path to the left of the first, metres; negative to the right. */
 function sideOf(a: Motion, b: Motion, n: number): number {
   let most = 0;
   for (let i = 2; i <= n; i += 2) {
-    // Beside the nearest point of the first path, so that pace is not taken for width.
+    // From the nearest point of the first path, so that pace does not count as offset.
     let best = Infinity,
       at = 0;
     for (let k = 0; k < a.x.length; k += 2) {

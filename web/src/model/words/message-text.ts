@@ -1,11 +1,11 @@
-// Sentences of the server in the language and units of the page. They come as codes with values.
+// Messages of the server in the language and units of the page. They arrive as codes with values.
 import { acceleration, metres, num, seconds, speedInUse } from '../base/units';
 import type { Message } from '../document/message';
 import { armTitle } from './arm-names';
 import { SENTENCES } from '../../texts/messages/messages';
 import type { Values } from '../../texts/table';
 
-/** Sentences by code, and the words of values that name a thing of a list. */
+/** Sentences by code, and the words of enumerated values. */
 export interface Sentences {
   readonly sentences: Readonly<Record<string, string | ((values: Values) => string)>>;
   readonly lists: Readonly<Record<string, Readonly<Record<string, string>>>>;
@@ -24,7 +24,7 @@ function valueText(name: string, value: string | number, onFoot: boolean, { list
   return num(value, 0);
 }
 
-/** A sentence of a table, or what the server calls it in English where the table does not have its code. */
+/** The sentence of a table, or the server's English text where the table lacks its code. */
 export function messageText({ code, values }: Message, english = code, table: Sentences = SENTENCES): string {
   const sentence = table.sentences[code];
   if (sentence === undefined) return english;

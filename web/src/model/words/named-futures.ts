@@ -1,4 +1,4 @@
-// Futures as they come from the server and from files, with names.
+// Futures from the server and from files, with names.
 import { unnamedFutures, type Futures, type KeepOrder, type MotionSet } from '../document/futures';
 import { nameIn, type Scene } from '../document/scene';
 import type { AgentFuturesJson, SceneJson } from '../document/scene-json';
@@ -6,13 +6,13 @@ import { savedFutures, savedVariantFutures } from '../document/scene-reader';
 import type { Pose } from '../base/geometry';
 import { nameAll, type Naming } from './future-names';
 
-/** The same futures, named by how they stand to others. */
+/** The same futures, named by their relations to others. */
 export function withNames(f: Futures, who: Naming): Futures {
   const names = nameAll(f.modes, who);
   return { ...f, modes: f.modes.map((m, i) => ({ ...m, ...names[i] })) };
 }
 
-/** Futures as they were sent, `step` of `steps`; a name that was sent stays. */
+/** Futures as received, `step` of `steps`; a received name stays. */
 export function readFutures(
   json: AgentFuturesJson,
   start: Pose,
@@ -26,11 +26,11 @@ export function readFutures(
   return { ...sent, modes: modes.map((m, i) => ({ ...m, name: sent.modes[i].name || m.name })) };
 }
 
-/** The futures saved beside a scene, where they still belong to it. */
+/** The futures saved in a scene, if they still belong to it. */
 export const readGenerated = (json: SceneJson, scene: Scene): MotionSet | null =>
   named(scene, savedFutures(json, scene));
 
-/** The motion that a file keeps of a variant; null where it keeps none. */
+/** The stored motion of a variant; null where there is none. */
 export const readVariantSample = (json: SceneJson, id: number, scene: Scene): MotionSet | null =>
   named(scene, savedVariantFutures(json, id, scene));
 

@@ -1,4 +1,4 @@
-// Why a pinned future no longer answers what is asked of its road user, in words.
+// Why a pinned future no longer meets the conditions of its road user, in words.
 import { pinMisfit } from '../document/pins';
 import type { Agent, Pin } from '../document/scene';
 import { metres, speedLabel, type SpeedUnit } from '../base/units';

@@ -1,4 +1,4 @@
-// Whether a goal is reached, in words: by the server's verdict, or by the limits of motion while there is none.
+// Reachability of a goal in words: by the server's verdict, or by the limits of motion until it arrives.
 import { isBlocked, type Reach } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
@@ -8,7 +8,7 @@ import { goalReach, type GoalReach } from '../physics/reach';
 import { messageText } from './message-text';
 import { TEXTS } from '../../texts/scene/reach';
 
-/** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
+/** The generator's verdict as a title and the rest: its first sentence names the reason. */
 export function reachWords(
   r: Reach,
   goal: { readonly pos: Vec | null; readonly time: number },
@@ -34,7 +34,7 @@ export interface LocalReach extends GoalReach {
   readonly words: string;
 }
 
-/** Whether a goal can be reached, in words; `latest` is the longest time to suggest, seconds. */
+/** Reachability of a goal in words; `latest` is the longest time to suggest, seconds. */
 export function localReach(
   map: LaneMap,
   a: Agent,

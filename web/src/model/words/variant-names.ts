@@ -1,5 +1,5 @@
-// Names of variants, made of what tells each from the others: a future of the road user that they are about, else
-// whoever does another thing than in most of them.
+// Names of variants from their differences: a future of the subject, else a road user with a motion unlike that in most
+// variants.
 import { JUDGING } from '../base/domain';
 import { counted } from '../physics/events';
 import type { TrafficEvent } from './event-words';
@@ -20,17 +20,17 @@ export interface Nameless {
   readonly events?: readonly TrafficEvent[];
 }
 
-/** A motion is looked at every so many seconds. */
+/** Sampling interval of a motion, seconds. */
 const EVERY_S = 0.5;
 const TURN_RAD = 0.6;
-/** Less than this is not worth a name: seconds of waiting, metres of way. */
+/** Smaller differences give no name: seconds of waiting, metres of path. */
 const LEAST_S = 1.5;
 const LEAST_M = 3;
-/** A change of direction says as much as so many metres. */
+/** A change of direction weighs as much as this many metres. */
 const TURN_SAYS = 30;
 const SECOND_SAYS = 6;
 
-/** What somebody does, in a few figures. */
+/** The motion of a road user in a few figures. */
 export interface Deed {
   /** Metres covered, seconds stood, and whether it stands at the end. */
   readonly way: number;
@@ -44,7 +44,7 @@ interface Said {
   readonly weight: number;
 }
 
-/** A name for each, no two alike. `unitOf`: what speeds that were asked of a road user are said in. */
+/** A name for each, no two alike. `unitOf`: unit for speed conditions of a road user. */
 export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit = () => 'km/h'): string[] {
   const said = all.map(() => [] as Said[]);
   all.forEach((v, i) => said[i].push(...ofNumbers(v, all, unitOf), ...ofSubject(v), ...ofEvents(v)));
@@ -69,7 +69,7 @@ export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => Spe
 
 const NUMBERS: readonly Over[] = ['start', 'goal', 'time'];
 
-/** Numbers asked of the road user that no other of its variants has. */
+/** Conditions of the subject with values that no other variant of it has. */
 function ofNumbers(v: Nameless, all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit): Said[] {
   const a = subjectOf(v);
   if (!a) return [];
@@ -86,7 +86,7 @@ function ofNumbers(v: Nameless, all: readonly Nameless[], unitOf: (a: Agent) => 
 const subjectOf = ({ state, scene }: Nameless): Agent | undefined =>
   state.subject === null ? undefined : scene?.agents.get(state.subject);
 
-/** The future that the road user was given which the variants are about. */
+/** The picked future of the subject. */
 function ofSubject(v: Nameless): Said[] {
   const a = subjectOf(v);
   const f = a && v.set?.futures.get(a.id);
@@ -94,7 +94,7 @@ function ofSubject(v: Nameless): Said[] {
   return name ? [{ words: name, weight: Infinity }] : [];
 }
 
-/** What happens says as much as so many metres, by its mark. */
+/** Weight of an event in metres, by its mark. */
 const EVENT_SAYS = { collision: 60, rule: 12, near: 8, short: 6 } as const;
 
 function ofEvents({ events = [] }: Nameless): Said[] {
@@ -147,7 +147,7 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   const out: Said[] = [];
   const say = (words: string, weight: number) => out.push({ words: `${a.name} ${words}`, weight });
   const longer = d.waits - usual.waits;
-  // People on foot turn all the time.
+  // Pedestrians turn all the time.
   if (d.turn !== usual.turn && d.way > LEAST_M && a.type !== 'pedestrian') say(TURNS[d.turn], TURN_SAYS);
   if (longer >= LEAST_S && d.stands && !usual.stands) say(TEXTS.stops, longer * SECOND_SAYS);
   else if (longer >= LEAST_S) say(TEXTS.waitsSLonger(num(longer, 0)), longer * SECOND_SAYS);
@@ -158,7 +158,7 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   return out;
 }
 
-/** What tells a variant by its number. */
+/** The name of a variant by its swept value. */
 export function valueWords(over: Over, value: number, unit: SpeedUnit): string {
   if (over === 'time') return TEXTS.arrivesAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
   return `${over === 'start' ? TEXTS.startsAt : TEXTS.arrivesAt} ${speedLabel(value, unit)}`;

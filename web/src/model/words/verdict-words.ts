@@ -1,4 +1,4 @@
-// What is wrong with futures, in words: one at the place, one in a headline, and who does what.
+// Faults of futures in words: one at the place, one in a headline, and a summary by letter.
 import {
   compareMarks,
   faultMark,
@@ -21,7 +21,7 @@ export type NameOf = (id: string) => string | null;
 
 const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.aRoadUser;
 
-/** The word on the picture where it happens. */
+/** The word at the place of a fault on the picture. */
 export function placeWord(f: Fault, nameOf: NameOf): string {
   switch (f.kind) {
     case 'collision':
@@ -39,7 +39,7 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'harsh_steering':
       return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent));
     case 'near_miss':
-      // Far apart, but so fast towards each other that the time is what was near.
+      // Far apart, but at such a closing speed that the time was short.
       return f.extent === null || f.extent > THRESHOLDS.gap_m.usual
         ? TEXTS.nearMissWith(somebody(f, nameOf))
         : TEXTS.to(metres(f.extent, 1), somebody(f, nameOf));
@@ -53,9 +53,9 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
 export interface Headline {
   readonly mark: Mark;
   readonly title: string;
-  /** Who does and who does not. */
+  /** The summary by letter. */
   readonly words: string;
-  /** Scene time of what the title names, seconds; null where it names none. */
+  /** Scene time of the titled fault, seconds; null where there is none. */
   readonly at: number | null;
 }
 
@@ -64,8 +64,8 @@ const SIX = ['', TEXTS.one, TEXTS.two, TEXTS.three, TEXTS.four, TEXTS.five, TEXT
 const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
 /**
- * What is to be said of the futures of one, of which `chosen` is shown; null where nothing is worth it. `goalTime`:
- * when it is to be at its goal, seconds; null where no place is asked for.
+ * The headline on the futures of one road user, of which `chosen` is shown; null where none is needed. `goalTime`:
+ * seconds; null without a goal position.
  */
 export function headline(f: Futures, chosen: number, goalTime: number | null, who: Walker): Headline | null {
   const hasGoal = goalTime !== null;
@@ -97,32 +97,32 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
   return { mark, title, words, at: worst.time };
 }
 
-/** Kinds of faults without which a goal cannot be reached where all futures have them. */
+/** Kinds of faults that a goal requires when all futures have them. */
 const ONLY: Partial<Record<FaultKind, (time: string) => string>> = TEXTS.onlyBy;
 
-/** What kind of road user it is, and what others are called. */
+/** Type of the road user, and names of the others. */
 export interface Walker {
   readonly type: AgentType;
   readonly nameOf: NameOf;
 }
 
-/** Those with nothing wrong. */
+/** Those without faults. */
 const good = (f: Futures): number[] => f.modes.flatMap((m, i) => (m.about && markOf(m.about) === 'ok' ? [i] : []));
 
-/** Those of them that reach the goal; of `open` ones that is not known yet. */
+/** Those of them that reach the goal; for `open` ones that is not known yet. */
 function reachedBy(f: Futures, open: readonly number[]): string {
   const there = good(f).filter((i) => !open.includes(i));
   if (there.length === f.modes.length && there.length > 1) return TEXTS.reachedInAll(SIX[there.length]);
   return TEXTS.reachedIn(there.map((i) => LETTERS[i]).join(', '));
 }
 
-/** Futures that nobody follows are planned for a first while alone. */
+/** Futures that no road user follows are planned only for the first planning window. */
 function openWords(f: Futures, open: readonly number[]): string {
   const until = seconds(lastStep(f.modes[open[0]].motion) * STEP_S);
   return TEXTS.plannedUpTo(and(open.map((i) => LETTERS[i])), open.length, until);
 }
 
-// -------------------------------------------------------------- who does what
+// -------------------------------------------------------------- summary by letter
 
 const and = (list: readonly string[]): string =>
   list.length < 2 ? list.join('') : TEXTS.and(list.slice(0, -1).join(', '), list.at(-1));
@@ -156,7 +156,7 @@ function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker):
 }
 
 interface Said {
-  /** What the headline names already. */
+  /** The kind that the headline names already. */
   readonly named: FaultKind | null;
   readonly offRoad: boolean;
   readonly hasGoal: boolean;
@@ -169,7 +169,7 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
-    // The headline lists those that get there, unless it names what is wrong.
+    // The headline lists those that reach the goal, unless it names a fault.
     if (said.named === null) return null;
     if (!said.hasGoal) return group('ok', TEXTS.areClear, TEXTS.isClear);
     return said.offRoad ? group('ok', TEXTS.reachByRoad, TEXTS.reachesByRoad) : group('ok', TEXTS.reach, TEXTS.reaches);
@@ -205,15 +205,15 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
   }
 }
 
-/** `may cross this median`, and the like. An island has several edges and is one median all the same. */
+/** `may cross this median`, and the like. An island has several edges but counts as one median. */
 export function crossingWords(map: LaneMap, edges: readonly string[]): typeof TEXTS.thisMedian {
   const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
   return edges.every((id) => medians.has(id)) ? TEXTS.thisMedian : TEXTS.thisKerb;
 }
 
-// -------------------------------------------------------------- why another is shown
+// -------------------------------------------------------------- reasons for another future
 
-/** Why the future at `shown` is shown and not the one at `was`: what is worse about that one; null for nothing. */
+/** Why the future at `shown` is shown instead of the one at `was`: the worse fault of that one; null without one. */
 export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
   if (!old || !now || compareMarks(markOf(old), markOf(now)) >= 0) return null;
@@ -221,7 +221,7 @@ export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): 
   return TEXTS.isShown(LETTERS[shown], LETTERS[was], WHY[faultMark(worst)](worst, nameOf));
 }
 
-/** The same where the bold one before was another, and something is to be said of it whatever the reason. */
+/** The same where another future was bold before, and a sentence is needed in any case. */
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;

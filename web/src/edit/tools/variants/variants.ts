@@ -558,8 +558,8 @@ export class Variants {
   // -------------------------------------------------------------- two variants
 
   /**
-   * The first call remembers the variant, the second shows both side by side; a kept one is compared with the shown one
-   * at once.
+   * Compares with the picked variant, otherwise with the shown one; without either, this one is picked. Where exactly two
+   * are kept, each is compared with the other at once.
    */
   compareWith(id: number): void {
     const first = this.#picked.peek() ?? this.shown.peek();
