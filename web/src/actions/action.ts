@@ -1,4 +1,4 @@
-// An action: one thing a user can do, with everything that buttons, menus, palette and shortcut sheet say of it.
+// An action: one thing a user can do, with all that buttons, menus, palette and shortcut sheet show of it.
 import type { Agent } from '../model/document/scene';
 import { canChange, canMove } from '../model/document/scene';
 import { freeOnes } from '../edit/moves/copying';
@@ -27,19 +27,19 @@ export interface Action {
   readonly id: string;
   readonly label: string;
   readonly group: Group;
-  /** What it does, in a table that comes later than the buttons. */
+  /** A description, in a table that loads after the buttons. */
   readonly help: Help;
   readonly keys?: readonly string[];
   readonly icon?: string;
-  /** The browser hears its keys itself, and tells the page by an event of its own. */
+  /** The browser handles its keys, and notifies the page by an event. */
   readonly native?: true;
   /** Where its keys work: everywhere, or only while no text field has the focus. */
   readonly context?: 'always';
-  /** Its keys are its own while a handle is dragged; at other times they are another action's. */
+  /** Its keys apply only while a handle is dragged; at other times they belong to another action. */
   readonly whileDragging?: true;
-  /** Its keys are its own while it is on offer, also in a drag; at other times they are another action's. */
+  /** Its keys apply only while it is offered, also in a drag; at other times they belong to another action. */
   onOffer?(c: Context): boolean;
-  /** True when possible; words say why not. */
+  /** True when possible; otherwise the reason why not. */
   when?(c: Context): true | string;
   checked?(c: Context): boolean;
   run(c: Context): void;
@@ -75,7 +75,7 @@ export const hasSomeFree = (c: Context): true | string => {
   return all.some((a) => a.locked) ? LOCKED : TEXTS.thisOneCanBe;
 };
 
-/** Does a command on all that are selected and may be changed. */
+/** Runs a command on all selected road users that may be changed. */
 export function onSome(make: (c: Context, all: readonly Agent[]) => Command | null): Pick<Action, 'when' | 'run'> {
   return {
     when: hasSomeFree,
@@ -90,7 +90,7 @@ export function onSome(make: (c: Context, all: readonly Agent[]) => Command | nu
 /** The part that keys move. */
 export const activePart = (c: Context): HandlePart => c.editor.focusPart.value;
 
-/** Does a command on the selected road user, when there is one and the command makes sense. */
+/** Runs a command on the selected road user, when there is one and the command applies. */
 export function onAgent(make: (c: Context, a: Agent) => Command | null): Pick<Action, 'when' | 'run'> {
   return {
     when: hasFree,

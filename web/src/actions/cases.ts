@@ -1,9 +1,9 @@
-// The search for a case: somebody is tried with other numbers until what is looked for happens.
+// The search for a case: one road user is varied until the target event occurs.
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 
-/** Id of the case that is looked at; null where none is. */
+/** Id of the shown case; null for none. */
 const shown = (c: Context): number | null => c.searching.open.value?.shown.value ?? null;
 
 const isOpen = (c: Context): boolean => c.searching.open.value !== null;

@@ -1,4 +1,4 @@
-// What an action may touch, and what a panel shows.
+// The parts that an action or a panel uses.
 import type { Editor } from '../edit/session/editor';
 import type { Library } from '../edit/document/library';
 import type { Importing } from '../edit/tools/importing/importing';
@@ -18,7 +18,7 @@ import type { Client } from '../net/client';
 import type { Form } from './form';
 import type { Ui } from './ui';
 
-/** What it takes to open a scene and to show it; it comes first, everything else after it. */
+/** The parts needed to open and show a scene; they load first, all others later. */
 export interface Opening {
   readonly editor: Editor;
   readonly scenes: SceneList;
@@ -31,7 +31,7 @@ export interface Opening {
   readonly client: Client;
   readonly ui: Ui;
   readonly form: Form;
-  /** The place of the bar on top. */
+  /** The place of the top bar. */
   readonly bar: HTMLElement;
 }
 
@@ -42,19 +42,19 @@ export interface Context extends Opening, Tools {
   readonly importing: Importing;
   readonly playback: Playback;
   readonly gestures: Gestures;
-  /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
+  /** The browser's clipboard: copies are text, so that another tab can paste them. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;
-  /** Brings road users into the picture, where they are not in it. */
+  /** Brings road users into view, if they are not. */
   reveal(ids: readonly string[]): void;
   /** Puts the cursor into the name or the note of the selected road user. */
   focusText(which: 'name' | 'note'): void;
-  /** Opens the menu of what is selected, beside it. */
+  /** Opens the context menu of the selection, beside it. */
   openMenu(): void;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;
-  /** Takes the focus to the name of the open scene. */
+  /** Moves the focus to the name of the open scene. */
   focusName(): void;
   fit(): void;
   lookAtScene(): void;

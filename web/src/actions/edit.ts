@@ -1,4 +1,4 @@
-// Edit: copies, removal, locks, kinds, names; what single road users do while others change.
+// Edit: copies, removal, locks, kinds, names; behaviour of single road users when others change.
 import type { Help } from '../texts/desk/helps';
 import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/base/kinds';
 import type { Others } from '../model/document/scene';

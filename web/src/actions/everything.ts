@@ -6,13 +6,13 @@ import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 import { LANGUAGES, nextLanguage, speak } from '../texts/language';
 
-/** Steps of a map that is being made are its own. */
+/** A map being made has its own undo steps. */
 const canUndo = ({ editor, layouts }: Context): boolean =>
   layouts.isOpen.value ? layouts.canUndo.value : editor.document.undoName.value !== null;
 const canRedo = ({ editor, layouts }: Context): boolean =>
   layouts.isOpen.value ? layouts.canRedo.value : editor.document.redoName.value !== null;
 
-/** Esc: what is nearest goes first, one thing a press. */
+/** Esc: closes the nearest thing first, one with each press. */
 function letGo({ editor, gestures, importing, maker, rounds, searching, ui, variants, layouts }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
@@ -33,7 +33,7 @@ function letGo({ editor, gestures, importing, maker, rounds, searching, ui, vari
   else editor.select(null);
 }
 
-/** Nothing that was found goes with one press: first the case that is shown, then the search, then the panel. */
+/** One press does not close everything: first the shown case, then the search, then the panel. */
 function closeSearch(cases: Cases): void {
   if (cases.shown.value !== null) cases.show(null);
   else if (cases.state.value === 'running' && cases.found.value.length) cases.stop();

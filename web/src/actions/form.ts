@@ -1,44 +1,44 @@
-// The form of the page: panels beside the picture, or a sheet over it; and whether fingers are what one points with.
+// Layout of the page: panels beside the picture, or a sheet over it; and whether the main pointer is a finger.
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 
 /** Heights of the sheet: name and verdict, the picture with what is needed, every field. */
 export const SHEET_HEIGHTS = ['peek', 'half', 'full'] as const;
 export type SheetHeight = (typeof SHEET_HEIGHTS)[number];
 
-/** Panels stand beside the picture from this width on; with fingers, which need more room, from this one on. */
+/** From this width on panels are beside the picture; the second value is for fingers, which need more room. */
 const WIDE_PX = 1100;
 const WIDE_FOR_FINGERS_PX = 1367;
 /** A page narrower or lower than this has no room for the rail of tools. */
 const SMALL_WIDTH_PX = 640;
 const LOW_PX = 520;
 
-/** Pixels of the sheet that is hardly open; its head is as high. */
+/** Height of the nearly closed sheet, pixels; its head has the same. */
 export const PEEK_PX = 96;
 const HALF_PX = 300;
-/** On a page that is high the open sheet shows more. */
+/** On a high page the open sheet shows more. */
 const HALF_ROOMY_PX = 412;
-/** Of the height that there is, at most. */
+/** Largest share of the page's height. */
 const HALF_SHARE = 0.55;
 const FULL_SHARE = 0.92;
-/** A list over the picture needs so many pixels above the sheet. */
+/** A list over the picture needs this many pixels above the sheet. */
 const LIST_PX = 420;
-/** While something is dragged, the picture needs the rest. */
+/** Largest share of the sheet during a drag in the picture. */
 const DRAGGED_SHARE = 0.62;
 
 export class Form {
   readonly #size = signal({ w: 1440, h: 900 });
   readonly #touch = signal(false);
   readonly #height = signal<SheetHeight>('peek');
-  /** Was the sheet pulled down by hand? It stays there until a hand pulls it up. */
+  /** Did the user pull the sheet down? It stays there until the user pulls it up. */
   #keptDown = false;
 
-  /** Is a finger what one mostly points with? */
+  /** Is a finger the main pointer? */
   readonly touch: ReadonlySignal<boolean> = this.#touch;
   /** Are the panels a sheet over the picture? */
   readonly sheet = computed(() => this.#size.value.w < (this.touch.value ? WIDE_FOR_FINGERS_PX : WIDE_PX));
   /** Is there room for little more than the picture? */
   readonly small = computed(() => this.sheet.value && (this.#size.value.w < SMALL_WIDTH_PX || this.low.value));
-  /** Is the page so low that the sheet stands at its side? */
+  /** Is the page so low that the sheet is at its side? */
   readonly low = computed(() => this.sheet.value && this.#size.value.h < LOW_PX);
   readonly height: ReadonlySignal<SheetHeight> = this.#height;
 
@@ -54,7 +54,7 @@ export class Form {
     measure();
   }
 
-  /** Pixels of a height of the sheet on this page. */
+  /** Height of the sheet on this page, in pixels. */
   pixels(height: SheetHeight): number {
     const { h } = this.#size.value;
     const most = h - 52;
@@ -69,34 +69,34 @@ export class Form {
     return this.#size.value.h - this.pixels('half') < LIST_PX;
   }
 
-  /** No higher than this while something is dragged in the picture. */
+  /** Largest height during a drag in the picture. */
   get whileDragging(): number {
     return Math.round(DRAGGED_SHARE * this.#size.value.h);
   }
 
-  /** By itself, for what is shown in it. */
+  /** Opens without the user, for its content. */
   open(height: SheetHeight): void {
     this.#height.value = height;
   }
 
-  /** Half open for somebody who was selected, unless it is wanted down. */
+  /** Half open for a newly selected road user, unless the user pulled it down. */
   offer(): void {
     if (!this.#keptDown && this.#height.peek() === 'peek') this.open('half');
   }
 
-  /** By hand, which is how it is wanted from now on. */
+  /** Pulled by the user; this height is kept from now on. */
   pull(height: SheetHeight): void {
     this.#keptDown = height === 'peek';
     this.open(height);
   }
 
-  /** By hand one height up, or down; from the top on to the bottom. */
+  /** One height up or down by the user; from the top back to the bottom. */
   step(by: 1 | -1): void {
     const n = SHEET_HEIGHTS.length;
     this.pull(SHEET_HEIGHTS[(SHEET_HEIGHTS.indexOf(this.#height.peek()) + by + n) % n]);
   }
 
-  /** The height nearest to so many pixels. */
+  /** The height nearest to this many pixels. */
   nearest(px: number): SheetHeight {
     const away = (h: SheetHeight): number => Math.abs(this.pixels(h) - px);
     return [...SHEET_HEIGHTS].sort((a, b) => away(a) - away(b))[0];

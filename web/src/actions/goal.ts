@@ -1,4 +1,4 @@
-// Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
+// Goal and futures: conditions of the selected road user, the followed future, and generating all.
 import { canChange, changedByHand, hasGoal, type Agent } from '../model/document/scene';
 import { clearGoal, resetAgent, setSeed, type Command } from '../model/document/commands';
 import { LETTERS } from '../model/document/futures';
@@ -23,7 +23,7 @@ const goalTime = (id: string, label: string, key: string, seconds: number): Omit
   ...onAgent((c, a) => moves.later(c.editor, a, seconds)),
 });
 
-/** A way out of a goal that is reached against the rules; in the middle of a drag it ends the drag. */
+/** A remedy for a goal that is reached by breaking rules; during a drag it ends the drag. */
 const wayOut = (find: (e: Editor, a: Agent) => { command: Command } | null, none: string) => {
   const found = ({ editor }: Context) => {
     const a = editor.agent.value;
@@ -52,7 +52,7 @@ const futures = [...LETTERS].map((letter, i) => ({
   }),
 }));
 
-/** The future that a menu is about, or that is pointed at. */
+/** The future of the menu, or under the pointer. */
 const pointed = ({ editor, ui }: Context): number | null => ui.contextMenu.value?.future ?? editor.hoverFuture.value;
 
 const onPointed = (run: (c: Context, a: Agent, i: number) => void): Pick<Action, 'when' | 'run'> => ({
@@ -70,7 +70,7 @@ function viaInHand({ editor }: Context): { a: Agent; i: number } | null {
   return a && i !== null ? { a, i } : null;
 }
 
-/** On the future that the menu or the pointer is on; else half way along the one in force. */
+/** At the place of the menu or pointer on a future; else half way along the followed one. */
 function putVia(c: Context): void {
   const { editor, ui, gestures, stage } = c;
   const a = editor.agent.peek();
@@ -108,7 +108,7 @@ const resetting: Pick<Action, 'when' | 'run'> = {
   },
 };
 
-/** The future that is pointed at, else the one in force. */
+/** The future under the pointer, else the followed one. */
 const toPin = (c: Context): number => pointed(c) ?? c.editor.reading.chosen.value;
 
 const pinning: Pick<Action, 'when' | 'checked' | 'run'> = {

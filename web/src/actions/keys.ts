@@ -1,5 +1,5 @@
-// Keys in one spelling: `Ctrl+Shift+Z`. Shifted signs are read as Shift plus the plain sign, so that a table of
-// shortcuts can be shown as it is typed.
+// Keys in one spelling: `Ctrl+Shift+Z`. Shifted signs are read as Shift plus the plain sign, so that shortcuts are
+// displayed as typed.
 
 import { KEYS } from '../texts/desk/keys';
 
@@ -35,7 +35,7 @@ export function keyOf(e: KeyLike): string {
   else if (key === '+') shift = shift && e.code === 'Equal';
   else if (key === '?') shift = false;
   else if (/^[a-z]$/i.test(key)) key = key.toUpperCase();
-  // Alt and Shift change what a key types on some keyboards; its place does not change.
+  // Alt and Shift change the character of a key on some keyboards, but not its code.
   const digit = (e.altKey || e.shiftKey) && /^Digit(\d)$/.exec(e.code ?? '');
   if (digit) key = digit[1];
   const letter = e.altKey && /^Key([A-Z])$/.exec(e.code ?? '');
@@ -55,7 +55,7 @@ const SHOWN: Readonly<Record<string, string>> = {
   ...KEYS,
 };
 
-/** The caps to draw for a key. */
+/** The key caps to draw. */
 export function caps(key: string): string[] {
   const parts = key.endsWith('++') ? [...key.slice(0, -2).split('+'), '+'] : key === '+' ? ['+'] : key.split('+');
   return parts.filter(Boolean).map((p) => SHOWN[p] ?? p);

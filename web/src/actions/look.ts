@@ -1,4 +1,4 @@
-// Select and look: tools, who is selected, the view, the layers.
+// Select and look: tools, selection, view, layers.
 import type { Help } from '../texts/desk/helps';
 import { nearestLanes } from '../model/document/lanemap';
 import { canChange, startPose, type Agent } from '../model/document/scene';
@@ -12,9 +12,9 @@ import type { Context } from './context';
 import { AROUND_M, placesOfSelected, turning } from './turning';
 import { TEXTS } from '../texts/desk/actions';
 
-/** The closest that "zoom to" goes. */
+/** Closest zoom of "zoom to". */
 const CLOSEST = 22;
-/** So far from the middle of a lane one still stands on it. */
+/** Within this distance of a lane's centre a road user is on it. */
 const ON_LANE_M = 2.2;
 
 const tools = RAIL.filter((t) => !t.places).map(({ name, label, key, icon, help }) => ({
@@ -27,14 +27,14 @@ const tools = RAIL.filter((t) => !t.places).map(({ name, label, key, icon, help 
   run(c: Context): void {
     c.editor.chooseTool(name);
     if (name !== 'fill') return;
-    // Whoever comes starts at 0 s; the panel stands where the lists do.
+    // New road users start at 0 s; the panel takes the place of the lists.
     c.editor.playhead.pause();
     c.editor.playhead.moveTo(0);
     c.ui.showDrawer(null);
   },
 }));
 
-/** Ids of those who can be changed, nearest to the middle of the picture first. */
+/** Ids of changeable road users, nearest to the middle of the picture first. */
 function nearestFirst(c: Context): string[] {
   const v = c.stage.view;
   const [x, y] = v.from(v.w / 2, v.h / 2);
@@ -50,7 +50,7 @@ let walk: { ids: string[]; cast: string } | null = null;
 function walkTo(c: Context, step: 1 | -1): void {
   const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.castKey}`;
   const selected = c.editor.selection.value;
-  // The order is kept while one walks, or the next key would jump back to the middle.
+  // The order is kept during the walk, or the next key would jump back to the middle.
   if (!walk || walk.cast !== cast || !selected) walk = { ids: nearestFirst(c), cast };
   const { ids } = walk;
   const at = ids.indexOf(selected ?? '');
@@ -67,7 +67,7 @@ export function walkEnds(c: Context, step: 1 | -1): boolean {
   return selected !== null && (step > 0 ? walk?.ids.at(-1) : walk?.ids[0]) === selected;
 }
 
-/** Everybody who takes part in the traffic. */
+/** All road users in traffic. */
 const all = (c: Context): Agent[] =>
   [...(c.editor.scene.value?.agents.values() ?? [])].filter((a) => a.type !== 'other');
 
@@ -83,7 +83,7 @@ function selectWhere(c: Context, which: (a: Agent) => boolean, none: string): vo
   c.editor.notices.show({ text: TEXTS.selected(selectedWords(c)) });
 }
 
-/** Lanes that the selected ones stand on. */
+/** Lanes under the selected road users. */
 function lanesOf(c: Context, a: Agent): string[] {
   const p = startPose(a);
   const fits = lanesFor(a) ?? (() => true);
@@ -100,7 +100,7 @@ function selectLane(c: Context): void {
   selectWhere(c, (a) => lanesOf(c, a).some((id) => lanes.has(id)), '');
 }
 
-/** Those who would be hit by the selected ones, or come close to them. */
+/** Selects road users with a collision or near miss with the selected ones. */
 function selectConflicts(c: Context): void {
   const mine = new Set(c.editor.selected.value);
   const met = new Set<string>();

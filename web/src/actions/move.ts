@@ -15,9 +15,9 @@ import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from
 import { TEXTS } from '../texts/desk/actions';
 
 type Move = (e: Editor, a: Agent, part: HandlePart, v: View) => Command | null;
-/** The same for several; a way of moving that has none is for one alone. */
+/** The same for several; a move without it applies to a single one. */
 type MoveAll = (all: readonly Agent[], v: View) => Command | null;
-/** The same for who is about to be placed; false where nobody is. */
+/** The same for a road user about to be placed; false where there is none. */
 type MoveGhost = (c: Context) => boolean;
 
 interface Also {
@@ -70,7 +70,7 @@ const DIRECTIONS = [
   ['Down', TEXTS.at01MDown, TEXTS.at1MDown, 0, -1],
 ] as const;
 
-/** As one sees it: left is left also where the picture is turned. */
+/** Screen directions: left is left also in a turned picture. */
 const nudges = DIRECTIONS.flatMap(([key, near, far, right, up]) => {
   const word = key.toLowerCase();
   const help = 'movesTheStart';

@@ -1,4 +1,4 @@
-// Place: tools that put road users into the scene, and filling it.
+// Place: tools that add road users to the scene, and filling it.
 import type { PlacedKind } from '../model/base/kinds';
 import { RAIL } from '../edit/tools/tools';
 import { placeGhost } from '../edit/gestures/placing';
@@ -31,7 +31,7 @@ function startPlacing(c: Context, name: string): void {
   if (kind?.places) placement.pointAt(editor.scene.peek()!, kind.places, view.from(at.x, at.y), view.z, false);
 }
 
-/** The kind that the tool in hand places; null for other tools. */
+/** The kind of the active placing tool; null for other tools. */
 export function placedBy({ editor }: Context): PlacedKind | null {
   const tool = RAIL.find((t) => t.name === editor.tool.value);
   return tool?.places ?? null;

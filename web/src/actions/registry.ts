@@ -1,5 +1,5 @@
-// The one list of everything a user can do: the groups in the order of the shortcut sheet. Menus, buttons, palette,
-// shortcut sheet and tooltips are made from it.
+// The single list of all actions: the groups in the order of the shortcut sheet. Menus, buttons, palette, shortcut
+// sheet and tooltips are made from it.
 import type { Action } from './action';
 import type { Context } from './context';
 import { cases } from './cases';
@@ -37,7 +37,7 @@ interface Now {
   offers?(a: Action): boolean;
 }
 
-/** The action of a key, by what goes on at the moment. */
+/** The action of a key, by the current state. */
 export function actionForKey(key: string, { dragging = false, offers }: Now = {}): Action | undefined {
   const offered = offers && onOffer.find((a) => a.keys?.includes(key) && offers(a));
   if (offered) return offered;

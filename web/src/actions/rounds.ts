@@ -1,4 +1,5 @@
-// Rounds: futures of one road user, or ways the whole scene could go, are kept or rejected, and drawn anew by that.
+// Rounds: futures of one road user, or alternatives of the whole scene, are kept or rejected, and drawn again from
+// that.
 import { LETTERS } from '../model/document/futures';
 import { canChange } from '../model/document/scene';
 import { hasFree, inGroup, type Action } from './action';
@@ -10,13 +11,13 @@ const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
 const hasCards = (c: Context): true | string =>
   !isOpen(c) ? TEXTS.openRoundsFirst : c.deck.hand.value ? true : TEXTS.noCardsYet;
 
-/** At least two can do something: else the scene is that one road user. */
+/** At least two can move: otherwise the scene is that one road user. */
 const hasSeveral = (c: Context): true | string => {
   const n = [...(c.editor.resting.value?.agents.values() ?? [])].filter(canChange).length;
   return n > 1 ? true : TEXTS.roundsNeedTwo;
 };
 
-/** One is selected, or there are several to do it all. */
+/** One is selected, or there are several for the whole scene. */
 const hasSubject = (c: Context): true | string => {
   const one = hasFree(c);
   return one === true || c.editor.selected.value.length ? one : hasSeveral(c);

@@ -1,4 +1,4 @@
-// Scene: the list, new ones and copies, files in and out, what was done.
+// Scene: the list, new ones and copies, files in and out, history.
 import type { Help } from '../texts/desk/helps';
 import type { Others } from '../model/document/scene';
 import { resetAll, setOthers } from '../model/document/commands';
@@ -15,10 +15,10 @@ const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> 
   run: (c) => c.editor.commits.run(setOthers(mode)),
 });
 
-/** The scene that is spoken of: one in the list that is pointed at, else the open one. */
+/** The scene of the action: the one aimed at in the list, else the open one. */
 const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? editor.resting.value?.id ?? null;
 
-/** Own scenes alone can be changed on the server. */
+/** Only own scenes can be changed on the server. */
 const own = (c: Context): true | string => {
   const id = meant(c);
   return !id ? TEXTS.noSceneIsOpen : c.scenes.isOwn(id) ? true : TEXTS.examplesAreReadOnly;
@@ -61,7 +61,7 @@ export const scene = inGroup('scene', [
   {
     id: 'new-map',
     label: TEXTS.newMap,
-    // Browsers keep Ctrl+N for a window of their own.
+    // Browsers reserve Ctrl+N for a new window.
     keys: ['Shift+T', 'Ctrl+N'],
     icon: 'plus',
     help: 'crossingsRoundabouts',

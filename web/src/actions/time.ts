@@ -1,4 +1,4 @@
-// Time: playback, events, how much is worked out.
+// Time: playback, events, planned time.
 import { counted } from '../model/physics/events';
 import type { TrafficEvent } from '../model/words/event-words';
 import { LENGTHS, REPLANS } from '../model/document/scene';
@@ -19,10 +19,10 @@ function goTo(c: Context, seconds: number): void {
   c.editor.playhead.moveTo(seconds);
 }
 
-/** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
+/** An event nearer to the edge of the picture than this is centred, in pixels. */
 const EDGE_PX = 60;
 
-/** The playhead goes to an event and the picture to where it happens; its facts open. */
+/** Moves the playhead to an event and the picture to its place; its facts open. */
 export function goToEvent(c: Context, e: TrafficEvent): void {
   const { editor, stage, ui } = c;
   goTo(c, e.time);
@@ -35,7 +35,7 @@ export function goToEvent(c: Context, e: TrafficEvent): void {
 function nextEvent(c: Context): void {
   const { editor } = c;
   const now = editor.playhead.time.value;
-  // What is in the log is no news; it is walked only where there is nothing else.
+  // Events of the recording are walked only where there are no others.
   const own = counted(editor.reading.events.value);
   const events = own.length ? own : editor.reading.events.value;
   const later = events.find((e) => e.time > now + 0.05 || (e.time >= now && e !== editor.selectedEvent.value));

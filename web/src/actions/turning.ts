@@ -1,4 +1,4 @@
-// The picture turned: along a road, by steps, and north up again.
+// Turning the picture: along a road, by steps, and back to north.
 import { nearestLanes } from '../model/document/lanemap';
 import { rad, type OnLine, type Vec } from '../model/base/geometry';
 import { startPose } from '../model/document/scene';
@@ -11,11 +11,11 @@ import { TEXTS } from '../texts/desk/actions';
 
 const STEP_RAD = rad(15);
 const QUARTER_RAD = rad(90);
-/** Somebody drives on a lane within so many metres. */
+/** A road user is on a lane within this distance, metres. */
 const ON_ROAD_M = 4;
-/** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */
+/** Nearer to a panel or to the edge than this a road user counts as out of view, pixels. */
 const EDGE_PX = 40;
-/** A road is looked for as far as this from the pointer, metres. */
+/** Search distance for a road around the pointer, metres. */
 const NEAR_M = 60;
 /** Metres of road shown around the selected road users and their goals. */
 export const AROUND_M = 18;
@@ -24,7 +24,7 @@ function stepBy(c: Context, angle: number): void {
   c.stage.glide.by((v) => v.turnTo(v.turn + angle));
 }
 
-/** Where the selected ones start, and where they go. */
+/** Starts and goals of the selected ones. */
 export function placesOfSelected(e: Editor): Vec[] {
   return e.chosenOnes.flatMap((a): Vec[] => {
     const p = startPose(a);
@@ -38,7 +38,7 @@ export function placesOfSelected(e: Editor): Vec[] {
   });
 }
 
-/** Where the selected one is, or the first of several, and where its road leads there. */
+/** Position of the selected one, or the first of several, and the direction of its road there. */
 function wayOfSelected({ editor }: Context): OnLine | null {
   const a = editor.chosenOnes.at(0);
   const p = a && poseShown(editor, a);
@@ -57,12 +57,12 @@ function roadInView({ editor, gestures, stage: { view: v }, layouts }: Context):
 }
 
 /**
- * Whoever is selected drives up the picture. With nobody selected a road has no direction: it lies level or upright,
- * whichever is the smaller turn.
+ * The selected road user drives up the picture. Without a selection a road has no direction: it becomes horizontal or
+ * vertical, by the smaller turn.
  */
 function alignWithRoad(c: Context): void {
   const { editor, stage, layouts } = c;
-  // While a map is made nobody is on it.
+  // A map being made has no road users.
   const mine = layouts.isOpen.peek() ? null : wayOfSelected(c);
   const way = mine ?? roadInView(c);
   if (!way) {
@@ -73,7 +73,7 @@ function alignWithRoad(c: Context): void {
   stage.glide.by((v) => {
     const now = way.heading + v.turn;
     const turn = (mine ? QUARTER_RAD : Math.round(now / QUARTER_RAD) * QUARTER_RAD) - way.heading;
-    // What it is turned for stays where it is, unless its way leads out of the picture.
+    // The turned object stays in place, unless its path leads out of the picture.
     v.turnAt(...v.to(way.x, way.y), turn);
     if (mine && !places.every(([x, y]) => v.isClear(x, y, EDGE_PX))) v.fitPlaces(places, AROUND_M, v.z);
   });

@@ -1,17 +1,17 @@
-// What of the page is open: the drawer, a dialog, a menu, the hint; and light or dark.
+// Open parts of the page: drawer, dialog, menu, hint; and the theme.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { MenuOn } from '../edit/gestures/chart';
 import { keep, recall } from '../net/storage';
 
 export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export' | 'import';
-/** What stands at the left edge of the picture. */
+/** Panels at the left edge of the picture. */
 export type Drawer = 'scenes' | 'history' | 'users';
-/** A menu at a place of the picture, in pixels of it. */
+/** A menu at a place of the picture, in its pixels. */
 export interface ContextMenu {
   readonly x: number;
   readonly y: number;
   readonly on: MenuOn;
-  /** Which future it is about. */
+  /** The future of the menu. */
   readonly future?: number | null;
 }
 
@@ -36,17 +36,17 @@ export class Ui {
   readonly drawer: ReadonlySignal<Drawer | null> = this.#drawer;
   readonly dialog: ReadonlySignal<Dialog | null> = this.#dialog;
   readonly menu: ReadonlySignal<string | null> = this.#menu;
-  /** Id of the scene in the list that actions are about; the open one when none is. */
+  /** Id of the scene in the list that actions apply to; without one, the open scene. */
   readonly aimed: ReadonlySignal<string | null> = this.#aimed;
-  /** Id of the scene in the list that is being given a name. */
+  /** Id of the scene being renamed in the list. */
   readonly renaming: ReadonlySignal<string | null> = this.#renaming;
   readonly contextMenu: ReadonlySignal<ContextMenu | null> = this.#contextMenu;
-  /** Id of the empty scene whose offers were closed. */
+  /** Id of the empty scene whose suggestions were closed. */
   readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
   readonly eventsPanel: ReadonlySignal<boolean | 'counts'> = this.#eventsPanel;
-  /** Is the timeline high, for work on the speed curve? */
+  /** Is the timeline enlarged for the speed curve? */
   readonly tall: ReadonlySignal<boolean> = this.#tall;
-  /** Step of the hint for the first minute; 0 when it is closed. */
+  /** Step of the first-minute hint; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
   readonly theme: ReadonlySignal<Theme> = this.#theme;
 
@@ -75,7 +75,7 @@ export class Ui {
     this.#menu.value = null;
   }
 
-  /** Actions on scenes are about this one from now on. */
+  /** Actions on scenes apply to this one from now on. */
   aimAt(id: string | null): void {
     this.#aimed.value = id;
   }
@@ -97,7 +97,7 @@ export class Ui {
     this.#emptyHidden.value = scene;
   }
 
-  /** `counts`: also where there are none, to say what is one. */
+  /** `counts`: also without events, to show the thresholds. */
   showEvents(open: boolean | 'counts'): void {
     this.#eventsPanel.value = open;
   }

@@ -1,19 +1,19 @@
-// Variants: ways the scene could go, side by side.
+// Variants: alternatives of the scene, side by side.
 import type { Moment } from '../model/words/comparison';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 
 const isOpen = (c: Context): boolean => c.variants.open.value;
-/** Text about a road user is meant while one is selected and no card has the focus. */
+/** Text keys go to the road user while one is selected and no card has the focus. */
 const onCard = (c: Context): boolean => isOpen(c) && c.variants.current.value !== null;
 const hasCard = (c: Context): true | string => (onCard(c) ? true : TEXTS.selectAVariantFirst);
 const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
 
-/** A moment nearer to the edge of the picture than this is brought to the middle, pixels. */
+/** A moment nearer to the edge of the picture than this is centred, pixels. */
 const EDGE_PX = 60;
 
-/** To one of the moments at which the two that are compared part. */
+/** Goes to a moment when the two compared variants diverge. */
 export function goToMoment({ editor, stage }: Context, m: Moment): void {
   editor.playhead.pause();
   editor.playhead.moveTo(m.time);
@@ -24,7 +24,7 @@ export function goToMoment({ editor, stage }: Context, m: Moment): void {
   stage.viewChanged();
 }
 
-/** The next one after the playhead, and after the last the first again. */
+/** The next one after the playhead; after the last, the first again. */
 function nextMoment(c: Context): void {
   const all = c.variants.compared.value?.parting.moments ?? [];
   const next = all.find((m) => m.time > c.editor.playhead.time.value + 0.05) ?? all[0];

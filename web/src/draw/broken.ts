@@ -1,4 +1,4 @@
-// What is wrong on a line itself: the stretch in red under white dashes, and the ground it crosses hatched.
+// Marks faults on a line: the stretch in red under white dashes, and the crossed ground hatched.
 import type { Pen, Sprite } from './pen';
 import { isValidAt, STEP_S, type Motion } from '../model/base/motion';
 import { colours, paletteStamp } from './theme';
@@ -11,9 +11,9 @@ export interface Stretch {
   readonly to: number;
 }
 
-/** So long is a stretch on screen at least, in pixels, as far as the path goes. */
+/** Least length of a stretch on screen, in pixels, as far as the path allows. */
 const SHORTEST_PX = 12;
-/** It grows by this many steps on each side at most. */
+/** Most steps added on each side. */
 const MOST_STEPS = 8;
 
 /** Corner points of a stretch on screen. */
@@ -50,7 +50,7 @@ function trace(g: Pen, pts: readonly (readonly [number, number])[]): void {
 }
 
 export interface BrokenStyle {
-  /** Of the path it lies on, in pixels. */
+  /** Width of its path, in pixels. */
   readonly width: number;
   readonly colour: string;
   readonly alpha: number;

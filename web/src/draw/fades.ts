@@ -1,9 +1,9 @@
-// Ghosts that come and go: each fades in, and one that would jump fades out at the old place and in at the new one.
+// Fading ghosts: each fades in, and one that would jump fades out at the old place and in at the new one.
 import type { Pose } from '../model/base/geometry';
 
-/** How long a ghost takes to come or to go, in milliseconds. */
+/** Duration of a fade, in milliseconds. */
 const FADE_MS = 90;
-/** A ghost slides up to this far between two pictures, in metres. */
+/** Largest distance that a ghost slides between two frames, in metres. */
 const SLIDE_M = 2;
 
 export interface Placed {
@@ -14,14 +14,14 @@ export interface Placed {
 export interface Faded<T> {
   readonly ghost: T;
   readonly alpha: number;
-  /** False for one that is going. */
+  /** False for one that fades out. */
   readonly here: boolean;
 }
 
 interface Kept<T> {
   ghost: T;
   since: number;
-  /** How strong it was when it began to go. */
+  /** Its strength when the fade-out began. */
   from: number;
 }
 
@@ -30,12 +30,12 @@ export class Fades<T extends Placed> {
   #going: Kept<T>[] = [];
   #fading = false;
 
-  /** Is any of them on its way? */
+  /** Is a fade running? */
   get fading(): boolean {
     return this.#fading;
   }
 
-  /** What to paint now; `calm` for people who asked for little motion. */
+  /** Ghosts to paint now; `calm` for reduced motion. */
   next(ghosts: readonly T[], now: number, calm: boolean): Faded<T>[] {
     const before = this.#here;
     this.#here = new Map(ghosts.map((ghost) => [ghost.id, this.#kept(before.get(ghost.id), ghost, now)]));

@@ -1,5 +1,5 @@
-// What somebody would do, drawn so that it never looks as if it were done: a dashed box where it would wait or be
-// slowest, with its brake lights on, and ticks along its path that lie closer the harder it brakes.
+// A possible reaction, drawn so that it cannot be mistaken for the current motion: a dashed box where the road user
+// would wait or be slowest, with brake lights, and ticks along its path that are closer for harder braking.
 import type { Pen } from './pen';
 import type { OnLine } from '../model/base/geometry';
 import { poseAt, type Motion } from '../model/base/motion';
@@ -14,19 +14,19 @@ const LAMP_PX = 2.2;
 /** Distance between two ticks at a stop and at 30 km/h, in pixels. */
 const AT_A_STOP = 6;
 const AT_30_KMH = 17;
-/** Weaker than this is no braking, in m/s². */
+/** Weaker deceleration does not count as braking, in m/s². */
 const BRAKES_MPS2 = 0.5;
 
 export interface GhostStyle {
   readonly colour: string;
   readonly alpha: number;
-  /** Does it brake? It then has lamps and ticks. */
+  /** Does it brake? Then it has lamps and ticks. */
   readonly brakes: boolean;
-  /** Off where the ghost covers the box it belongs to. */
+  /** False where the ghost covers its own box. */
   readonly filled: boolean;
 }
 
-/** The way from one scene time to another. */
+/** The path from one scene time to another. */
 export function paintWay(g: Pen, v: View, m: Motion, from: number, to: number, s: GhostStyle): void {
   trail(g, v, m, { colour: s.colour, width: PATH_PX, alpha: s.alpha, halo: true, from, to, cap: 'butt' });
   if (!s.brakes) return;
@@ -53,7 +53,7 @@ export function paintWay(g: Pen, v: View, m: Motion, from: number, to: number, s
   g.globalAlpha = 1;
 }
 
-/** Where the ticks stand: only along braking, the closer the slower it is there. */
+/** Places of the ticks: only along braking, closer at lower speed. */
 export function brakeTicks(m: Motion, from: number, to: number, zoom: number): OnLine[] {
   const out: OnLine[] = [];
   let left = AT_A_STOP / zoom;
@@ -113,7 +113,7 @@ export function paintWaiting(g: Pen, v: View, a: Sized, p: OnLine, s: GhostStyle
   g.restore();
 }
 
-/** Two at the rear; somebody on a bicycle or on foot has one. */
+/** Two at the rear; cyclists and pedestrians have one. */
 function lamps(g: Pen, l: number, w: number, colour: string, halo: string): void {
   const aside = w > 12 ? [-w * 0.36, w * 0.36] : [0];
   for (const y of aside) {

@@ -1,5 +1,5 @@
-// The picture goes over from one place to another in a moment, so that one sees where one comes from. Without motion,
-// where that is asked for, it is there at once.
+// Animates the picture from one view to another, so that the user sees where it comes from. With reduced motion the
+// change is immediate.
 import { wrapAngle, type Vec } from '../model/base/geometry';
 import type { Camera } from '../model/document/history';
 import type { View } from './view';
@@ -10,7 +10,7 @@ export class Glide {
   #from: Required<Camera> | null = null;
   #to: Required<Camera> | null = null;
   #began = 0;
-  /** Where the last frame left the picture: elsewhere, somebody else has moved it. */
+  /** The camera after the last frame: a different one means that another change moved it. */
   #left: Required<Camera> | null = null;
   readonly #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -23,12 +23,12 @@ export class Glide {
     return this.#to !== null;
   }
 
-  /** Where the picture looks, or will look when it is there. */
+  /** The current camera, or the one at the end of the animation. */
   get end(): Required<Camera> {
     return this.#to ?? this.view.camera;
   }
 
-  /** Moves the view as `move` does, in a while. While it glides already `move` starts from where that would end. */
+  /** Animates the change that `move` makes. During an animation `move` starts from its end. */
   by(move: (v: View) => void): void {
     const { view } = this;
     const end = view.copy();
@@ -72,14 +72,14 @@ export class Glide {
   }
 }
 
-/** A place that is under the pointer at both ends stays there on the way. */
+/** A point under the pointer at both ends stays there throughout. */
 function onTheWay(v: View, from: Required<Camera>, to: Required<Camera>, k: number): void {
   const z = from.z * (to.z / from.z) ** k;
   const by = wrapAngle(to.turn - from.turn);
   if (by) {
     const [x, y] = fixedPoint(from, to);
     v.look({ cx: x, cy: y, z, turn: from.turn + by * k });
-    // It lies off the middle by as much as before, in pixels.
+    // Its offset from the middle stays constant, in pixels.
     const [right, up] = turned([x - from.cx, y - from.cy], from.turn, from.z);
     const [dx, dy] = v.way(right, -up);
     v.cx -= dx;
@@ -95,7 +95,7 @@ const turned = ([x, y]: Vec, angle: number, scale: number): Vec => {
   return [x * c - y * s, x * s + y * c];
 };
 
-/** The place of the world that two views of different turns show at the same place of the screen. */
+/** The world point that two views of different turns show at the same screen position. */
 function fixedPoint(from: Required<Camera>, to: Required<Camera>): Vec {
   const [ax, ay] = turned([1, 0], from.turn, from.z);
   const [bx, by] = turned([1, 0], to.turn, to.z);

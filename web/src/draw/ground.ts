@@ -1,4 +1,4 @@
-// What lies on the ground under the road users when one asks for it: conflict zones, speed limits, how far one gets.
+// Optional ground layers under the road users: conflict zones, speed limits, reach.
 import { CELL_M, type Zone } from '../model/physics/conflicts';
 import type { Vec } from '../model/base/geometry';
 import { pointAt } from '../model/base/geometry';
@@ -9,7 +9,7 @@ import { polyline } from './strokes';
 import { colours, font, type ColourName } from './theme';
 import type { View } from './view';
 
-/** Closer in time than this many seconds, in that colour, so strong. */
+/** Below this many seconds, in this colour and strength. */
 const HEAT: readonly (readonly [below: number, colour: ColourName, alpha: number])[] = [
   [1, 'collision', 0.5],
   [2, 'near-edge', 0.45],
@@ -39,7 +39,7 @@ export function paintZones(g: Pen, v: View, zones: readonly Zone[]): void {
   g.globalAlpha = 1;
 }
 
-/** Where a limit is written, m/s. */
+/** Place of a speed-limit sign, m/s. */
 interface Sign {
   readonly x: number;
   readonly y: number;
@@ -47,9 +47,9 @@ interface Sign {
 }
 
 const SIGN_PX = 9.5;
-/** Two that say the same stand further apart than this, pixels. */
+/** Least distance of two equal signs, pixels. */
 const APART_PX = 64;
-/** So far into a lane, metres: past what it shares with the one before. */
+/** Distance into a lane, metres: past the part it shares with the one before. */
 const INTO_LANE_M = 20;
 
 const signs = new WeakMap<LaneMap, readonly Sign[]>();
@@ -68,7 +68,7 @@ function signsOf(map: LaneMap): readonly Sign[] {
 
 export const knowsLimits = (map: LaneMap): boolean => signsOf(map).length > 0;
 
-/** Round signs on the lanes; where many say the same, one. */
+/** Round signs on the lanes; one for several equal neighbours. */
 export function paintLimits(g: Pen, v: View, map: LaneMap, unit: SpeedUnit): void {
   if (v.z < 1.5) return;
   const c = colours();

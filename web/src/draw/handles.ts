@@ -1,5 +1,5 @@
-// The handles of a selected road user: ring, heading tiller behind, speed arrow ahead, goal flag. Filled is
-// fixed, hollow is free. Constant size on screen at every zoom.
+// Handles of a selected road user: ring, heading tiller behind, speed arrow ahead, goal flag. Filled is fixed, hollow
+// is free. Constant size on screen at every zoom.
 import type { Pen } from './pen';
 import type { OnLine, Pose, Vec } from '../model/base/geometry';
 import type { AgentType } from '../model/base/kinds';
@@ -21,7 +21,7 @@ export interface HandlePoints {
   nose: Vec;
 }
 
-/** Where the handles of a pose lie on screen. */
+/** Screen positions of a pose's handles. */
 export function handlePoints(v: View, a: Sized, p: Pose): HandlePoints {
   const [right, down] = v.ahead(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
@@ -67,7 +67,7 @@ export function paintHandles(g: Pen, labels: Labels, v: View, a: Sized, p: Pose,
   return h;
 }
 
-/** The speed arrow alone, without a handle to drag; gives its tip. */
+/** Only the speed arrow, without a handle; returns its tip. */
 export function paintSpeed(
   g: Pen,
   v: View,
@@ -75,7 +75,7 @@ export function paintSpeed(
   p: Pose,
   colour: string,
   free: boolean,
-  /** No longer than this, in pixels: in a crowd the way matters and the length would hide the next. */
+  /** Largest length, in pixels: in a crowd a long arrow would hide the next road user. */
   most = Infinity,
 ): Vec {
   const { nose, tip } = handlePoints(v, a, p);
@@ -166,7 +166,7 @@ function arrowHead(g: Pen, [x, y]: Vec, angle: number, s: HandleStyle, k: number
 
 export const FLAG_HEIGHT = 36;
 
-/** A flag with its foot at a place, so many times its plain size. */
+/** A flag with its foot at a place, scaled by a factor. */
 export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, free: boolean, k: number): void {
   const c = colours();
   g.save();
@@ -212,7 +212,7 @@ export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, f
   labels.block(x - 4 * k, top, 28 * k, FLAG_HEIGHT * k);
 }
 
-/** A dotted string with the hand at its end, in pixels. */
+/** A dotted line to the pointer, in pixels. */
 export function paintString(g: Pen, from: Vec, hand: Vec): void {
   const c = colours();
   const line = (colour: string, width: number, dash: number[]) => {
@@ -262,7 +262,7 @@ export function paintRing(
   g.restore();
 }
 
-/** A box in outline: goals, ghosts, "before". An arrow inside tells the front. */
+/** A box in outline: goals, ghosts, "before". An arrow inside marks the front. */
 export function paintGhost(
   g: Pen,
   v: View,

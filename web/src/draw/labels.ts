@@ -1,5 +1,5 @@
-// Labels on pills. Each takes the first free place around its object; those that find none are left out,
-// except the ones that must be read.
+// Labels on pills. Each takes the first free place around its object; without one it is omitted, unless it is
+// mandatory.
 import type { Pen } from './pen';
 import { clamp } from '../model/base/geometry';
 import { colours, font } from './theme';
@@ -13,10 +13,10 @@ export interface Rect {
 }
 export type Offset = readonly [number, number];
 
-/** Pixels of a cell of `Taken`. */
+/** Cell size of `Taken`, pixels. */
 const CELL = 64;
 
-/** Rectangles that many are held against: each looks at those near it alone. */
+/** Rectangles in a grid, so that a collision test visits only near ones. */
 export class Taken {
   private readonly cells = new Map<number, Rect[]>();
 
@@ -34,7 +34,7 @@ export class Taken {
     return Taken.each(r, (cell) => this.cells.get(cell)?.some((u) => meet(r, u)) ?? false);
   }
 
-  /** Goes through the cells of a rectangle until one will do. */
+  /** Visits the cells of a rectangle until `will` returns true. */
   private static each({ x, y, w, h }: Rect, will: (cell: number) => boolean): boolean {
     for (let i = Math.floor(x / CELL); i <= Math.floor((x + w) / CELL); i++)
       for (let k = Math.floor(y / CELL); k <= Math.floor((y + h) / CELL); k++) if (will(i * 4096 + k)) return true;
@@ -48,7 +48,7 @@ export class Labels {
   private used: Rect[] = [];
   private avoided: readonly Rect[] = [];
   private kept: Rect[] = [];
-  /** Pills that are painted when all are placed, so that no line to another lies over them. */
+  /** Pills that are painted after all are placed, so that no leader line covers them. */
   private held: (() => void)[] | null = null;
   private taken = NOTHING_TAKEN;
 
@@ -68,12 +68,12 @@ export class Labels {
     this.taken = NOTHING_TAKEN;
   }
 
-  /** Labels keep off all of it while there is any other place. */
+  /** Labels avoid all of it while another place is free. */
   keepOffAll(taken: Taken): void {
     this.taken = taken;
   }
 
-  /** Pills are painted when `release` is called, not before. */
+  /** Defers painting of pills until `release`. */
   hold(): void {
     this.held = [];
   }
@@ -84,18 +84,18 @@ export class Labels {
     for (const paint of all) paint();
   }
 
-  /** Paints a pill, now or above all that is painted meanwhile. */
+  /** Paints a pill now, or above everything painted meanwhile. */
   onTop(paint: () => void): void {
     if (this.held) this.held.push(paint);
     else paint();
   }
 
-  /** Labels keep off it while there is any other place. */
+  /** Labels avoid it while another place is free. */
   keepOff(r: Rect): void {
     this.kept.push(r);
   }
 
-  /** Is a point out of the picture? What belongs to it is not labelled then. */
+  /** Is a point outside the picture? Then it gets no label. */
   outside(x: number, y: number): boolean {
     return x < -8 || y < -8 || x > this.w + 8 || y > this.h + 8;
   }
@@ -104,7 +104,7 @@ export class Labels {
     this.used.push({ x, y, w, h });
   }
 
-  /** Keeps what is placed in `place` off other things too, which later labels may cover. */
+  /** Labels placed in `place` avoid further rectangles, which later labels may cover. */
   avoiding(rects: readonly Rect[], place: () => void): void {
     this.avoided = rects;
     place();
@@ -159,19 +159,19 @@ export interface PillStyle {
   must?: boolean;
 }
 
-/** What must be read takes any free place before it covers something else. */
+/** A mandatory label takes any free place before it covers another. */
 function places(w: number, h: number, s: PillStyle): readonly Offset[] {
   if (!s.tries) return around(w, h, s.radii ?? [24, 36, 52, 72, 96, 124]);
   return s.must === false ? s.tries : [...s.tries, ...around(w, h, [30, 44, 60, 80])];
 }
 
-/** Room of the sign before the words. */
+/** Space of the icon before the words. */
 const ICON_PX = 15;
 
 const widths = new Map<string, number>();
 let ruler: CanvasRenderingContext2D | null = null;
 
-/** How wide a text is in a font, pixels. */
+/** Width of a text in a font, pixels. */
 export function textWidth(f: string, text: string): number {
   const key = f + text;
   let w = widths.get(key);

@@ -1,4 +1,4 @@
-// What a picture says of itself where no editor is around it: how long a metre is, when it is, and where north is.
+// Legend of an exported picture: scale, time and north.
 import { seconds } from '../model/base/units';
 import { textWidth } from './labels';
 import type { Pen } from './pen';
@@ -9,7 +9,7 @@ import { TEXTS } from '../texts/scene/places';
 
 const [EDGE, HEIGHT, PAD, GAP, ARROW] = [12, 30, 12, 10, 16];
 
-/** Paints it into the lower left corner, in pixels of the view. */
+/** Paints it in the lower left corner, in pixels of the view. */
 export function paintLegend(g: Pen, v: View, time: number): void {
   const c = colours();
   const scale = scaleOf(v);

@@ -1,11 +1,11 @@
-// Small marks beside road users: the pennant at a goal, the lock of one that is not to be moved.
+// Small marks beside road users: the pennant at a goal, the lock of a locked one.
 import type { Pen } from './pen';
 import { roundRect } from './sprites';
 import type { Vec } from '../model/base/geometry';
 import { colours, type ColourName } from './theme';
 import type { View } from './view';
 
-/** Where a pennant stands on screen, and whose it is. */
+/** Screen position of a pennant, and its road user. */
 export interface Pennant {
   readonly id: string;
   readonly x: number;
@@ -76,7 +76,7 @@ export function paintLock(g: Pen, x: number, y: number): void {
   g.stroke();
 }
 
-/** A ring is never so small that it cannot be taken apart from the diamond in it, in pixels. */
+/** Least radius of a ring, so that it can be grabbed apart from the diamond in it, in pixels. */
 export const ringRadius = (v: View, metres: number): number => Math.max(metres * v.z, 16 * v.grip);
 
 /** A via point: a diamond, and the dashed ring of its tolerance around it. */

@@ -1,5 +1,5 @@
-// Small pictures of one scene that move: the map is painted once for all of them, road users as often as they are
-// wanted. They are painted on the page itself: some forty stamps each are less than it takes to send them.
+// Small animated pictures of one scene: the map is painted once for all of them, road users in each. They are painted
+// on the page itself: some forty stamps each cost less than a message to a worker.
 import type { Pen } from './pen';
 import { MapPicture } from './paint-map';
 import { Recording, Vocabulary } from './recording/recording';

@@ -18,7 +18,7 @@ interface Arrow {
   readonly ways: string;
 }
 
-/** Recorded maps know lanes but no road surface; wide bands close the gaps between neighbours. */
+/** Recorded maps have lanes but no road surface; wide bands close the gaps between neighbours. */
 const BAND_M = 5.2;
 
 export class MapPicture {
@@ -60,20 +60,20 @@ export class MapPicture {
       this.outlines.add(pts);
     } else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
     else {
-      // A lane that ends at the rim of the map is cut square; where lanes meet, round ends close the gap.
+      // A lane that ends at the map's edge is cut square; between lanes, round ends close the gap.
       const open = !lane.next.length || !lane.prev.length;
       layerOf(open ? this.openRoads : this.roads, this.bandOf(lane)).add(pts);
       this.outlines.add(pts);
     }
   }
 
-  /** Where the map knows its surface a lane adds no more than its own width, so that kerbs run smooth. */
+  /** If the map has its surface, a lane adds only its own width, so that kerbs stay smooth. */
   private bandOf(lane: Lane): number {
     if (this.map.drivable.length) return lane.width;
     return this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2);
   }
 
-  /** Across a junction a bike lane has no paint of its own; beside other lanes it keeps it. */
+  /** Inside a junction a bike lane is unpainted; beside other lanes it is painted. */
   private crossesTraffic(lane: Lane): boolean {
     for (let s = 1; s < lane.line.length; s += 2) {
       const p = pointAt(lane.line, s);
@@ -124,7 +124,7 @@ export class MapPicture {
     if (dash.length) g.setLineDash([]);
   }
 
-  /** Nobody draws pavements in a lane map; a broad band beside the carriageway stands for them. */
+  /** Lane maps have no pavements; a broad band beside the carriageway stands for them. */
   private paintSidewalk(g: Pen, box: Box, px: number): void {
     const c = colours();
     const wide = 3.4;
@@ -140,7 +140,7 @@ export class MapPicture {
 
   private paintSurface(g: Pen, box: Box, px: number): void {
     const c = colours();
-    // Without kerb lines in the map, the rim of a slightly wider band is the kerb.
+    // Without kerb lines in the map, the edge of a slightly wider band is the kerb.
     if (this.kerbs.empty) {
       const rim = Math.max(2.6 * px, 0.4);
       this.strokeBands(g, box, c['map-kerb'], rim);
@@ -191,7 +191,7 @@ export class MapPicture {
         style.includes('2') ? one * 3 : one,
         style.includes('-') ? [3, 4.5] : [],
       );
-      // A double line is a broad one with its middle painted back.
+      // A double line is a broad one with its middle painted over.
       if (style.includes('2')) this.strokeAll(g, layer, box, c['map-asphalt'], one);
     }
   }
@@ -217,7 +217,7 @@ export class MapPicture {
     g.globalAlpha = 1;
   }
 
-  /** True when the map itself has nothing to show. */
+  /** True when the map has nothing to show. */
   get empty(): boolean {
     return this.map.lanes.size === 0 && this.map.drivable.length === 0;
   }
@@ -270,7 +270,7 @@ function stripeOf(poly: readonly Vec[]): Stripe {
   return { a: at(u0), b: at(u1), width: v1 - v0 };
 }
 
-/** Turn arrows before a crossing, from where the lane's successors lead. */
+/** Turn arrows before a crossing, from the directions of the lane's successors. */
 function findArrows(map: LaneMap): Arrow[] {
   const out: Arrow[] = [];
   for (const lane of map.lanes.values()) {
@@ -305,7 +305,7 @@ function findArrows(map: LaneMap): Arrow[] {
   return out;
 }
 
-/** Arrows are painted where lanes must be told apart; a single lane carries none. */
+/** Only lanes with neighbours have arrows. */
 function hasNeighbour(map: LaneMap, lane: Lane): boolean {
   const p = pointAt(lane.line, lane.line.length - 6);
   return nearestLanes(map, p.x, p.y, p.heading, 5, (l) => l.kind === 'road' && l !== lane).some(

@@ -1,11 +1,11 @@
-// What painters draw with: the part of a 2D canvas that they need, and three things that a canvas elsewhere can keep.
+// The drawing interface of painters: the used part of a 2D canvas, and three operations that a remote canvas can cache.
 import type { Vec } from '../model/base/geometry';
 
-/** A path that stays the same over many pictures, in the coordinates of the scene. */
+/** A path reused over many frames, in scene coordinates. */
 export class Shape {
   /** x and y of all points, line after line. */
   readonly points: number[] = [];
-  /** Where each line ends in `points`; negative for one that is closed. */
+  /** End of each line in `points`; negative for a closed one. */
   readonly ends: number[] = [];
 
   add(line: readonly Vec[], closed: boolean): void {
@@ -16,9 +16,9 @@ export class Shape {
 
 /** A small picture that is painted once and stamped often. */
 export interface Sprite {
-  /** The same key is the same picture. */
+  /** Equal keys mean equal pictures. */
   readonly key: string;
-  /** In pixels of the device. */
+  /** In device pixels. */
   readonly width: number;
   readonly height: number;
   readonly paint: (pen: Pen) => void;
@@ -62,11 +62,11 @@ export interface Pen extends Pick<
   strokeShape(shape: Shape): void;
   fillShape(shape: Shape, rule: CanvasFillRule): void;
   stamp(sprite: Sprite, x: number, y: number, w: number, h: number): void;
-  /** Strokes are tiles of a sprite from here on, each `scale` times as large as its pixels. */
+  /** Makes strokes use tiles of a sprite, each `scale` times as large as its pixels. */
   strokeTiles(sprite: Sprite, scale: number): void;
 }
 
-/** What of a canvas recordings need. */
+/** The part of a canvas that recordings need. */
 export interface Played extends Omit<
   Pen,
   'stroke' | 'fill' | 'strokeStyle' | 'fillStyle' | 'strokeShape' | 'fillShape' | 'stamp' | 'strokeTiles'

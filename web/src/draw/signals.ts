@@ -31,13 +31,13 @@ export function paintSignals(g: Pen, v: View, scene: Scene, t: number): void {
     const entry = lane ? pointAt(lane.line, 0) : null;
     const at = s.stop ?? (entry ? ([entry.x, entry.y] as const) : null);
     if (!at || (lane && lane.kind === 'walk')) continue;
-    // Several turns leave from one stop line; one bar a lane is enough.
+    // Several turns share one stop line; one bar for each lane is enough.
     const key = `${Math.round(at[0] * 2)},${Math.round(at[1] * 2)}`;
     if (done.has(key)) continue;
     done.add(key);
     const light = stateAt(s, t);
     if (!lane) {
-      // A signal for people on foot, or one whose lane is not on the map: no direction, so a disc.
+      // A pedestrian signal, or one whose lane is not on the map: no direction, so a disc.
       disc(g, ...v.to(at[0], at[1]), Math.max(3.2, 0.4 * v.z), light, paint[light]);
       continue;
     }

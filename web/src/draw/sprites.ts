@@ -1,4 +1,4 @@
-// Road users as small pictures, painted once per kind, size and zoom step and then only stamped.
+// Road users as sprites, painted once for each kind, size and zoom step, and then stamped.
 import type { Pen, Sprite } from './pen';
 import type { Agent } from '../model/document/scene';
 import type { Kind } from '../model/base/kinds';
@@ -6,13 +6,13 @@ import type { OnLine } from '../model/base/geometry';
 import { colours, paletteStamp, type ColourName } from './theme';
 import type { View } from './view';
 
-/** Least size on screen in pixels at this zoom and closer: what is small stays visible. */
+/** Least size on screen in pixels at this zoom and closer, so that small ones stay visible. */
 const LEAST: Partial<Record<Kind, readonly [number, number]>> = {
   pedestrian: [11, 11],
   cyclist: [17, 8],
   motorcycle: [18, 8],
 };
-/** Further out all shrink together, so that nobody on foot looks larger than a car. */
+/** Further out all shrink together, so that no pedestrian looks larger than a car. */
 const LEAST_FROM_ZOOM = 8;
 const LEAST_OF_ALL = [5, 3.5] as const;
 
@@ -115,7 +115,7 @@ const rider = (g: Pen, L: number, W: number): void => {
   g.fillRect(L * 0.2, -W / 2, Math.max(1.4, L * 0.08), W);
 };
 
-/** What tells the front from the rear: head, handlebar, windscreen, cab. */
+/** Parts that distinguish front from rear: head, handlebar, windscreen, cab. */
 const PARTS: Record<Kind, (g: Pen, L: number, W: number) => void> = {
   pedestrian: (g, L, W) => disc(g, L * 0.17, 0, W * 0.2),
   cyclist: rider,

@@ -1,6 +1,6 @@
-// When what is painted: each of map, road users and overlay anew only when what it shows has changed, all inside one
-// animation frame. While the view moves, the finished map picture is shifted, scaled and turned; it is painted afresh
-// when the movement rests or when its margin is used up.
+// Schedules painting: map, road users and overlay are each repainted only after a change, within one animation frame.
+// While the view moves, the painted map is shifted, scaled and turned; it is repainted when the movement ends or its
+// margin is used up.
 import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './recording/easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
@@ -21,20 +21,20 @@ export class Stage {
   private readonly screen: Screen;
   private readonly painters: Partial<Record<LayerName, Painter>> = {};
   private readonly dirty = { map: true, agents: true, overlay: true };
-  /** The view that the map was painted for. */
+  /** The view of the painted map. */
   private painted: View | null = null;
   private shifted: Shift = IN_PLACE;
   private loupe: Loupe | null = null;
-  /** How wide the loupe is, in CSS pixels. */
+  /** Width of the loupe, in CSS pixels. */
   loupePx = 156;
   private frame = 0;
   private rest = 0;
-  /** A frame found the screen busy; it is made up for when a picture was shown. */
+  /** A frame was skipped because the screen was busy; it follows after the next shown picture. */
   private owed = false;
   private hurried = false;
-  /** Called when a panel, or a smaller window, has taken room from the picture; it looked as the view says. */
+  /** Called with the former view when a panel, or a smaller window, has taken room from the picture. */
   onSmaller: ((before: View) => void) | null = null;
-  /** Called when a sheet has come over a part of the picture; it looked as the view says. */
+  /** Called with the former view when a sheet has covered a part of the picture. */
   onCovered: ((before: View) => void) | null = null;
   /** Called once per frame before painting, for animation. */
   onFrame: ((now: number) => void) | null = null;
@@ -53,7 +53,7 @@ export class Stage {
     this.resize();
   }
 
-  /** `hear` is called whenever the view has changed, until what is given back is called. */
+  /** Calls `hear` after each change of the view, until the returned function is called. */
   watchView(hear: () => void): () => void {
     this.#watchers.add(hear);
     return () => void this.#watchers.delete(hear);
@@ -63,7 +63,7 @@ export class Stage {
     for (const hear of this.#watchers) hear();
   }
 
-  /** Nothing is shown any more. */
+  /** Stops painting. */
   close(): void {
     this.#size.disconnect();
     cancelAnimationFrame(this.frame);
@@ -75,7 +75,7 @@ export class Stage {
     this.painters[layer] = p;
   }
 
-  /** Paints layers of what is on screen on a canvas of somebody else's, so many times as fine. */
+  /** Paints layers of the screen on another canvas, with `scale` pixels for each CSS pixel. */
   paintOn(canvas: HTMLCanvasElement, layers: readonly LayerName[], scale = this.view.dpr): void {
     const v = this.view.copy();
     v.dpr = scale;
@@ -118,7 +118,7 @@ export class Stage {
     this.request();
   }
 
-  /** The same without a wait for the next frame: for news that come from elsewhere than the hand. */
+  /** The same without a wait for the next frame: for changes that do not come from input. */
   soon(...layers: LayerName[]): void {
     for (const l of layers) this.dirty[l] = true;
     if (this.hurried) return;
@@ -129,7 +129,7 @@ export class Stage {
     });
   }
 
-  /** The view moved: shift what is there now, repaint the map when it rests. */
+  /** The view moved: shifts the painted map, and repaints it when the movement ends. */
   viewChanged(): void {
     this.dirty.agents = this.dirty.overlay = true;
     clearTimeout(this.rest);
@@ -138,7 +138,7 @@ export class Stage {
     this.#viewMoved();
   }
 
-  /** The shape of the pointer over the picture; empty for the plain one. */
+  /** Sets the cursor over the picture; empty for the default one. */
   setCursor(name: string): void {
     const { dataset } = this.element;
     if ((dataset.cursor ?? '') === name) return;
@@ -146,7 +146,7 @@ export class Stage {
     else delete dataset.cursor;
   }
 
-  /** A loupe with a place in its middle stands in an upper corner, on the side away from it; null takes it away. */
+  /** A loupe centred on a place, in the upper corner away from it; null removes it. */
   magnify(place: Point | null): void {
     if (!place && !this.loupe) return;
     this.loupe = place && { ...place, px: this.loupePx };
@@ -173,9 +173,9 @@ export class Stage {
     this.paint();
   }
 
-  /** Shows what has changed. */
+  /** Paints what has changed. */
   private paint(): void {
-    // Else pictures would queue up, and each be later than the one before.
+    // Otherwise pictures would queue up, each later than the one before.
     this.owed = this.screen.busy;
     if (this.owed) return;
     const v = this.view;
@@ -205,7 +205,7 @@ export class Stage {
     return this.screen.record((pen) => this.painters.map?.(pen, v));
   }
 
-  /** Where the painted map lies under the present view; null when its margin does not reach. */
+  /** Position of the painted map under the current view; null when its margin is too small. */
   private shift(): Shift | null {
     const p = this.painted,
       v = this.view;

@@ -1,4 +1,4 @@
-// Lines on the map: every one has a halo, one dot per second, and a dash that says how sure it is.
+// Lines on the map: each has a halo, one dot per second, and a dash for its certainty.
 import type { Pen } from './pen';
 import { isValidAt, stretches, type Motion } from '../model/base/motion';
 import type { Futures } from '../model/document/futures';
@@ -20,7 +20,7 @@ export interface TrailStyle {
   cap?: CanvasLineCap;
 }
 
-/** Pixels by which a line may miss one of its points: nobody sees so little. */
+/** Deviation of a line from its points that is invisible, pixels. */
 export const UNSEEN_PX = 0.05;
 
 function tracePath(g: Pen, v: View, m: Motion, i0: number, i1: number): void {
@@ -75,7 +75,7 @@ function secondDots(g: Pen, v: View, m: Motion, s: TrailStyle, i0: number, i1: n
   }
 }
 
-/** A line through places of the world, to be stroked or filled. */
+/** A line through world points, to be stroked or filled. */
 export function traceLine(g: Pen, v: View, pts: readonly Vec[]): void {
   pts.forEach(([wx, wy], i) => {
     const x = v.x(wx, wy),
@@ -108,7 +108,7 @@ export function polyline(
   g.globalAlpha = 1;
 }
 
-/** Rank is strength: likely futures are darker and wider. */
+/** Rank as strength: likely futures are darker and wider. */
 export function modeStyle(p: number, max: number): { alpha: number; width: number } {
   const r = Math.sqrt(max > 0 ? p / max : 1);
   return { alpha: 0.35 + 0.65 * r, width: 1.5 + 2.5 * r };
@@ -120,13 +120,13 @@ export interface FuturesStyle {
   alpha?: number;
   outdated?: boolean;
   onlyChosen?: boolean;
-  /** They are drawn up to this time, seconds. */
+  /** End time of drawing, seconds. */
   until?: number;
-  /** What was said of each: kept ones at full strength, rejected ones dotted and pale. */
+  /** Verdict on each: kept ones at full strength, rejected ones dotted and pale. */
   said?: readonly ('keep' | 'reject' | null)[];
 }
 
-/** Dotted, then dashed, then solid: how settled the six are. */
+/** Dotted, then dashed, then solid: the refinement of the six. */
 function settledDash(f: Futures, outdated: boolean): number[] {
   if (f.sketch || outdated) return [2, 5];
   const left = f.steps - f.step;
@@ -169,7 +169,7 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
   }
 }
 
-/** F first, A over it, the chosen one on top; -1 where none is. */
+/** F first, A over it, the chosen one on top; -1 for none. */
 const drawOrder = (n: number, chosen: number): number[] =>
   [...Array(n).keys()]
     .filter((i) => i !== chosen)
@@ -196,7 +196,7 @@ const CHIP_TRIES: readonly Offset[] = [
   [42, 0],
   [-42, 0],
   [0, 44],
-  // Where many leave the picture at one place they stand in a column.
+  // Several that leave the picture at one place form a column.
   [0, -66],
   [0, 66],
   [22, -44],
@@ -205,14 +205,14 @@ const CHIP_TRIES: readonly Offset[] = [
   [0, 88],
 ];
 
-/** The end of a motion, or where it leaves the part of the picture that no panel covers. */
+/** The end of a motion, or where it leaves the uncovered part of the picture. */
 export function lastInView(v: View, m: Motion, until = Infinity): [number, number] | null {
   for (let i = Math.min(m.x.length - 1, Math.round(until * 10) - m.first); i >= 0; i--)
     if (v.isClear(m.x[i], m.y[i])) return v.to(m.x[i], m.y[i]);
   return null;
 }
 
-/** Letters at the ends of the futures; returns where they are, for clicks. */
+/** Letters at the ends of the futures; returns their positions, for clicks. */
 export function paintChips(
   g: Pen,
   labels: Labels,

@@ -1,9 +1,9 @@
-// A pen that writes what painters draw as SVG: the same picture, as lines and areas.
+// A pen that writes SVG: the same picture as vectors.
 import type { Pen, Shape, Sprite } from './pen';
 
 type Matrix = readonly [number, number, number, number, number, number];
 const IDENTITY: Matrix = [1, 0, 0, 1, 0, 0];
-/** Corners of the polygon that stands for a full circle. */
+/** Corners of the polygon for a full circle. */
 const ROUND = 40;
 
 const times = (m: Matrix, [a, b, c, d, e, f]: Matrix): Matrix => [
@@ -26,7 +26,7 @@ function fontOf(font: string): string {
   return `${weight ? ` font-weight="${weight.trim()}"` : ''} font-size="${size}" font-family="${escaped(family)}"`;
 }
 
-/** What `save` keeps. */
+/** State that `save` stores. */
 const initial = () => ({
   m: IDENTITY,
   strokeStyle: '#000',
@@ -46,7 +46,7 @@ type State = ReturnType<typeof initial>;
 const ANCHOR: Partial<Record<CanvasTextAlign, string>> = { center: 'middle', right: 'end', end: 'end' };
 
 export class SvgPen implements Pen {
-  // Shadows have no part in a drawing.
+  // Drawings have no shadows.
   shadowColor = '';
   shadowBlur = 0;
   shadowOffsetY = 0;
@@ -56,7 +56,7 @@ export class SvgPen implements Pen {
   #path = '';
   #last: readonly [number, number] | null = null;
 
-  /** `defs` takes what is drawn once and used often. */
+  /** `defs` collects drawings that are defined once and used often. */
   constructor(readonly defs: Map<string, { id: string; text: string }> = new Map()) {}
 
   take(): string {
@@ -253,7 +253,7 @@ export class SvgPen implements Pen {
     );
   }
 
-  // -------------------------------------------------------------- what is drawn often
+  // -------------------------------------------------------------- definitions
 
   #shapePath({ points, ends }: Shape): string {
     let d = '';
@@ -272,7 +272,7 @@ export class SvgPen implements Pen {
     this.#fillPath(this.#shapePath(shape), rule);
   }
 
-  /** The id of something that is defined once. */
+  /** The id of a drawing that is defined once. */
   #defined(key: string, write: (id: string, drawing: string) => string, sprite: Sprite): string {
     const known = this.defs.get(key);
     if (known) return known.id;

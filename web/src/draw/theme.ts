@@ -1,4 +1,4 @@
-// Colours come from the style sheet, so that canvas and panels never disagree. Read once per theme change.
+// Colours come from the style sheet, so that canvas and panels agree. Read once per theme change.
 
 const NAMES = [
   'surface',

@@ -1,4 +1,4 @@
-// Map geometry as shapes of about 64 m: a repaint strokes a few dozen paths instead of thousands.
+// Map geometry in tiles of about 64 m: a repaint strokes a few dozen paths instead of thousands.
 import { boxesMeet, emptyBox, growBox, type Box, type Vec } from '../model/base/geometry';
 import { Shape, type Pen } from './pen';
 
@@ -18,7 +18,7 @@ export class Layer {
     return this.tiles.size === 0;
   }
 
-  /** `along`: the line that it stays with, as a hole does with what it is in. */
+  /** `along`: the line whose tile it shares, as a hole with its area. */
   add(pts: readonly Vec[], closed = false, along: readonly Vec[] = pts): void {
     if (pts.length < 2) return;
     const mid = along[along.length >> 1];

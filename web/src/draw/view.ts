@@ -1,4 +1,4 @@
-// World to screen and back: one scale, one turn and one offset, known here alone. y points up in the world and down on
+// World to screen and back: one scale, one turn and one offset, known only here. y points up in the world and down on
 // the screen.
 import {
   boxOf,
@@ -17,7 +17,7 @@ const MIN_ZOOM = 0.5;
 const MAX_ZOOM = 40;
 /** 100 % in the zoom control. */
 export const HOME_ZOOM = 8;
-/** A turn by less than this is none, and a quarter turn is exact to it, radians. */
+/** A turn by less than this is zero, and a quarter turn is exact to it, radians. */
 const EXACT_RAD = 1e-9;
 
 export class View {
@@ -28,15 +28,15 @@ export class View {
   w = 800;
   h = 600;
   dpr = 1;
-  /** How large handles are drawn and how far apart they stand: 1, or more for fingers. */
+  /** Scale of handles and their distances: 1, or more for fingers. */
   grip = 1;
-  /** Part of the stage that panels cover, so that "fit" means the part one sees. */
+  /** Part of the stage covered by panels, so that "fit" uses the visible part. */
   inset = { left: 0, right: 0, top: 0, bottom: 0 };
   private turned = 0;
   private cos = 1;
   private sin = 0;
 
-  /** By how much the picture is turned counter-clockwise, radians: at 0 north is up. */
+  /** Turn of the picture, counter-clockwise, radians: at 0 north is up. */
   get turn(): number {
     return this.turned;
   }
@@ -45,7 +45,7 @@ export class View {
     const quarters = Math.round(t / (Math.PI / 2));
     const exact = Math.abs(t - (quarters * Math.PI) / 2) < EXACT_RAD;
     this.turned = exact && !quarters ? 0 : t;
-    // Both or none: else it would be no turn.
+    // Both or none, or the matrix would not be a rotation.
     this.cos = exact ? [1, 0, -1, 0][(quarters + 4) % 4] : Math.cos(t);
     this.sin = exact ? [0, 1, 0, -1][(quarters + 4) % 4] : Math.sin(t);
   }
@@ -64,47 +64,47 @@ export class View {
     return [this.cx + dx, this.cy + dy];
   }
 
-  /** How far a world point is from a place of the screen, pixels. */
+  /** Distance of a world point from a screen position, pixels. */
   away([wx, wy]: Vec, { x, y }: Point): number {
     return Math.hypot(this.x(wx, wy) - x, this.y(wx, wy) - y);
   }
 
-  /** So many pixels to the right and down, in metres of the world. */
+  /** Converts pixels right and down to metres of the world. */
   way(right: number, down: number): Vec {
     return this.along(right / this.z, -down / this.z);
   }
-  /** So many metres to the right and up on the screen, in metres of the world. */
+  /** Converts metres right and up on the screen to metres of the world. */
   along(right: number, up: number): Vec {
     return [right * this.cos + up * this.sin, up * this.cos - right * this.sin];
   }
-  /** The same for metres of the world: how far they lead to the right and up on the screen. */
+  /** Converts metres of the world to metres right and up on the screen. */
   across(dx: number, dy: number): Vec {
     return [dx * this.cos - dy * this.sin, dy * this.cos + dx * this.sin];
   }
 
-  /** Where a heading points on the screen: a way of length one, to the right and down. */
+  /** Screen direction of a heading: a unit vector, right and down. */
   ahead(heading: number): Vec {
     const angle = heading + this.turned;
     return [Math.cos(angle), -Math.sin(angle)];
   }
-  /** The same as an angle of the screen, which is clockwise. */
+  /** The same as a screen angle, which is clockwise. */
   angle(heading: number): number {
     return -(heading + this.turned);
   }
 
-  /** A pen draws from here on as seen by somebody who stands there: forward is to the right. */
+  /** Moves the pen's origin to a pose: forward is to the right. */
   stand(g: Pen, p: OnLine): void {
     g.translate(...this.to(p.x, p.y));
     g.rotate(this.angle(p.heading));
   }
-  /** A pen draws in metres of the world from here on. */
+  /** Makes the pen draw in metres of the world. */
   lay(g: Pen): void {
     const k = this.dpr * this.z;
     const [c, s] = [k * this.cos, k * this.sin];
     g.setTransform(c, -s, -s, -c, this.dpr * this.x(0, 0), this.dpr * this.y(0, 0));
   }
 
-  /** The upright world rectangle around what is on screen, grown by some pixels. */
+  /** The upright world rectangle around the visible part, grown by some pixels. */
   box(margin = 0): Box {
     const hx = (this.w / 2 + margin) / this.z,
       hy = (this.h / 2 + margin) / this.z;
@@ -113,13 +113,13 @@ export class View {
       y = hx * s + hy * c;
     return { x0: this.cx - x, x1: this.cx + x, y0: this.cy - y, y1: this.cy + y };
   }
-  /** The upright rectangle on the screen around a world rectangle, pixels. */
+  /** The upright screen rectangle around a world rectangle, pixels. */
   around(b: Box): Box {
     return boxOf(corners(b).map(([x, y]) => this.to(x, y)));
   }
   /**
-   * The rectangle that is upright on the screen and has two world points for corners: its world corners,
-   * counter-clockwise from the lower left.
+   * The rectangle that is upright on the screen, with two world points as corners: its world corners, counter-clockwise
+   * from the lower left.
    */
   frame(a: Vec, b: Vec): Quad {
     const [right, up] = this.across(b[0] - a[0], b[1] - a[1]);
@@ -131,14 +131,14 @@ export class View {
     const [u0, u1] = [Math.min(0, up), Math.max(0, up)];
     return [from(r0, u0), from(r1, u0), from(r1, u1), from(r0, u1)];
   }
-  /** Is a world point on screen, or no more than some pixels beyond it? */
+  /** Is a world point on screen, or at most this many pixels outside? */
   shows(wx: number, wy: number, margin = 0): boolean {
     const x = this.x(wx, wy),
       y = this.y(wx, wy);
     return x > -margin && x < this.w + margin && y > -margin && y < this.h + margin;
   }
 
-  /** Is a world point in the part that no panel covers, so many pixels away from its edge? */
+  /** Is a world point in the uncovered part, this many pixels away from its edge? */
   isClear(wx: number, wy: number, edge = 0): boolean {
     const { left, right, top, bottom } = this.inset;
     const x = this.x(wx, wy),
@@ -152,10 +152,10 @@ export class View {
     this.cy -= y;
   }
 
-  /** The same, but not so far that the picture shows more beyond a part of the world than it does; false at its end. */
+  /** The same, limited so that the picture shows no more beyond a part of the world than now; false at its end. */
   panWithin(dx: number, dy: number, b: Box): boolean {
     const { x0, x1, y0, y1 } = this.around(b);
-    // Only the side that comes into view is held, so that nothing jumps where it lies outside already.
+    // Only the side that comes into view is limited, so that a picture already outside does not jump.
     const held = (by: number, from: number, to: number, size: number): number =>
       by < 0 ? Math.max(by, Math.min(0, size - to)) : Math.min(by, Math.max(0, -from));
     const x = held(dx, x0, x1, this.w),
@@ -165,8 +165,8 @@ export class View {
   }
 
   /**
-   * Moves just as far as brings a rectangle of the screen into the part that no panel covers, so many pixels away from
-   * its edge; one that is too large for that moves nothing, and the answer is false.
+   * Moves just far enough to bring a screen rectangle into the uncovered part, this many pixels from its edge; false,
+   * without a move, for one that is too large.
    */
   panInto(b: Box, edge = 0): boolean {
     const { left, right, top, bottom } = this.inset;
@@ -203,7 +203,7 @@ export class View {
   fit(b: Box, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
     this.fitPlaces(corners(b), 0, maxZoom, minZoom);
   }
-  /** Puts places, and so many metres around them, into the visible part. */
+  /** Fits places, and this many metres around them, into the visible part. */
   fitPlaces(places: readonly Vec[], around: number, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
     const { left, right, top, bottom } = this.inset;
     const w = Math.max(80, this.w - left - right),
@@ -215,7 +215,7 @@ export class View {
     this.centre(...this.along((x0 + x1) / 2, (y0 + y1) / 2));
   }
 
-  /** Puts a world point into the middle of the visible part. */
+  /** Centres a world point in the visible part. */
   centre(wx: number, wy: number): void {
     const { left, right, top, bottom } = this.inset;
     const [dx, dy] = this.way((left - right) / 2, (top - bottom) / 2);
@@ -227,7 +227,7 @@ export class View {
     const { cx, cy, z, turn } = this;
     return { cx, cy, z, turn };
   }
-  /** Looks as a camera does; one that says nothing of a turn has north up. */
+  /** Sets the camera; without a turn north is up. */
   look({ cx, cy, z, turn = 0 }: Camera): void {
     Object.assign(this, { cx, cy, z, turn });
   }

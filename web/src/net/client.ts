@@ -1,5 +1,4 @@
-// Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
-// answer at all (`Away`).
+// Plain requests to the server. Every failure is one of two: a refusal (`Refused`), or no answer (`Away`).
 import { problemOf } from './problem';
 import { inWords } from './refusal';
 import type {
@@ -27,17 +26,17 @@ export class Refused extends Error {
   }
 }
 
-/** The version of a scene, however it travelled: compressed replies mark theirs. */
+/** The version of a scene, whatever the encoding: compressed replies add a suffix. */
 const etagOf = (reply: Response): string | null => reply.headers.get('etag')?.replace(/-gzip"$/, '"') ?? null;
 
-/** Gateway errors and "shutting down" mean the generator is away; "busy" is an answer, and passes. */
+/** Gateway errors and "shutting down" mean the generator is unreachable; "busy" is an answer, and temporary. */
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
 
-/** What comes with a file. */
+/** Companions of a file. */
 export interface Beside {
-  /** The network or map that it belongs to. */
+  /** Its network or map. */
   readonly net?: Blob;
-  /** What the columns of a table say. */
+  /** Meaning of a table's columns. */
   readonly columns?: Record<string, unknown>;
 }
 
@@ -47,7 +46,7 @@ export class Client {
     private readonly fetcher: typeof fetch = (...a) => fetch(...a),
   ) {}
 
-  /** The bare answer, whatever it says; `request` sorts out those that say no. */
+  /** The plain reply, whatever its status; `request` turns refusals into errors. */
   send(path: string, init?: RequestInit): Promise<Response> {
     return this.fetcher(this.base + path, init);
   }
@@ -83,7 +82,7 @@ export class Client {
     return { json: (await reply.json()) as SceneJson, etag: etagOf(reply) };
   }
 
-  /** What a small picture of a scene shows; the browser keeps it until the scene changes. */
+  /** Content of a scene's thumbnail; the browser caches it until the scene changes. */
   async preview(id: string): Promise<SceneJson> {
     return (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}/preview`)).json()) as SceneJson;
   }
@@ -112,7 +111,7 @@ export class Client {
     return { id: json?.id ?? at ?? '', etag: etagOf(reply) };
   }
 
-  /** A copy on the server under a name of its own. */
+  /** A copy on the server under a new name. */
   async duplicate(id: string, name: string): Promise<{ id: string }> {
     const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}/duplicate`, {
       method: 'POST',
@@ -149,7 +148,7 @@ export class Client {
     return (await reply.json()) as ImportReply;
   }
 
-  /** Reads a scene as a file is read, and stores nothing. */
+  /** Reads a scene like a file; nothing is stored. */
   async tryImport(scene: SceneJson): Promise<ImportReply> {
     const reply = await this.request('/v1/import?dry_run=true&format=dragtraffic', {
       method: 'POST',
@@ -169,7 +168,7 @@ export class Client {
     return (await reply.json()) as ScoreReply;
   }
 
-  /** Road users put on the lanes of a scene; nothing is stored. */
+  /** Places road users on the lanes of a scene; nothing is stored. */
   async place(body: unknown, signal?: AbortSignal): Promise<PlaceReply> {
     const reply = await this.request('/v1/place', {
       method: 'POST',
@@ -180,7 +179,7 @@ export class Client {
     return (await reply.json()) as PlaceReply;
   }
 
-  /** A map drawn from a template; nothing is stored. */
+  /** Draws a map from a template; nothing is stored. */
   async makeMap(template: TemplateName, parameters: Parameters | null): Promise<MapReply> {
     const reply = await this.request('/v1/map', {
       method: 'POST',
@@ -190,7 +189,7 @@ export class Client {
     return (await reply.json()) as MapReply;
   }
 
-  /** What files the server reads and writes; they are the same as long as it runs. */
+  /** File formats of the server; constant while it runs. */
   async formats(): Promise<readonly FormatInfo[]> {
     const reply = await this.request('/v1/info');
     return ((await reply.json()) as { formats: FormatInfo[] }).formats;
@@ -206,7 +205,7 @@ export class Client {
     return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
   }
 
-  /** Does anybody answer? A server that hangs takes the connection and says nothing, hence the limit. */
+  /** Does the server answer? A hanging server accepts the connection and sends nothing, hence the limit. */
   async answers(limit_ms = 3000): Promise<boolean> {
     try {
       await this.request('/healthz', { signal: AbortSignal.timeout(limit_ms), cache: 'no-store' });

@@ -1,4 +1,4 @@
-// Futures as the server sends them, compact, turned into those of a scene document.
+// Converts the server's compact futures to those of a scene document.
 import type { components } from '../model/base/api';
 import type { AgentFuturesJson } from '../model/document/scene-json';
 import type { DraftEvent, FinalEvent, GenerateEvent } from './types';
@@ -7,7 +7,7 @@ type Schemas = components['schemas'];
 type Sent = Schemas['FuturesDoc'];
 type CompactFuture = Schemas['CompactFuture'];
 
-/** An event with its futures in columns; the same numbers to the last digit, all in one block of memory. */
+/** An event with its futures in columns; numbers are equal to the last digit, all in one memory block. */
 export function expanded(e: Schemas['Event']): GenerateEvent {
   const all = (agents: Record<string, Sent>, to: Block): Record<string, AgentFuturesJson> =>
     Object.fromEntries(Object.entries(agents).map(([id, sent]) => [id, futures(sent, to)]));
@@ -18,7 +18,7 @@ export function expanded(e: Schemas['Event']): GenerateEvent {
   return { ...e, samples: e.samples.map((s) => ({ ...s, agents: all(s.agents, to) })) } as FinalEvent;
 }
 
-/** Room for all columns of an event: one block goes from thread to thread faster than a hundred small ones. */
+/** Memory for all columns of an event: one block passes between threads faster than a hundred small ones. */
 class Block {
   readonly #numbers: Float64Array;
   #used = 0;
@@ -32,7 +32,7 @@ class Block {
     this.#numbers = new Float64Array(count);
   }
 
-  /** The first number is a value, the second a change, each further one a change of the change. */
+  /** The first number is a value, the second a difference, each further one a difference of differences. */
   summed(numbers: ArrayLike<number>, perUnit: number): Float64Array {
     const out = this.#numbers.subarray(this.#used, (this.#used += numbers.length));
     for (let i = 0, value = 0, change = 0; i < numbers.length; i++) {

@@ -1,4 +1,4 @@
-// The generator behind the HTTP API: one request on the way, one waiting, the newest wins.
+// The generator behind the HTTP API: one request under way, one waiting, the newest wins.
 import type { SceneJson } from '../model/document/scene-json';
 import type { Client } from './client';
 import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
@@ -7,18 +7,20 @@ import type { ScoreReply } from './types';
 
 interface Running {
   question: Question;
-  /** When it was asked, milliseconds. */
+  /** Time of sending, milliseconds. */
   asked: number;
-  /** Does it name its scene? One that carries it keeps the server busy before it can be passed. */
+  /**
+   * Does it refer to its scene by name? One that contains the scene keeps the server busy before it can be overtaken.
+   */
   named: boolean;
   revision: number;
   abort: AbortController;
   drawn: boolean;
-  /** How long since something new came, signs of life apart. */
+  /** Time since the last result, keep-alive messages excluded. */
   idle: number;
 }
 
-/** When a silence is called slow, when it is looked into, and when it is taken for an absence in any case. */
+/** Limits of silence: called slow, probed, and taken for unreachable in any case. */
 export interface Patience {
   slow: number;
   look: number;
@@ -27,13 +29,15 @@ export interface Patience {
   alive: () => Promise<boolean>;
 }
 
-/** `lost` is longer than the time between two signs of life in a stream. */
+/** `lost` is longer than the time between two keep-alive messages of a stream. */
 const PATIENCE: Omit<Patience, 'alive'> = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
 
-/** The first that can be seen is on its way, it is taken, a little after the quickest of so many last ones came. */
+/**
+ * A first visible result is assumed to be under way after this multiple of the quickest of the last few, plus a margin.
+ */
 const SURELY = { of: 8, times: 1.25, more_ms: 2 };
 
-/** A server that is only busy says so within this time. */
+/** A busy server answers a probe within this time. */
 const PROBE_MS = 1500;
 
 const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
@@ -41,20 +45,20 @@ const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
 export class HttpGenerator implements Generator {
   private running: Running | null = null;
   private waiting: Question | null = null;
-  /** A question of a drag of which the first that can be seen is on its way while the next one is asked already. */
+  /** An overtaken drag question whose first visible result is under way. */
   private passed: Running | null = null;
-  /** How long that took with the last ones until it was heard of, milliseconds. */
+  /** Delays of the last first visible results, milliseconds. */
   private readonly firsts: number[] = [];
-  /** Was a question passed since something was drawn? */
+  /** Was a question overtaken since the last drawn result? */
   private guessed = false;
   private revision = 0;
-  /** Names this editor to the server, which lets a newer question of the same one overtake. */
+  /** Identifies this editor on the server, so that its newer questions overtake older ones. */
   private readonly name = `editor-${Math.random().toString(36).slice(2, 10)}`;
   private readonly patience: Patience;
   private readonly texts = new WeakMap<SceneJson, string>();
-  /** Scenes that the server has, by the names that it gave them: a drag brings its surroundings along once. */
+  /** Scenes that the server holds, by the names it gave: a drag sends its surroundings once. */
   private readonly held = new WeakMap<SceneJson, string>();
-  /** How long nobody has said anything, over questions that replaced each other. */
+  /** Duration of silence, across questions that replaced each other. */
   private silent = 0;
 
   constructor(
@@ -81,8 +85,8 @@ export class HttpGenerator implements Generator {
   }
 
   ask(ask: Question): void {
-    // While a preview has shown nothing yet it is left to finish its first guess: aborting it on every
-    // pointer move would mean that nothing is ever drawn during a drag.
+    // A preview without a visible result may finish its first draft: aborting it on every pointer move would leave a
+    // drag without any drawing.
     if (this.running && ask.preview && this.running.question.preview && !this.running.drawn) {
       this.waiting?.on.dropped?.();
       this.waiting = ask;
@@ -95,20 +99,20 @@ export class HttpGenerator implements Generator {
     void this.run(ask);
   }
 
-  /** Must something to be seen have left the server? Never twice in a row on a guess: something is to be drawn. */
+  /** Has a visible result surely left the server? Never assumed twice in a row: something must be drawn. */
   private isAnswered(r: Running): boolean {
     if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
     return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
   }
 
-  /** The next question overtakes one of which nothing was heard yet, and is heard of all the same. */
+  /** The next question overtakes one without a result so far, which is still read. */
   private pass(r: Running): void {
     this.passed = r;
     this.guessed = true;
     this.next();
   }
 
-  /** Something of a question was heard of that can be seen: a draft, or its answer where that was as quick. */
+  /** A first visible result arrived: a draft, or the answer where that was as quick. */
   private noteDrawn(r: Running, ms: number): void {
     this.guessed = false;
     if (!r.drawn && r.question.preview) {
@@ -121,13 +125,13 @@ export class HttpGenerator implements Generator {
   private forgetPassed(): void {
     const r = this.passed;
     this.passed = null;
-    // The guess was wrong: it was not on its way yet. Nothing is guessed for a while.
+    // The assumption was wrong: it was not under way yet. No assumptions for a while.
     if (r && !r.drawn) this.firsts.length = 0;
     r?.abort.abort();
     r?.question.on.dropped?.();
   }
 
-  /** Drops everything on the way. */
+  /** Cancels all questions under way. */
   cancel(): void {
     this.waiting?.on.dropped?.();
     this.waiting = null;
@@ -163,7 +167,7 @@ export class HttpGenerator implements Generator {
       me.named = name !== undefined;
       let answer = await this.post(name === undefined ? scene : { id: name }, me);
       if (answer.problem?.code === 'not-found' && 'scene' in scene && me.named) {
-        // The server has forgotten it, or is another one by now.
+        // The server has dropped it, or was restarted.
         this.held.delete(scene.scene);
         me.named = false;
         me.revision = ++this.revision;
@@ -205,8 +209,8 @@ export class HttpGenerator implements Generator {
   }
 
   /**
-   * Looks after a question while it is open. Time is counted in ticks, so that a computer that slept does not take
-   * its own absence for the generator's.
+   * Watches a question while it is open. Time is counted in ticks, so that a computer's sleep does not count as the
+   * generator's absence.
    */
   private watch(me: Running): () => void {
     const { slow, look, lost, tick, alive } = this.patience;
@@ -240,7 +244,7 @@ export class HttpGenerator implements Generator {
     me.question.on.away();
   }
 
-  /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
+  /** The queue is full for a moment: a preview is dropped, a change is sent again later. */
   private async later(ask: Question, me: Running, seconds: number): Promise<void> {
     if (ask.preview) {
       ask.on.dropped?.();
@@ -266,7 +270,7 @@ export class HttpGenerator implements Generator {
     return answer;
   }
 
-  /** A drag asks sixty times a second about the same surroundings; they are written once. */
+  /** A drag sends sixty requests a second with the same surroundings; they are serialised once. */
   private textOf(scene: SceneJson): string {
     const known = this.texts.get(scene);
     if (known !== undefined) return known;
@@ -284,19 +288,19 @@ export class HttpGenerator implements Generator {
       if (this.running !== me && this.passed !== me) return;
       this.silent = 0;
       if (e.event === 'heartbeat') continue;
-      // An answer to an older question is dropped without a flash.
+      // Events of an older question are dropped without a flash.
       if (e.revision !== undefined && e.revision !== me.revision) continue;
       const ms = this.now() - began;
       me.idle = 0;
       if (e.event === 'initial' || e.event === 'step') {
         const step = e.event === 'initial' ? 0 : (e.step ?? shown + 1);
-        // A later window begins with a first guess of its own.
+        // A later planning window begins with its own first draft.
         if (e.window < window || (e.window === window && step <= shown)) continue;
         window = e.window;
         shown = step;
         this.noteDrawn(me, ms);
         on.draft(e, step, e.steps, ms);
-        // Of two on their way the older one has shown what it is for, or comes too late for it.
+        // Of two under way, the older one has shown its result, or is too late for it.
         this.forgetPassed();
         if (this.running !== me) return;
         if (this.waiting) {

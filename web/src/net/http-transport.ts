@@ -1,4 +1,4 @@
-// One question to the generator and what comes back: a refusal, or events one after the other.
+// One question to the generator and its answer: a refusal, or a sequence of events.
 import { problemOf } from './problem';
 import type { Client } from './client';
 import { readEvents, type Together } from './stream';
@@ -6,28 +6,28 @@ import type { GenerateEvent, Problem } from './types';
 
 export interface Head {
   readonly status: number;
-  /** When a server that is busy wants to be asked again, seconds; null where it says nothing. */
+  /** Time until a busy server accepts a retry, seconds; null where unknown. */
   readonly retryAfter_s: number | null;
-  /** Under what name the server holds the scene that came with the question. */
+  /** The server's name for the scene that came with the question. */
   readonly held?: string | undefined;
   /** Why there are no events; null where there are. */
   readonly problem: Problem | null;
 }
 
 export interface Answer extends Head {
-  /** To be read once. Who leaves early ends the work of the server, too. */
+  /** To be read once. Leaving the loop early ends the server's work too. */
   readonly events: AsyncIterable<GenerateEvent>;
 }
 
 /** Sends a request. */
 export type Sender = Pick<Client, 'send'>;
 
-/** Puts a question, given as the body of its request. A signal that aborts fails what is on its way. */
+/** Sends a question, given as a request body. The abort signal makes it fail. */
 export type Transport = (body: string, signal: AbortSignal) => Promise<Answer>;
 
 async function* none(): AsyncGenerator<Together> {}
 
-/** The line of the thread that it is made in. */
+/** The transport on the current thread. */
 export function httpTransport(sender: Sender): Transport {
   const ask = askHere(sender);
   return async (body, signal) => {
@@ -40,7 +40,7 @@ async function* oneByOne(pieces: AsyncIterable<Together>): AsyncGenerator<Genera
   for await (const events of pieces) yield* events;
 }
 
-/** The same, with what came together in one. */
+/** The same, with events that arrived together in one group. */
 export function askHere(sender: Sender) {
   return async (body: string, signal: AbortSignal): Promise<Head & { pieces: AsyncIterable<Together> }> => {
     const reply = await sender.send('/v1/generate', {

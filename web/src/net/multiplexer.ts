@@ -1,8 +1,8 @@
-// Questions that are open on a line which carries several at once, told apart by numbers.
+// Open questions on a connection that carries several at once, distinguished by numbers.
 import type { Head } from './http-transport';
 import { faultOf } from './problem';
 
-/** A question on its way: whoever waits for its head, and what has come and was not read yet. */
+/** An open question: the promise of its head, and the pieces not read yet. */
 class Question<Piece> {
   head!: (h: Head) => void;
   fail!: (e: unknown) => void;
@@ -12,7 +12,7 @@ class Question<Piece> {
   });
   readonly #come: Piece[] = [];
   #over: { readonly error: unknown } | null = null;
-  /** Its head was heard. */
+  /** Its head has arrived. */
   isAnswered = false;
   #wake: (() => void) | null = null;
 
@@ -21,7 +21,7 @@ class Question<Piece> {
     this.#wake?.();
   }
 
-  /** Nothing more comes; with an error what came is not all. */
+  /** No further pieces; with an error the answer is incomplete. */
   end(error: unknown = null): void {
     this.#over ??= { error };
     if (error) this.fail(error);
@@ -42,7 +42,7 @@ class Question<Piece> {
   }
 }
 
-/** How a line says that a question is put, and that it is given up. */
+/** How a connection sends a question, and cancels it. */
 export interface Saying {
   ask(id: number, body: string): void;
   end(id: number): void;
@@ -52,12 +52,12 @@ export class Multiplexer<Piece> {
   #count = 0;
   readonly #open = new Map<number, Question<Piece>>();
 
-  /** How many are open. */
+  /** Number of open questions. */
   get size(): number {
     return this.#open.size;
   }
 
-  /** Puts a question; it is given up when the signal aborts, and when its reader leaves early. */
+  /** Sends a question; it is cancelled when the signal aborts, and when its reader leaves early. */
   async put(body: string, signal: AbortSignal, say: Saying): Promise<Head & { pieces: AsyncIterable<Piece> }> {
     signal.throwIfAborted();
     const id = ++this.#count;
@@ -77,12 +77,12 @@ export class Multiplexer<Piece> {
     return { ...head, pieces: question.pieces(leave) };
   }
 
-  /** The head comes with the first pieces. What nobody waits for any more is dropped. */
+  /** The head comes with the first pieces. Pieces of a cancelled question are dropped. */
   hear(id: number, head: Head | null, pieces: readonly Piece[], last: boolean): void {
     const question = this.#open.get(id);
     if (!question) return;
     if (last) this.#open.delete(id);
-    // A second head says why the answer breaks off.
+    // A second head gives the reason why the answer stops.
     const broken = question.isAnswered && head?.problem ? new Error(faultOf(head.problem)) : null;
     if (head) question.head(head);
     question.isAnswered ||= head !== null;
@@ -96,7 +96,7 @@ export class Multiplexer<Piece> {
     question?.end(error);
   }
 
-  /** The line is gone. */
+  /** The connection is lost. */
   lose(error: Error): void {
     const lost = [...this.#open.values()];
     this.#open.clear();

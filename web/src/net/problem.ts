@@ -1,10 +1,10 @@
-// Why the server says no, as it comes over the wire.
+// The problem document of a refusal.
 import type { Problem } from './types';
 
 export const problemOf = async (reply: Response): Promise<Problem> =>
   problemIn(await reply.text().catch(() => ''), reply.status, reply.statusText);
 
-/** What a refusal says, where it says anything. */
+/** The problem in a refusal's body, or one made from its status. */
 export function problemIn(text: string, status: number, title = ''): Problem {
   const fallback: Problem = { code: `http-${status}`, title: title || 'Refused', status };
   try {
@@ -15,5 +15,5 @@ export function problemIn(text: string, status: number, title = ''): Problem {
   }
 }
 
-/** The first fault found, in the server's own words. */
+/** The first fault, in the server's own words. */
 export const faultOf = (p: Problem): string => p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title ?? p.code;

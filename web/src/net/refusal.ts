@@ -1,4 +1,4 @@
-// What a refusal says to people.
+// Text of a refusal.
 import type { Message } from '../model/document/message';
 import { messageText } from '../model/words/message-text';
 import { change } from '../texts/language';

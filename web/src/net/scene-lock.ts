@@ -1,24 +1,24 @@
-// Tabs of one browser take turns at a scene: one holds it, the others wait in line. Who waits may ask for it; the
-// holder then finishes its writing and lets go. A tab that is closed or killed lets go by itself.
+// Locks a scene among tabs of one browser: one tab holds the lock, the others wait. A waiting tab may ask for it; the
+// holder then finishes writing and releases it. A closed or killed tab releases it automatically.
 
 interface Word {
   readonly kind: 'ask' | 'changed';
   readonly scene: string;
 }
 
-/** So long a holder may take to finish; then it is taken for dead. */
+/** Time for a holder to finish; after it the lock is stolen. */
 const PATIENCE_MS = 4000;
 
 const nameOf = (scene: string): string => `dragtraffic:scene:${scene}`;
 
 export interface TurnEvents {
-  /** It is this tab's turn: after it had to wait, or at once. */
+  /** This tab holds the lock now: after a wait, or at once. */
   got(scene: string): void;
-  /** Another tab wants it: what is not written yet is to be written now. */
+  /** Another tab asks for it: pending writes must finish now. */
   leaving(scene: string): Promise<void>;
-  /** It is another tab's turn. */
+  /** Another tab holds it now. */
   lost(scene: string): void;
-  /** The holder has changed it. */
+  /** The holder has changed the scene. */
   changed(scene: string): void;
 }
 
@@ -29,7 +29,7 @@ export class SceneTurns {
   #holds = false;
   #waiting: AbortController | null = null;
   #letGo: (() => void) | null = null;
-  /** Scenes that were gone over from and are held yet, each with what releases it. */
+  /** Former scenes with a lock still held, each with its release function. */
   readonly #before = new Map<string, () => void>();
 
   constructor(
@@ -44,12 +44,12 @@ export class SceneTurns {
     channel?.addEventListener('message', (e) => void this.#heard((e as MessageEvent<Word>).data));
   }
 
-  /** Is it this tab's turn? Without locks every tab has a turn. */
+  /** Does this tab hold the lock? Without lock support every tab does. */
   get holds(): boolean {
     return this.#holds || !this.#locks;
   }
 
-  /** Goes over to a scene; true when it is this tab's turn at once. The one before stays held until `left`. */
+  /** Switches to a scene; true when this tab holds its lock at once. The former one stays locked until `left`. */
   async goTo(scene: string): Promise<boolean> {
     if (scene === this.#scene) return this.holds;
     this.#waiting?.abort();
@@ -65,7 +65,7 @@ export class SceneTurns {
     return free;
   }
 
-  /** Nothing of the scenes before this one is open any more: other tabs may have them. */
+  /** Releases the locks of all former scenes for other tabs. */
   left(): void {
     for (const letGo of this.#before.values()) letGo();
     this.#before.clear();
@@ -81,7 +81,7 @@ export class SceneTurns {
     this.left();
   }
 
-  /** Asks the holder for it. One that does not let go in time has hung, and is passed over. */
+  /** Asks the holder to release it. A holder that does not release in time is hung, and the lock is stolen. */
   takeOver(): void {
     const scene = this.#scene;
     if (!scene || this.#holds) return;
@@ -93,18 +93,18 @@ export class SceneTurns {
     }, PATIENCE_MS);
   }
 
-  /** Says that the scene was changed, to those who look at it. */
+  /** Notifies tabs that show the scene of a change. */
   tellChanged(): void {
     if (this.#scene && this.#holds) this.#channel?.postMessage({ kind: 'changed', scene: this.#scene } satisfies Word);
   }
 
-  /** Waits in line. */
+  /** Waits for the lock. */
   #queue(scene: string): void {
     this.#waiting = new AbortController();
     void this.#request(scene, { signal: this.#waiting.signal }, true);
   }
 
-  /** True once the lock is held; it stays so until `#letGo`. */
+  /** True once the lock is held, which lasts until `#letGo`. */
   #request(scene: string, options: LockOptions, tell = false): Promise<boolean> {
     return new Promise((resolve) => {
       let granted = false;
@@ -122,7 +122,7 @@ export class SceneTurns {
         return until;
       };
       this.#locks!.request(nameOf(scene), options, held).catch(() => {
-        // Given up, or taken away by a tab that lost its patience.
+        // Released, or stolen by a tab after its timeout.
         if (granted && this.#holds && this.#scene === scene) this.#lose(scene);
         resolve(false);
       });

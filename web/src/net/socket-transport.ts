@@ -1,5 +1,5 @@
-// Questions over a connection that stays open: a request of its own costs the browser three times the work, sixty
-// times a second. Where there is no such connection, or none yet, questions go as requests.
+// Questions over a persistent connection: separate requests cost the browser three times the work, sixty times a
+// second. Without such a connection, questions go as requests.
 import { askHere, type Head, type Sender } from './http-transport';
 import { problemIn } from './problem';
 import { Multiplexer } from './multiplexer';
@@ -7,15 +7,15 @@ import { eventsOf, type Together } from './stream';
 
 type Ask = ReturnType<typeof askHere>;
 
-/** Longer questions go as requests: a message is bounded more tightly than a body. */
+/** Longer questions go as requests: messages have a lower size limit than bodies. */
 const MOST_CHARACTERS = 100_000;
-/** More questions at once go as requests: over the line they would wait for each other. */
+/** Further simultaneous questions go as requests: on the connection they would wait for each other. */
 const MOST_AT_ONCE = 6;
-/** A connection that could not be had is tried again after so long, milliseconds, then after twice as long. */
+/** Delay before the first reconnection, milliseconds; each further one doubles it. */
 const AGAIN_MS = 500;
 const AGAIN_MOST_MS = 60_000;
 
-/** What the server says of a question, on the first line of a message. */
+/** The server's header of an answer, on the first line of a message. */
 interface Told {
   readonly ask: number;
   readonly status?: number;
@@ -24,17 +24,17 @@ interface Told {
   readonly last?: true;
 }
 
-/** The connection ended before anything was heard. */
+/** The connection ended before any answer. */
 class Lost extends Error {}
 
 export class SocketTransport {
   #socket: WebSocket | null = null;
-  /** When a connection may be tried again, and how long after the next try. */
+  /** Earliest time of the next connection attempt, and the delay after it. */
   #next = { at: -Infinity, after: AGAIN_MS };
   readonly #questions = new Multiplexer<Together>();
   readonly #request: Ask;
 
-  /** The connection is opened at once, before anybody asks. */
+  /** Opens the connection at once, before the first question. */
   constructor(
     sender: Sender,
     private readonly connect: () => WebSocket | null,
@@ -61,7 +61,7 @@ export class SocketTransport {
     }
   };
 
-  /** The connection, if it is open; else one is begun when it is time. */
+  /** The connection, if open; else starts one when it is due. */
   #connected(): WebSocket | null {
     if (this.#socket) return this.#socket.readyState === this.#socket.OPEN ? this.#socket : null;
     const now = this.now();
@@ -75,7 +75,7 @@ export class SocketTransport {
       try {
         this.#hear(data);
       } catch {
-        // Whoever this is, it is no line of ours.
+        // The other end does not speak this protocol.
         socket.close();
       }
     };
@@ -96,14 +96,14 @@ export class SocketTransport {
   }
 }
 
-/** A refusal comes whole. */
+/** A refusal arrives complete. */
 function headOf({ status, retry_after_s, scene }: Told, rest: string): Head | null {
   if (status === undefined) return null;
   const problem = status >= 400 ? problemIn(rest, status) : null;
   return { status, retryAfter_s: retry_after_s ?? null, held: scene, problem };
 }
 
-/** A connection with the server that a script came from. */
+/** A connection to the server that a script came from. */
 export function connection(script: string): WebSocket | null {
   if (typeof WebSocket === 'undefined') return null;
   const address = new URL('/v1/generate', script);

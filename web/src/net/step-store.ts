@@ -1,24 +1,24 @@
-// What was done in which scene, kept on this computer: one entry a step, added as it is done, and beside them where
-// one is among them, the document before the first, and what everybody does where one is.
+// History of scenes on this computer: one entry for each step, written as it is made; plus the current step, the
+// document before the first, and the motions of all at the current step.
 import type { GeneratedJson } from '../model/document/scene-json';
 import type { DocumentRef, HistoryStep, KeptHistory } from '../model/document/history';
 import type { SceneState } from '../model/document/scene-diff';
 
-/** The document that a version on the server is known to equal. */
+/** The document known to equal a version on the server. */
 export interface Synced extends DocumentRef {
   readonly etag: string;
 }
 
 export interface Place extends Omit<KeptHistory, 'steps'> {
   readonly scene: string;
-  /** When it was last written, milliseconds since 1970. */
+  /** Time of the last write, milliseconds since 1970. */
   readonly at: number;
   readonly synced: Synced | null;
-  /** Digests of the versions that were sent to the server after that one. */
+  /** Digests of the versions sent to the server after that one. */
   readonly sent?: readonly string[];
 }
 
-/** What all road users did in a document. */
+/** Motions of all road users in a document. */
 export interface KeptAnswers extends DocumentRef {
   readonly generated: GeneratedJson;
 }
@@ -33,18 +33,18 @@ export interface KeptScene {
 
 export interface StepStore {
   read(scene: string): Promise<KeptScene | null>;
-  /** A step more, or none, and where one is now. */
+  /** Adds a step, or none, and updates the current one. */
   append(place: Place, step: HistoryStep | null): Promise<void>;
-  /** Changes the place of a scene where it has one, with nothing written between the reading and the writing. */
+  /** Changes the place of a scene where it has one, as one transaction. */
   update(scene: string, change: (place: Place) => Place): Promise<void>;
-  /** All of it anew, but for the answers. */
+  /** Writes everything again, except the answers. */
   rewrite(kept: Omit<KeptScene, 'answers'>): Promise<void>;
   keepAnswers(scene: string, answers: KeptAnswers | null): Promise<void>;
   forget(scene: string): Promise<void>;
   places(): Promise<Place[]>;
 }
 
-/** There is no room left, as opposed to storage that is forbidden. */
+/** Storage is full, as opposed to forbidden. */
 export const isFull = (e: unknown): boolean => e instanceof DOMException && e.name === 'QuotaExceededError';
 
 const NAME = 'dragtraffic';
@@ -75,7 +75,7 @@ export class BrowserStepStore implements StepStore {
         db.createObjectStore(ANSWERS);
       };
       request.onsuccess = () => {
-        // A newer program in another tab may change the shape: this one lets go and opens anew when it is asked.
+        // A newer version in another tab may change the schema: this connection closes and reopens on demand.
         request.result.onversionchange = () => request.result.close();
         request.result.onclose = () => (this.#opening = null);
         resolve(request.result);
@@ -159,7 +159,7 @@ export class BrowserStepStore implements StepStore {
   }
 }
 
-/** Numbers lie before lists in the order of keys. */
+/** In key order numbers precede lists. */
 const stepsOf = (scene: string): IDBKeyRange => IDBKeyRange.bound([scene], [scene, []]);
 
 const got = <T>(request: IDBRequest): Promise<T> =>
@@ -168,7 +168,7 @@ const got = <T>(request: IDBRequest): Promise<T> =>
     request.onerror = () => reject(request.error ?? new Error('not read'));
   });
 
-/** Where the page has no storage, and in tests: kept as long as the page is open. */
+/** For pages without storage, and for tests: kept while the page is open. */
 export class PassingStepStore implements StepStore {
   readonly #kept = new Map<string, KeptScene>();
 

@@ -1,5 +1,5 @@
-// Small things kept on this computer: unsaved edits of example scenes, and settings. Storage may be full or
-// forbidden; then the editor goes on without.
+// Small values on this computer: unsaved edits of example scenes, and settings. If storage is full or forbidden, the
+// editor works without it.
 
 const PREFIX = 'dragtraffic:';
 
@@ -25,6 +25,6 @@ export function forget(key: string): void {
   try {
     localStorage.removeItem(PREFIX + key);
   } catch {
-    // Nothing to do: what cannot be written cannot be there.
+    // Nothing to remove: unwritable storage is empty.
   }
 }

@@ -1,8 +1,8 @@
-// Reads a fetch body as newline-delimited JSON. EventSource cannot POST, so the stream is read by hand.
+// Reads a fetch body as newline-delimited JSON. EventSource cannot POST, so the stream is parsed here.
 import type { GenerateEvent } from './types';
 import { expanded } from './compact';
 
-/** What came together: events that end in the same piece of a body. */
+/** Events that end in the same chunk of a body. */
 export type Together = readonly GenerateEvent[];
 
 export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenerator<Together> {
@@ -25,7 +25,7 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
   }
 }
 
-/** The events of whole lines. */
+/** The events of complete lines. */
 export function eventsOf(text: string): Together {
   const lines = text.split('\n').map((line) => line.trim());
   return lines.filter(Boolean).map(parse);

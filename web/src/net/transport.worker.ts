@@ -1,19 +1,19 @@
-// Runs in a worker: asks the generator, reads and unpacks what it streams, and hands it over. What came together goes
-// in one message: each costs the page a task, sixty times a second.
+// Runs in a worker: sends questions to the generator, reads and unpacks the stream, and passes it on. Events that
+// arrive together go in one message: each message costs the page a task, sixty times a second.
 import type { Head } from './http-transport';
 import { connection, SocketTransport } from './socket-transport';
 import type { Together } from './stream';
 import type { GenerateEvent } from './types';
 
-/** A question by a number of its own; or the end of one. */
+/** A question with a number; or its cancellation. */
 export type ToWorker = { readonly id: number; readonly body: string } | { readonly end: number };
-/** The head comes with the first events; the last says that it is, or is a failure, unless the page has ended it. */
+/** The head comes with the first events; the last message is marked, or is a failure, unless the page has ended it. */
 export type FromWorker = { readonly id: number } & (
   { readonly head: Head | null; readonly events: Together; readonly last: boolean } | Failed
 );
 type Failed = { readonly failed: string };
 
-/** Nothing follows these. */
+/** The last event of an answer. */
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
 const line = new SocketTransport({ send: (path, init) => fetch(path, init) }, () => connection(self.location.href));

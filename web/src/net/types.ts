@@ -1,5 +1,5 @@
-// The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
-// nothing here is private.
+// The API as the editor uses it: names for parts of the generated types. The editor uses no private API, so a script
+// can do the same.
 import type { components } from '../model/base/api';
 import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/document/scene-json';
 
@@ -7,19 +7,19 @@ type Schemas = components['schemas'];
 
 export type SceneListItem = Schemas['SceneItem'];
 export type SceneList = Schemas['SceneList'];
-/** Road users in the shape of a document. */
+/** Road users in document form. */
 export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };
 export type ImportReply = Schemas['ImportReply'];
 export type ImportWarning = Schemas['ImportWarning'];
 export type FormatInfo = Schemas['FormatInfo'];
 
-/** A refusal. An answer that came without a problem document has its status as its code, and a title. */
+/** A refusal. A reply without a problem document has its status as its code, and a title. */
 export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
   code: Schemas['Problem']['code'] | `http-${number}`;
   title: string;
 };
 
-/** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
+/** Body of POST /v1/generate, without the scene: that part is large and kept as serialised text. */
 export type GenerateOptions = Pick<
   Schemas['GenerateRequest'],
   | 'background'
@@ -40,7 +40,7 @@ export type GenerateOptions = Pick<
     >
   >;
 
-/** Events as the editor reads them: futures in columns, however they were sent. */
+/** Events as the editor reads them: futures in columns, whatever the encoding. */
 type InColumns<T> = Omit<T, 'agents'> & { agents: Record<string, AgentFuturesJson> };
 
 export type DraftEvent = InColumns<Schemas['DraftEvent']>;
@@ -55,7 +55,7 @@ export type ScoreReply = Schemas['ScoreReply'];
 
 export type TemplateName = Schemas['Template'];
 export type MapReply = Schemas['MapReply'];
-/** A template with its parameters, as the server says them: nothing is left out. */
+/** A template with its parameters, completed by the server. */
 export type Layout = MapReply['layout'];
 export type Arm = Required<Omit<Schemas['Arm'], 'turns'>> & { turns: Schemas['Arm']['turns'] };
 /** Parameters of any template: each has some of them. */

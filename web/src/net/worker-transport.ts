@@ -1,18 +1,18 @@
-// The line to the generator in a worker, so that a drag never waits for a request or for the reading of an answer.
+// The connection to the generator in a worker, so that a drag never waits for a request or for parsing an answer.
 import type { Client } from './client';
 import type { Transport } from './http-transport';
 import type { FromWorker, ToWorker } from './transport.worker';
 import { Multiplexer } from './multiplexer';
 import type { GenerateEvent } from './types';
 
-/** A worker that cannot be had, or that ended. */
+/** The worker is unavailable, or has ended. */
 class NoWorker extends Error {}
 
 export class WorkerTransport {
   #worker: Worker | null = null;
   readonly #questions = new Multiplexer<GenerateEvent>();
 
-  /** The worker starts at once, before anybody asks. */
+  /** Starts the worker at once, before the first question. */
   constructor(private readonly client: Client) {
     this.#worker = this.#start();
   }

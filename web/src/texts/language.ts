@@ -1,15 +1,15 @@
-// The language of the page: the one that was chosen in the menu, else the browser's.
-// It is known before any word is said: the tables wait for it, and the page is loaded anew when another one is chosen.
+// The language of the page: the one chosen in the menu, else the browser's. It is known before any text is read: the
+// tables wait for it, and a change reloads the page.
 import type { Words } from './words';
 import type { Taps } from './tapping';
 
-/** What people choose from. The words of English stand in the tables themselves. */
+/** Languages in the menu. English texts are in the tables themselves. */
 export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const;
 export type LanguageName = keyof typeof LANGUAGES;
 
 const KEY = 'dragtraffic:language';
 
-/** Marks every text, for tests: what is not marked stands in no table. */
+/** Marks every text, for tests: an unmarked text is in no table. */
 const MARKED = 'qps';
 
 function kept(): string | null {
@@ -17,14 +17,14 @@ function kept(): string | null {
     const text = localStorage.getItem(KEY);
     return text === null ? null : (JSON.parse(text) as string);
   } catch {
-    // No storage, as in a worker, or none that may be read.
+    // Storage is missing, as in a worker, or forbidden.
     return null;
   }
 }
 
 const isOffered = (name: string): name is LanguageName => name in LANGUAGES;
 
-/** The language of one who has `chosen` it, or nothing yet, in a browser that prefers these, the first one most. */
+/** The language after a choice, or without one, for a browser with these preferences, the first one strongest. */
 export function languageFor(chosen: string | null, preferred: readonly string[]): LanguageName {
   if (chosen !== null && isOffered(chosen)) return chosen;
   for (const tag of preferred) {
@@ -38,25 +38,25 @@ const chosen = kept();
 
 export const LANGUAGE = languageFor(chosen, typeof navigator === 'undefined' ? [] : (navigator.languages ?? []));
 
-/** How dates are written; in English as the browser has it, which knows whether the day or the month comes first. */
+/** Format of dates; in English the browser's, since it depends on the country whether day or month comes first. */
 export const LOCALE = LANGUAGE === 'en' ? undefined : LANGUAGE;
 
-/** The forms that a text has by a number; a language that needs more of them has them in its own table. */
+/** Forms of a text by number; a language with more of them has them in its own table. */
 export type Forms = Readonly<Partial<Record<Intl.LDMLPluralRule, string>> & { other: string }>;
 
 const rules = new Intl.PluralRules(LANGUAGE);
 
-/** The form for so many, as this language counts. */
+/** The form for a number, by the rules of this language. */
 export const plural = (n: number, forms: Forms): string => forms[rules.select(n)] ?? forms.other;
 
-/** A title within a sentence: small letters where the language writes it so; German nouns keep their capitals. */
+/** A title within a sentence: in lower case where the language does so; German nouns keep their capitals. */
 export const inSentence = (title: string): string =>
   LANGUAGE === 'de' ? title : title.charAt(0).toLowerCase() + title.slice(1);
 
-/** The words of another language; null where they stay as they are. */
+/** Texts of another language; null where they stay unchanged. */
 interface Change {
   area(area: string, english: Words): Words;
-  /** What the server refuses, by its code; `undefined` where that is not known. */
+  /** Text of a refusal of the server, by code; `undefined` where there is none. */
   refused(code: string): string | undefined;
   readonly taps: Taps;
 }
@@ -73,11 +73,11 @@ async function changeOf(): Promise<Change | null> {
 
 export const change = await changeOf();
 
-/** The one after this one, in the order of the list. */
+/** The next language in the order of the list. */
 const names = Object.keys(LANGUAGES) as LanguageName[];
 export const nextLanguage = names[(names.indexOf(LANGUAGE) + 1) % names.length];
 
-/** Says everything in another language: the page is loaded anew, and shows what it showed. */
+/** Switches the language: reloads the page with the same view. */
 export function speak(name: LanguageName): void {
   try {
     localStorage.setItem(KEY, JSON.stringify(name));
@@ -87,5 +87,5 @@ export function speak(name: LanguageName): void {
   location.reload();
 }
 
-/** Places that say themselves where they are: `off the lanes`, `in the junction`. */
+/** Places with a preposition of their own: `off the lanes`, `in the junction`. */
 export const SAYS_WHERE = /^(on|off|inside|beside|in) /;

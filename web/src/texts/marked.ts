@@ -1,5 +1,5 @@
-// No language: every text comes out in brackets and longer by a third, so that a test sees what stands in no table and
-// what has no room to be longer. It is never offered.
+// A pseudo language: every text has brackets and is longer by a third, so that a test finds texts outside the tables
+// and texts without room to grow. It is never offered.
 import type { Word, Words } from './words';
 
 const LONGER = 1 / 3;

@@ -1,7 +1,7 @@
-// Who touches the page clicks nothing. The texts speak of clicks; where fingers are the hand they speak of taps.
+// On a touch device texts speak of taps instead of clicks.
 import type { Words } from './words';
 
-/** Words of clicking, each with that of tapping; the first that fits. */
+/** Words for clicks with those for taps; the first match applies. */
 export type Taps = readonly (readonly [click: string, tap: string])[];
 
 export const ENGLISH: Taps = [
@@ -9,7 +9,7 @@ export const ENGLISH: Taps = [
   ['click', 'tap'],
 ];
 
-/** What values bring with them, such as names, stays as it is. */
+/** Values, such as names, stay unchanged. */
 export function tapping(words: Words, taps: Taps): Words {
   const tapped = (text: string): string => taps.reduce((t, [click, tap]) => t.replaceAll(click, tap), text);
   return Object.fromEntries(
@@ -20,5 +20,5 @@ export function tapping(words: Words, taps: Taps): Words {
   );
 }
 
-/** Is a finger what one mostly points with, as the page begins? */
+/** Is a finger the main pointer when the page loads? */
 export const FINGERS = typeof matchMedia !== 'undefined' && matchMedia('(pointer: coarse)').matches;

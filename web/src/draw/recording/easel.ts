@@ -1,4 +1,4 @@
-// The canvas that is looked at, and what is on it: map, road users, overlay. Works in a worker and on the page alike.
+// The visible canvas and its layers: map, road users, overlay. Works in a worker and on the page.
 import type { Part } from './extent';
 import type { News } from './recording';
 import { Player, opaquePen, surface, type Canvas2D, type Surface } from './replay';
@@ -15,10 +15,10 @@ export interface Size {
   readonly dpr: number;
 }
 
-/** CSS pixels of map painted beyond each side of the picture, so that it can be moved before it is painted again. */
+/** Margin of painted map around the picture, in CSS pixels, so that it can move before a repaint. */
 export const MARGIN = 192;
 
-/** Where the map that was painted last lies now, in CSS pixels from the middle, and how it is turned, clockwise. */
+/** Offset of the last painted map from the middle, in CSS pixels, with its scale and its turn, clockwise. */
 export interface Shift {
   readonly dx: number;
   readonly dy: number;
@@ -26,17 +26,17 @@ export interface Shift {
   readonly angle: number;
 }
 
-/** So many times larger is what the loupe shows. */
+/** Magnification of the loupe. */
 const LARGER = 1.8;
 
-/** The middle of what the loupe shows and how wide it is, in CSS pixels. */
+/** Centre and width of the loupe's view, in CSS pixels. */
 export interface Loupe {
   readonly x: number;
   readonly y: number;
   readonly px: number;
 }
 
-/** What is new on the screen: recordings of the layers that changed. */
+/** An update of the screen: recordings of the changed layers. */
 export interface Picture {
   readonly size: Size;
   readonly news: News;
@@ -45,32 +45,32 @@ export interface Picture {
   readonly loupe: Loupe | null;
 }
 
-/** What a layer shows, with what it speaks of. */
+/** Recording of a layer, with the player that has its vocabulary. */
 interface Layer {
   readonly player: Player;
   readonly ops: Float64Array;
 }
 
 /**
- * One opaque canvas rather than one for each layer: the browser then copies it to the screen, where it would have to
- * blend each of them over the others in every frame.
+ * One opaque canvas instead of one for each layer: the browser copies it to the screen, whereas it would blend several
+ * in every frame.
  */
 export class Easel {
   #player = new Player();
   readonly #picture: Canvas2D;
   readonly #loupe: Canvas2D;
   #size: Size | null = null;
-  /** The map with its margin, as it was painted. */
+  /** The painted map with its margin. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
   #agents: Layer = { player: this.#player, ops: new Float64Array() };
   #overlay = this.#agents;
-  /** What lies below the overlay, for the frames in which only that changes; null until one of them comes. */
+  /** Everything below the overlay, for frames in which only the overlay changes; null until the first such frame. */
   #below: Surface | null = null;
   #belowIsOld = true;
-  /** What the overlay covers: only there anything else is seen without it. */
+  /** The area covered by the overlay: elsewhere the picture is the same without it. */
   #covered: Part | null = null;
-  /** What is to be painted next. */
+  /** The next picture to paint. */
   #next: Pick<Picture, 'size' | 'shift' | 'loupe'> | null = null;
   #layers: Partial<Record<LayerName, Layer>> = {};
 
@@ -79,9 +79,9 @@ export class Easel {
     this.#loupe = opaquePen(canvases.loupe);
   }
 
-  /** A picture to be painted; what was to be painted and is not anew in this one stays so. */
+  /** Takes a picture to paint; layers that it does not renew stay. */
   take({ news, layers, ...picture }: Picture): void {
-    // Layers of before are still played, by who knows what they speak of.
+    // Older layers are still played by the player that has their vocabulary.
     if (news.afresh) this.#player = new Player();
     this.#player.learn(news);
     this.#next = picture;
@@ -113,7 +113,7 @@ export class Easel {
     if (loupe) this.#magnify(loupe, size.dpr);
   }
 
-  /** The less is painted, the less the browser copies to the screen. */
+  /** The smaller the painted area, the less the browser copies to the screen. */
   #uncover({ left, top, right, bottom }: Part): void {
     const w = right - left,
       h = bottom - top;
@@ -141,7 +141,7 @@ export class Easel {
     g.restore();
   }
 
-  /** What is around a place, larger. */
+  /** Magnifies the surroundings of a place. */
   #magnify({ x, y, px }: Loupe, dpr: number): void {
     const { loupe, picture } = this.canvases;
     const side = Math.round(px * dpr);
@@ -151,7 +151,7 @@ export class Easel {
     this.#loupe.drawImage(picture, x * dpr - part / 2, y * dpr - part / 2, part, part, 0, 0, side, side);
   }
 
-  /** True where the size is another one; canvases are empty then. */
+  /** True when the size has changed; the canvases are empty then. */
   #fit(size: Size): boolean {
     const was = this.#size;
     if (was && was.w === size.w && was.h === size.h && was.dpr === size.dpr) return false;
@@ -178,7 +178,7 @@ export class Easel {
       g.restore();
       return;
     }
-    // On whole pixels: a shift by a part of one would blur every line.
+    // On whole pixels: a fractional shift would blur every line.
     const x = Math.round((width - w) / 2 + shift.dx * dpr),
       y = Math.round((height - h) / 2 + shift.dy * dpr);
     g.drawImage(this.#map, x, y, w, h);

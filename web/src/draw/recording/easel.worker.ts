@@ -1,10 +1,10 @@
-// Runs in a worker: paints what the page has recorded, so that the page's thread is free for the hand.
+// Runs in a worker: paints the page's recordings, so that the page's thread stays free for input.
 import latin from '@fontsource-variable/inter/files/inter-latin-wght-normal.woff2?url';
 import latinExt from '@fontsource-variable/inter/files/inter-latin-ext-wght-normal.woff2?url';
 import { Easel, type Canvases, type Picture } from './easel';
 import type { FromEasel, ToEasel } from './screen';
 
-/** The part of a worker's global scope that is used here; the page's types do not know it. */
+/** The used part of a worker's global scope, which the page's types lack. */
 interface Scope {
   onmessage: ((e: MessageEvent<ToEasel>) => void) | null;
   postMessage(message: FromEasel): void;
@@ -14,7 +14,7 @@ interface Scope {
 const scope = self as unknown as Scope;
 
 let easel: Easel | null = null;
-/** Pictures taken and not painted yet. */
+/** Pictures received and not painted yet. */
 let waiting = 0;
 
 scope.onmessage = ({ data }) => {
@@ -24,7 +24,7 @@ scope.onmessage = ({ data }) => {
 
 function start(canvases: Canvases): void {
   easel = new Easel(canvases);
-  // A worker does not see the page's fonts. Their ranges of characters are those of the style sheet.
+  // A worker does not have the page's fonts. Their character ranges are those of the style sheet.
   for (const { url, range } of [
     { url: latin, range: undefined },
     { url: latinExt, range: 'U+0100-02BA, U+1E00-1E9F, U+1EF2-1EFF, U+20A0-20AB, U+2C60-2C7F' },
@@ -34,12 +34,12 @@ function start(canvases: Canvases): void {
       ...(range ? { unicodeRange: range } : {}),
     });
     scope.fonts.add(face);
-    // The extended one comes when a text needs it.
+    // The extended one is loaded when a text needs it.
     if (!range) void face.load().then(() => scope.postMessage('fonts'));
   }
 }
 
-/** Once for each frame of the screen: of two pictures in one of them nobody would see the first. */
+/** Once for each frame of the screen: of two pictures within one frame the first would be invisible. */
 function take(picture: Picture): void {
   easel?.take(picture);
   if (waiting++) return;

@@ -1,7 +1,7 @@
-// Which part of a canvas a recording paints on: what was there before need be put back there alone.
+// The painted part of a canvas, so that only that part needs restoring.
 import type { Played } from '../pen';
 
-/** Nothing where `right` is not above `left`. */
+/** Empty where `right` is not above `left`. */
 export interface Part {
   readonly left: number;
   readonly top: number;
@@ -9,11 +9,11 @@ export interface Part {
   readonly bottom: number;
 }
 
-/** No letter is wider than so many times the size of its font. */
+/** Largest width of a letter as a multiple of the font size. */
 const WIDEST_LETTER = 1.5;
-/** So many times half the width of a line may a pointed corner stand out: the limit of a canvas. */
+/** Largest length of a mitre as a multiple of half the line width: the default of a canvas. */
 const MITER_LIMIT = 10;
-/** Pixels at an edge that are painted in part. */
+/** Antialiased pixels at an edge. */
 const SOFT_PX = 2;
 
 interface State {
@@ -37,7 +37,7 @@ export class Bounds implements Part {
   right = -Infinity;
   bottom = -Infinity;
 
-  /** A place that is no number leaves them as they are. */
+  /** Ignores a place with NaN. */
   add(x: number, y: number, around = 0): void {
     if (x - around < this.left) this.left = x - around;
     if (y - around < this.top) this.top = y - around;
@@ -51,14 +51,14 @@ export class Bounds implements Part {
   }
 }
 
-/** Takes what a canvas takes and paints nothing: only where it would have painted is kept, never too small. */
+/** A canvas that paints nothing: it only records the bounds of painting, never too small. */
 export class Extent implements Played {
   readonly #all = new Bounds();
   #path = new Bounds();
   #s: State;
   readonly #saved: State[] = [];
 
-  /** As a canvas begins whose every unit is so many pixels; `boundsOf` tells of a path that was made before. */
+  /** Starts like a canvas with this many pixels for each unit; `boundsOf` gives the bounds of an existing path. */
   constructor(
     scale: number,
     private readonly boundsOf: (path: Path2D) => Part,
@@ -69,7 +69,7 @@ export class Extent implements Played {
     };
   }
 
-  /** What was painted on, in whole pixels of a canvas of a size. */
+  /** The painted part, in whole pixels of a canvas of this size. */
   part(width: number, height: number): Part {
     const { left, top, right, bottom } = this.#all;
     return {
@@ -92,7 +92,7 @@ export class Extent implements Played {
     this.#put(to, x + w, y + h);
   }
 
-  /** No line of the length 1 becomes longer. */
+  /** Upper bound of the transform's scale. */
   get #scale(): number {
     const { a, b, c, d } = this.#s;
     return Math.hypot(a, b, c, d);
@@ -149,7 +149,7 @@ export class Extent implements Played {
   drawImage(_: CanvasImageSource, x: number, y: number, w: number, h: number): void {
     this.fillRect(x, y, w, h);
   }
-  /** Whichever way it is aligned. */
+  /** For any text alignment. */
   fillText(text: string, x: number, y: number): void {
     const px = Number(/([\d.]+)px/.exec(this.#s.font)?.[1] ?? Infinity);
     const w = px * WIDEST_LETTER * text.length;
@@ -180,7 +180,7 @@ export class Extent implements Played {
     return null;
   }
   set lineWidth(px: number) {
-    // As a canvas does with what is no width.
+    // A canvas ignores invalid widths too.
     if (px > 0) this.#s.lineWidth = px;
   }
   set lineCap(cap: CanvasLineCap) {

@@ -1,8 +1,8 @@
-// A picture as a list of numbers. Painters write it on the page's thread, which costs little; a canvas elsewhere plays
-// it (`replay.ts`), which costs much. Texts, shapes and sprites are sent once and known by number afterwards.
+// A picture as a list of numbers. Painters write it on the page's thread, which is cheap; a canvas in a worker plays it
+// (`replay.ts`), which is expensive. Texts, shapes and sprites are sent once and then referred to by number.
 import type { Pen, Shape, Sprite } from '../pen';
 
-/** What each number of a recording that is not an argument means. */
+/** Meaning of the numbers of a recording that are not arguments. */
 export const enum Op {
   beginPath,
   moveTo,
@@ -53,20 +53,20 @@ export interface SpriteNews {
   readonly ops: Float64Array;
 }
 
-/** What recordings refer to and whoever plays them has not got yet. */
+/** Vocabulary that recordings use and the player does not have yet. */
 export interface News {
-  /** What was told before is not referred to any more. */
+  /** The earlier vocabulary is not used any more. */
   readonly afresh: boolean;
-  /** They follow the texts told before. */
+  /** Appended to the earlier texts. */
   readonly texts: string[];
   readonly shapes: ShapeNews[];
   readonly sprites: SpriteNews[];
 }
 
-/** When so much is known, the next picture begins afresh: what is still needed is told again. */
+/** Beyond this size the next picture starts a new vocabulary: used entries are sent again. */
 const MOST = { texts: 4000, points: 4_000_000, sprites: 600 };
 
-/** The numbers of texts, shapes and sprites, and which of them are still to be told. */
+/** Numbers of texts, shapes and sprites, and those not sent yet. */
 export class Vocabulary {
   #texts = new Map<string, number>();
   #shapes = new Map<Shape, number>();
@@ -105,7 +105,7 @@ export class Vocabulary {
     return id;
   }
 
-  /** What is new since the last call. To be asked between pictures only. */
+  /** Additions since the last call. To be called only between pictures. */
   news(): News {
     const news = { afresh: this.#afresh, ...this.#news };
     this.#news = { texts: [], shapes: [], sprites: [] };
@@ -126,7 +126,7 @@ export class Recording implements Pen {
 
   constructor(private readonly words: Vocabulary) {}
 
-  /** What was recorded, in memory of its own; the next picture begins. */
+  /** The recording, in its own memory; starts the next picture. */
   take(): Float64Array {
     const ops = this.#ops.slice(0, this.#n);
     this.#n = 0;

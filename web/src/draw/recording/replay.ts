@@ -6,14 +6,14 @@ import { Op, Recording, Vocabulary, type News } from './recording';
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 export type Surface = HTMLCanvasElement | OffscreenCanvas;
 
-/** A canvas that nobody sees. */
+/** An invisible canvas. */
 export function surface(width: number, height: number): Surface {
   if (typeof OffscreenCanvas !== 'undefined') return new OffscreenCanvas(width, height);
   return Object.assign(document.createElement('canvas'), { width, height });
 }
 
 export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
-/** The pen of a canvas that is covered whole, so that copying it is no blending. */
+/** The context of a fully covered canvas, so that it is copied without blending. */
 export const opaquePen = (s: Surface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
 
 export class Player {
@@ -41,7 +41,7 @@ export class Player {
     }
   }
 
-  /** The part of a canvas of a size, with so many pixels to each unit, that a recording paints on. */
+  /** The part of a canvas that a recording paints on, with a scale in pixels for each unit. */
   extent(o: Float64Array, { width, height }: Surface, scale: number): Part {
     const extent = new Extent(scale, (path) => this.#bounds.get(path) ?? new Bounds());
     this.play(extent, o);
@@ -183,7 +183,7 @@ export class Player {
   }
 }
 
-/** Paints something on a canvas of the page itself: what is small, or is not for the screen. */
+/** Paints on a canvas of the page itself: for small pictures, or ones that are not for the screen. */
 export function paintOn(g: Canvas2D, paint: (pen: Pen) => void): void {
   const words = new Vocabulary();
   const recording = new Recording(words);

@@ -1,13 +1,12 @@
-// What is seen of the scene: a canvas that a worker paints, or the page itself where a browser has no canvas for
-// workers.
+// The visible scene: a canvas painted by a worker, or by the page where a browser has no canvas for workers.
 import { CANVASES, Easel, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
 import { Recording, Vocabulary } from './recording';
 
 export type ToEasel = { canvases: Canvases } | { picture: Picture };
-/** So many pictures are on the canvases; or letters look otherwise now than they did. */
+/** Number of pictures on the canvases; or a notice that fonts have changed. */
 export type FromEasel = { shown: number } | 'fonts';
 
-/** So many pictures may be on their way: the worker paints what is newest of them once a frame. */
+/** Pictures that may be under way: the worker paints the newest of them once a frame. */
 const AHEAD = 4;
 
 export class Screen {
@@ -18,7 +17,7 @@ export class Screen {
   #onWay = 0;
   #canvases: HTMLCanvasElement[] = [];
 
-  /** `onFree`: the next picture may come; `onLost`: everything is to be painted anew. */
+  /** `onFree`: the next picture may be sent; `onLost`: everything must be painted again. */
   constructor(
     private readonly element: HTMLElement,
     private readonly onFree: () => void,
@@ -30,12 +29,12 @@ export class Screen {
     else this.#easel = new Easel(canvases);
   }
 
-  /** As many pictures are on their way as may be. */
+  /** The limit of pictures under way is reached. */
   get busy(): boolean {
     return this.#onWay >= AHEAD;
   }
 
-  /** What `paint` draws, to be shown. */
+  /** Records what `paint` draws. */
   record(paint: (pen: Recording) => void): Float64Array {
     paint(this.#recording);
     return this.#recording.take();
@@ -67,7 +66,7 @@ export class Screen {
     for (const c of this.#canvases) c.remove();
   }
 
-  /** New canvases in place of old ones. */
+  /** Replaces the canvases with new ones. */
   #hang(): Record<keyof Canvases, HTMLCanvasElement> {
     for (const c of this.#canvases) c.remove();
     const made = CANVASES.map((name) => {
@@ -89,7 +88,7 @@ export class Screen {
       this.#onWay -= data.shown;
       this.onFree();
     };
-    // Canvases that were handed over do not come back: the page paints on new ones.
+    // Transferred canvases do not come back: the page paints on new ones.
     worker.onerror = () => {
       worker.terminate();
       this.#worker = null;

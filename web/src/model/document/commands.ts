@@ -93,7 +93,7 @@ const kept = (goal: GoalSpec): GoalSpec => Object.freeze({ ...goal, via: inOrder
 
 export const setGoal = (a: Agent, goal: GoalSpec, what = TEXTS.goal): Command =>
   one(TEXTS.ofMoved(what, a.name), a.id, { goal: kept(goal), chosen: null }, 'goal');
-/** A goal from a remedy or a menu: a separate step, however soon after another change of the goal. */
+/** A goal from a remedy: a separate step, however soon after another change of the goal. */
 export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   ...setGoal(a, goal),
   name,

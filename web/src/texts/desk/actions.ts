@@ -54,7 +54,7 @@ export const TEXTS = table('actions', {
   previousPart: 'Previous part of the page',
   showTheFirst: 'Show the first steps',
   units: 'Units of speed and length',
-  /** Its name in itself, so that who knows no other finds it. */
+  /** Contains the English name, for users who know no other. */
   language: (name: string) => `Language: ${name}`,
   chooseFuture: (letter: string) => `Choose future ${letter}`,
   pointAtAFuture: 'Point at a future first.',

@@ -1,4 +1,4 @@
-// Groups of actions, as the shortcut sheet and the palette title them.
+// Groups of actions, as titled in the shortcut sheet and the palette.
 import { table } from '../table';
 
 export const GROUP_TITLES = table('groups', {

@@ -1,4 +1,4 @@
-// What an action does, in the words of the palette: they come with it, not with the buttons.
+// Descriptions of actions for the palette: they load with it, not with the buttons.
 import { table } from '../table';
 
 export const HELPS = table('helps', {

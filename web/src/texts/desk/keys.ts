@@ -1,4 +1,4 @@
-// What stands on keys, where it differs by language.
+// Labels of keys that differ by language.
 import { table } from '../table';
 
 export const KEYS = table('keys', {

@@ -16,7 +16,7 @@ export const TEXTS = table('palette', {
   choose: 'choose',
   run: 'run',
   typeANumberTo: 'Type a number to find a road user, or a time like 4.2 to jump to it',
-  /** Beginnings of words that ask for a case. */
+  /** Word beginnings that search for a case. */
   askedForNear: 'near miss close',
   askedForCollision: 'collision crash collide hit',
   askedForFirst: 'first before',
@@ -24,7 +24,7 @@ export const TEXTS = table('palette', {
   askedForGoal: 'goal reach',
   askedForRed: 'red light signal',
   parked: 'parked',
-  /** What people call it who do not know its name here. */
+  /** Synonyms for users who do not know the name here. */
   alsoCalled: {
     'does-log': 'ignore others blind unaware',
     'does-still': 'ignore others freeze stand park',

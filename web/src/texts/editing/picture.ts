@@ -19,7 +19,7 @@ export const TEXTS = table('picture', {
   beyondReach: (beyond: string) => `${beyond} beyond reach`,
   holdToCross: 'Hold: cross',
   altToCross: 'Alt: cross',
-  /** `on northbound lane`; some places say it themselves: `off the lanes`. */
+  /** `on northbound lane`; some places include a preposition: `off the lanes`. */
   on: (place: string) => (SAYS_WHERE.test(place) ? place : `on ${place}`),
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
   occupied: 'Occupied',

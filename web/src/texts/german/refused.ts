@@ -1,5 +1,4 @@
-// What the server refuses, by its code, in German. Its own sentences have more, such as names and numbers, but are
-// English.
+// Refusals of the server by code, in German. Its own sentences have more, such as names and numbers, but are English.
 export const refused: Readonly<Record<string, string>> = {
   'malformed-json': 'Das ist kein JSON.',
   'malformed-file': 'Die Datei ist defekt.',

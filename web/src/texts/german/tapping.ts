@@ -1,4 +1,4 @@
-// How German speaks of taps in place of clicks.
+// German words for taps in place of clicks.
 import type { Taps } from '../tapping';
 
 export const taps: Taps = [

@@ -1,4 +1,4 @@
-// The warnings of the readers of files, by their codes: see `messages.ts`.
+// Warnings of the file readers by code: see `messages.ts`.
 import { table, type Values } from '../table';
 
 export const SENTENCES = table('file-messages', {

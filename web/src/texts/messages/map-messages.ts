@@ -1,4 +1,4 @@
-// The checks of a drawn map, by their codes: see `messages.ts`.
+// Checks of a drawn map by code: see `messages.ts`.
 import { table, type Values } from '../table';
 
 export const SENTENCES = table('map-messages', {

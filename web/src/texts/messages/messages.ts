@@ -1,9 +1,9 @@
-// The sentences of the engine, by their codes: `assets/messages.json` lists them with their values. Each value comes as
-// text in the units of the page; a value that is absent is empty.
+// Sentences of the engine by code: `assets/messages.json` lists them with their values. Each value is text in the units
+// of the page; an absent value is empty.
 import { table, type Values } from '../table';
 
 export const SENTENCES = table('messages', {
-  /** Before a sentence that holds from a time on. */
+  /** Before a sentence that applies from a time on. */
   since: (time: string, sentence: string) => `From ${time} on: ${sentence}`,
   lists: { kind: { vehicle: 'this vehicle', cyclist: 'this cyclist', pedestrian: 'this pedestrian' } },
   sentences: {

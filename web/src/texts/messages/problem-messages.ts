@@ -1,4 +1,4 @@
-// The sentences of refused requests, by their codes: see `messages.ts`.
+// Sentences of refused requests by code: see `messages.ts`.
 import { table, type Values } from '../table';
 
 export const SENTENCES = table('problem-messages', {

@@ -24,7 +24,7 @@ export const TEXTS = table('agent', {
   partlyFree: 'partly free',
   freeTheGenerator: 'free: the generator decides',
   goal: 'Goal',
-  /** Before the name of a field, where nothing else says whose it is. */
+  /** Before the name of a field, where the context does not name the goal. */
   ofTheGoal: 'Goal ',
   time: 'Time',
   timeAtTheGoal: 'Time at the goal in seconds',

@@ -6,7 +6,7 @@ export const TEXTS = table('places', {
     left: 'in the junction, turning left',
     right: 'in the junction, turning right',
   },
-  /** Of the compass, in a letter or two. */
+  /** Compass directions in one or two letters. */
   e: 'E',
   ne: 'NE',
   n: 'N',
@@ -15,7 +15,7 @@ export const TEXTS = table('places', {
   sw: 'SW',
   s: 'S',
   se: 'SE',
-  /** Arms by where they lie, as they are called alone. */
+  /** Arms by compass direction, without "arm". */
   arms: {
     east: 'East',
     'north-east': 'North-east',

@@ -7,6 +7,6 @@ export const TEXTS = table('reading', {
     `This scene was saved by a newer version (${version}). This version reads up to 1.`,
   theMapOfThis: 'The map of this scene is missing.',
   untitled: 'Untitled',
-  /** What a scene is called in this language: examples have a name in each. */
+  /** Name of a scene in this language: examples have one in each. */
   sceneName: (_id: string, name: string) => name,
 });

@@ -24,7 +24,7 @@ export const german: Said<typeof TEXTS> = {
   adult: 'Erwachsener',
   child: 'Kind',
   wheelchair: 'Rollstuhl',
-  // The same as above, written out: the build gives the keys of the table other names, and not these.
+  // The same as above, written out: the build renames the keys of the table, but not these.
   one: {
     car: 'Pkw',
     truck: 'Lkw',
