@@ -1,4 +1,4 @@
-// The browser's clipboard. Keys reach it by its own events, which need no permission; menus go by what is allowed.
+// The browser's clipboard. Keys use its events, which need no permission; menus depend on permissions.
 import type { Vec } from '../model/base/geometry';
 import type { Context } from '../actions/context';
 import { TEXTS } from '../texts/desk/page';
@@ -6,7 +6,7 @@ import { TEXTS } from '../texts/desk/page';
 const isText = (el: EventTarget | null): boolean =>
   el instanceof HTMLInputElement || el instanceof HTMLTextAreaElement || !getSelection()?.isCollapsed;
 
-/** Where something is put: at the menu that it was chosen from, else under the pointer. */
+/** Place of a paste: where the menu was opened, else under the pointer. */
 function place({ gestures, stage, ui }: Context): Vec | null {
   const at = ui.contextMenu.peek() ?? gestures.pointer;
   return at && stage.view.from(at.x, at.y);
@@ -17,7 +17,7 @@ function put(c: Context, text: string, at: Vec | null): void {
   else c.editor.notices.show({ text: TEXTS.clipboardIsEmpty });
 }
 
-/** Menus: the page may be forbidden to use the clipboard; then what was copied here last is what there is. */
+/** Menus: if the page may not read the clipboard, the last copy made here is pasted. */
 export const clipboardOf = (c: () => Context): Context['clipboard'] => {
   const take = (text: string | null): void => {
     if (text) void navigator.clipboard?.writeText(text).catch(() => undefined);

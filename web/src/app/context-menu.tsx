@@ -10,7 +10,7 @@ import { usePressBeside } from './parts/hooks';
 import { Icon } from './parts/icons';
 import { TEXTS } from '../texts/desk/context-menu';
 
-/** Ids of actions; null draws a line, a list with a name is a menu of its own. */
+/** Ids of actions; null is a separator, a list with a name is a submenu. */
 type Entry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };
 
 const KINDS: Entry = { name: TEXTS.type, icon: 'pencil', items: PLACED_KINDS.map((k) => `kind-${k}`) };
@@ -87,7 +87,7 @@ const EDGE_PX = 6;
 export function ContextMenu() {
   const { ui, editor } = useApp();
   const menu = ui.contextMenu.value;
-  // Who is changed under it closes it.
+  // A change of the scene under the menu closes it.
   void editor.scene.value?.id;
   return menu ? <Box key={`${menu.x},${menu.y},${menu.on}`} menu={menu} /> : null;
 }
@@ -105,7 +105,7 @@ function Box({ menu }: { menu: Open }) {
 
   useLayoutEffect(() => {
     const el = box.current!;
-    // Beside the pointer where there is room, else on its other side; never out of the window.
+    // Beside the pointer where there is room, else on its other side; never outside the window.
     const left = x + el.offsetWidth + EDGE_PX > innerWidth ? Math.max(EDGE_PX, x - el.offsetWidth) : x + 2;
     const lowest = innerHeight - el.offsetHeight - EDGE_PX;
     at.value = { left: `${left}px`, top: `${Math.max(EDGE_PX, Math.min(y, lowest))}px` };
@@ -170,7 +170,7 @@ function openSub(button: HTMLElement): void {
   sub.focus({ preventScroll: true });
 }
 
-/** Opens on hover, on a click, with the arrow to the right, and stays while the focus is in it. */
+/** Opens on hover, click and right arrow, and stays while it has the focus. */
 function Sub({ name, icon, items }: Exclude<Entry, string | null>) {
   return (
     <div

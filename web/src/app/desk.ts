@@ -1,4 +1,4 @@
-// Everything one works with: tools, panels, the generator, and what of them follows from what.
+// The workspace: tools, panels and generator, and the links between them.
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { perform } from '../actions/registry';
@@ -74,7 +74,7 @@ function makeParts(o: Opening): Context {
   return c;
 }
 
-/** What one part does when another changes. */
+/** Links between parts. */
 function connect(c: Context): void {
   const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
   followView(stage);
@@ -86,7 +86,7 @@ function connect(c: Context): void {
     playback.frame(now);
     followSelected(c);
   };
-  // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
+  // For screen readers and for scripts: the shown state is not final yet.
   effect(() => {
     const loading = editor.answers.status.value.kind === 'loading';
     const busy = editor.asking() || loading || gliding.value || editor.reading.throttle.waiting.value;
@@ -102,14 +102,14 @@ function connect(c: Context): void {
   };
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
   library.askBy((missing) => {
-    // Events of the log; with changes from last time the answer to them brings its own.
+    // Events of the recording; with changes from an earlier session their answer has the events.
     if (!editor.answers.motion.peek().stale) void generation.score();
     if (missing !== 'none') generation.begin(missing === 'everybody');
   });
   stage.viewChanged();
 }
 
-/** Puts everything around the picture that is there already. */
+/** Adds everything around the present picture. */
 export function layOut(o: Opening): Context {
   const c = makeParts(o);
   connect(c);

@@ -1,4 +1,4 @@
-/** Opens the browser's own dialog for files; `take` gets what was chosen. */
+/** Opens the browser's file dialog; `take` gets the chosen files. */
 export function fileChooser(take: (files: File[]) => void): () => void {
   const input = document.createElement('input');
   input.type = 'file';

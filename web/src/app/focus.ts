@@ -1,8 +1,8 @@
-// Where the keyboard goes on the page.
+// Keyboard focus on the page.
 
-/** The parts of the page in the order in which F6 goes through them. */
+/** Parts of the page in the order of F6. */
 const ORDER = ['top', 'scenes', 'history', 'users', 'tools', 'handles', 'inspector', 'rounds', 'variants', 'timeline'];
-/** What of a part takes the focus. */
+/** The element of a part that gets the focus. */
 const FIRST = '[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]';
 
 export function focusField(part: 'start' | 'goal', field: string): void {
@@ -19,7 +19,7 @@ export function focusGroup(step: 1 | -1): void {
   const groups = [...document.querySelectorAll<HTMLElement>('[data-group]')];
   groups.sort((a, b) => ORDER.indexOf(a.dataset.group!) - ORDER.indexOf(b.dataset.group!));
   const at = groups.findIndex((g) => g.contains(document.activeElement));
-  // Parts in which nothing takes the focus now are passed over.
+  // Parts without a focusable element are skipped.
   for (let i = 1; i <= groups.length; i++) {
     const group = groups[(((at + i * step) % groups.length) + groups.length) % groups.length];
     const first = [...group.querySelectorAll<HTMLElement>(FIRST)].find((el) => el.checkVisibility());

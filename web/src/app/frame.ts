@@ -1,14 +1,14 @@
-// How the page is laid out: beside the picture or in a sheet over it, for a mouse or for fingers.
+// Layout of the page: panels beside the picture or in a sheet over it, for mouse or fingers.
 import type { Opening } from '../actions/context';
 
-/** How wide a sheet at the side is. */
+/** Width of a sheet at the side. */
 const SIDE_SHEET_PX = 352;
-/** How wide the loupe is, where there is room and where there is little. */
+/** Width of the loupe on a large and on a small page. */
 const LOUPE_PX = 156;
 const LOUPE_SMALL_PX = 124;
-/** The rail of tools, whose buttons stand in two columns where fingers need them large. */
+/** Width of the tool rail for fingers: two columns of large buttons. */
 const RAIL_FOR_FINGERS_PX = 132;
-/** Handles for fingers are so much larger. */
+/** Scale of handles for fingers. */
 const HANDLES_FOR_FINGERS = 1.7;
 
 interface Edges {
@@ -17,15 +17,15 @@ interface Edges {
   readonly bottom: number;
 }
 
-/** What the sheet leaves of the picture. */
+/** The part of the picture beside the sheet. */
 export function insetBesideSheet({ form }: Opening, edges: Edges, rail: number): Edges & { left: number } {
   const left = form.small.value ? edges.right : form.touch.value ? RAIL_FOR_FINGERS_PX : rail;
   if (form.low.value) return { ...edges, left, right: SIDE_SHEET_PX, bottom: edges.right };
-  // A sheet that is fully open covers nearly everything; the picture stays where it was.
+  // A fully open sheet covers nearly everything; the picture keeps its place.
   return { ...edges, left, bottom: form.pixels(form.height.value === 'peek' ? 'peek' : 'half') + edges.right };
 }
 
-/** The page is laid out by attributes of its root. */
+/** Attributes of the root element select the layout. */
 export function followForm({ form, stage, ui }: Opening): void {
   const root = document.documentElement.dataset;
   root.form = form.sheet.value ? (form.low.value ? 'side-sheet' : 'sheet') : 'panels';

@@ -1,12 +1,12 @@
-// What is said where a part of the page did not come.
+// Notices for a part of the page that failed to load.
 
-/** The words for a part, and for all of them. */
+/** Texts for one part, and for all of them. */
 import { TEXTS } from '../texts/desk/page';
 
 export const NOT_LOADED = TEXTS.thisPartOfThe;
 const NOT_COMPLETE = TEXTS.theEditorDid;
 
-/** Without its tools the page can only be loaded again; nothing that waits for them goes on. */
+/** Without its tools the page can only be reloaded; the returned promise never resolves. */
 export function sayIncomplete(over: HTMLElement): Promise<never> {
   const toast = document.createElement('div');
   toast.className = 'toast';

@@ -1,16 +1,15 @@
-// The parts of the page that come later: what few need, or nobody in the first moment, does not make everybody wait.
-// All of them are fetched when somebody begins and the page has nothing else to do, so that none is waited for when it
-// is wanted.
+// Parts of the page that load later, since few users need them, or none at the start. All are fetched after the first
+// input while the page is idle, so that none has to be waited for.
 import type { ComponentProps, ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { NOT_LOADED } from './incomplete';
 import { TEXTS } from '../texts/desk/page';
 
-/** Counts the attempts, so that each has an address of its own. */
+/** Counts the attempts, so that each has a different address. */
 let attempts = 0;
 
-/** Browsers may keep the failure of a module under its address; the next attempt takes another one. */
+/** Browsers may cache a failed module by address; the next attempt uses another one. */
 function loadAnew<M>(error: unknown): Promise<M> {
   const address = /https?:\S+\.js/.exec(String(error))?.[0];
   if (!address) throw error;
@@ -23,7 +22,7 @@ const of =
   async (): Promise<P> =>
     pick(await load().catch(loadAnew<M>));
 
-/** In the order in which they are likely to be wanted. */
+/** In order of likely use. */
 const PARTS = {
   hint: of(
     () => import('./hud/coach'),
@@ -153,18 +152,18 @@ async function fetchPart(name: Name): Promise<void> {
   if (!here.has(name)) here.set(name, (await PARTS[name]()) as ComponentType);
 }
 
-/** A part that did not come is asked for again after so long: the server may be back. */
+/** A part that failed to load is retried after this: the server may be back. */
 const AGAIN_MS = 3000;
-/** The page is not busy for so long at most before the rest of it comes, whatever else goes on. */
+/** Longest wait for an idle page before the rest is fetched. */
 const REST_MS = 4000;
 
 /**
- * Fetches all parts, one after the other, once somebody has done something and the page has nothing else to do: who
- * only looks waits for none of them and pays for none.
+ * Fetches all parts in turn after the first input, once the page is idle: a user who only watches neither waits for
+ * them nor downloads them.
  */
 export function fetchRest(): void {
   const all = async (): Promise<void> => {
-    // One that does not come is asked for again when it is wanted, and missed then.
+    // A failed one is fetched again when it is needed, and reported then.
     for (const name of Object.keys(PARTS) as Name[]) await fetchPart(name).catch(() => null);
   };
   const begun = new AbortController();
@@ -177,7 +176,7 @@ export function fetchRest(): void {
     addEventListener(done, begin, { capture: true, signal: begun.signal });
 }
 
-/** A part by its name; it is there at once where it was fetched before. */
+/** A part by name; rendered at once if fetched before. */
 export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<N>) {
   const tries = useSignal(1);
   const state = useSignal<'waiting' | 'there' | 'missing'>(here.has(part) ? 'there' : 'waiting');
@@ -190,7 +189,7 @@ export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<
       state.value = to;
       if (to === 'missing') again = setTimeout(() => tries.value++, AGAIN_MS);
     };
-    // Also one that has come since it was drawn: nobody else would draw it anew.
+    // Also for a part that arrived after rendering, which nothing else would render again.
     void fetchPart(part).then(say('there'), say('missing'));
     return () => {
       wanted = false;

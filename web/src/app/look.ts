@@ -1,5 +1,4 @@
-// Where the picture looks: the whole map, the part where things move on opening, after the one that is followed, and
-// where it looked when a step was done.
+// Moves of the camera: the whole map, the active part on opening, following a road user, and the camera of a step.
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/physics/scene-centre';
@@ -10,12 +9,12 @@ import { poseShown } from '../edit/overlay/frame';
 import { endPose, poseAt } from '../model/base/motion';
 import { canChange, startPose, type Agent } from '../model/document/scene';
 
-/** How much of the map the height of the picture shows at first, in metres, and within which zooms. */
+/** Initial height of the picture in metres, and the limits of its zoom. */
 const OPENING_M = 88;
 const OPENING_ZOOMS = [4.4, 8.5] as const;
-/** A map with nobody on it is shown whole unless it would be smaller than this. */
+/** A map without road users is fitted whole down to this zoom. */
 const EMPTY_ZOOM = 1.6;
-/** A picture that shows the same place within so many pixels looks where it did. */
+/** A picture of the same place within this many pixels is unchanged. */
 const SAME_PX = 4;
 
 export function fitScene({ editor, stage, layouts }: Context): void {
@@ -26,7 +25,7 @@ export function fitScene({ editor, stage, layouts }: Context): void {
   stage.glide.by((v) => v.fit(scene.map.box));
 }
 
-/** A map that is made is looked at anew with each template; while its parameters change the picture stays. */
+/** A map being made is framed with each new template; while its parameters change the picture stays. */
 export function lookAtMade({ stage, layouts }: Context): void {
   let looked: string | null = null;
   effect(() => {
@@ -43,7 +42,7 @@ export function lookAtMade({ stage, layouts }: Context): void {
   });
 }
 
-/** The same stretch of road on every screen, where most things move: a junction with the beginnings of its arms. */
+/** The same stretch of road on every screen, where most movement is: a junction with the start of its arms. */
 export function lookAtOpened({ editor, stage }: Opening): void {
   const scene = editor.scene.peek();
   if (!scene) return;
@@ -63,7 +62,7 @@ export function lookAtOpened({ editor, stage }: Opening): void {
   stage.viewChanged();
 }
 
-/** Keeps the selected road user in the middle while playback runs. */
+/** Keeps the selected road user centred during playback. */
 export function followSelected({ editor, stage }: Opening): void {
   if (!editor.playhead.follow.peek() || !editor.playhead.playing.peek()) return;
   const a = editor.agent.peek();
@@ -79,8 +78,8 @@ const moved = (a: Camera, b: Camera): boolean =>
   Math.abs(wrapAngle((a.turn ?? 0) - (b.turn ?? 0))) > 0.02;
 
 /**
- * Undo and redo show what they change: where the picture moved with the step it moves back, and where what changes
- * is out of sight it looks where it did then.
+ * Undo and redo show their change: a camera moved with the step moves back, and for a change out of view the camera of
+ * the step returns.
  */
 export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
@@ -94,21 +93,21 @@ export function lookWhereItWas(c: Opening): void {
   editor.join({ travelled });
 }
 
-/** Are the start and the goal of a road user in the picture? */
+/** Are start and goal of a road user in the picture? */
 function inView({ editor, stage }: Opening, a: Agent): boolean {
   const places = [startPose(a), editor.reading.goalPose(a)].filter((p) => p !== null);
   return places.every((p) => stage.view.shows(p.x, p.y, -20));
 }
 
-/** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */
+/** Nearer to a panel or to the edge than this a road user counts as out of view, pixels. */
 const EDGE_PX = 24;
-/** So much room around several that are brought into the picture, metres, and not closer than this. */
+/** Margin around several that are brought into view, metres, and closest zoom. */
 const AROUND_M = 12;
 
-/** To have somebody and its goal in the picture one looks from further off, down to this share of the zoom. */
+/** To show a road user with its goal the picture zooms out, down to this share of the zoom. */
 const FURTHER = 0.6;
 
-/** Where somebody will be at its goal time, before anything was worked out as recorded; null away from the start. */
+/** Where a road user will be at its goal time, by the recording until there is an answer; null away from the start. */
 export function endShown(editor: Opening['editor'], a: Agent): Vec | null {
   if (editor.playhead.time.peek() > 0.05 || !canChange(a)) return null;
   if (a.goal.pos) return a.goal.pos;
@@ -117,13 +116,13 @@ export function endShown(editor: Opening['editor'], a: Agent): Vec | null {
   return end && [end.x, end.y];
 }
 
-/** Brings road users into the picture, where they are not in it; one alone with where it ends. */
+/** Brings road users into view, if they are not; a single one with its end. */
 export function reveal(c: Opening, ids: readonly string[]): void {
   bringIn(c, ids);
   whenItsEndIsKnown(c, ids, () => bringIn(c, ids));
 }
 
-/** Where one ends is known when its futures are; done then, if nobody has moved the picture meanwhile. */
+/** The end is known with the futures; runs `does` then, unless the view was moved meanwhile. */
 export function whenItsEndIsKnown({ editor, stage }: Opening, ids: readonly string[], does: () => void): void {
   const [id] = ids;
   if (ids.length !== 1 || editor.answers.motion.peek().futures.has(id)) return;
@@ -152,13 +151,13 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   const all = ps.map((p): Vec => [p.x, p.y]);
   const to = v.copy();
   to.fitPlaces(end ? [...all, end] : all, AROUND_M, v.z);
-  // Where the end is too far off to be seen with it one stays near.
+  // If the end is too far to be shown too, the picture stays near.
   if (!alone || to.z >= v.z * FURTHER) v.look(to.camera);
   else if (!ps.every(seen)) v.centre(ps[0].x, ps[0].y);
   stage.viewChanged();
 }
 
-/** Who is selected stays in the picture when a panel takes room from it; one that was out of it already stays out. */
+/** Keeps the selected ones in the picture when a panel takes space; one already outside stays outside. */
 export function keepInView(c: Opening): void {
   const { editor, stage } = c;
   stage.onSmaller = (before) => {
@@ -169,8 +168,8 @@ export function keepInView(c: Opening): void {
 }
 
 /**
- * The menu of what is selected: beside the button that was pressed for it, else at the first of them; where nobody is
- * selected that of the ground, in the middle.
+ * The menu of the selection: beside its pressed button, else at the first of them; without a selection the menu of the
+ * ground, in the middle.
  */
 export function openMenu(c: Context): void {
   const { editor, stage, ui } = c;

@@ -1,4 +1,4 @@
-// Start-up: opens the first scene and shows it, while everything one works on it with is on its way (`desk.ts`).
+// Start-up: opens and shows the first scene while the workspace (`desk.ts`) loads.
 import '../styles/tokens.css';
 import '../styles/base.css';
 import '../styles/panels.css';
@@ -28,18 +28,18 @@ import { outlineOfBar, place } from './outline';
 import { reportCrashes, waitForServer } from './watching';
 
 const FIRST_SCENE = 'demo-crossing';
-/** On a page narrower than this the list of scenes is closed at first. */
+/** On a narrower page the list of scenes is closed at first. */
 const WIDE_PX = 1300;
-/** What panels cover of the picture's edges, in pixels; on the left by what stands there. */
+/** Covered edges of the picture, in pixels; on the left by the open panel. */
 const INSET = { right: 12, top: 12, bottom: 56 };
 const INSET_LEFT = { scenes: 324, map: 348, users: 368, history: 432, rail: 68 };
-/** Seconds that play by themselves at the very first visit. */
+/** Seconds that play automatically at the very first visit. */
 const INTRODUCTION_S = 3;
 
 function makeOpening(): Opening {
   const ui = new Ui();
   const form = new Form();
-  // Colours are read off the page when the stage is made.
+  // The stage reads the colours from the page when it is made.
   document.documentElement.dataset.theme = ui.theme.peek();
   document.documentElement.lang = LANGUAGE;
   const client = new Client();
@@ -59,7 +59,7 @@ function makeOpening(): Opening {
   return { ui, form, client, editor, scenes, file, journal, saving, library, stage, picture, bar };
 }
 
-/** What one part does when another changes. */
+/** Links between parts. */
 function connect(o: Opening): void {
   const { editor, form, library, stage, ui } = o;
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
@@ -83,7 +83,7 @@ function connect(o: Opening): void {
   library.onOpen = (scene, again) => {
     nameInAddress(o, scene.id);
     if (!again) {
-      // What can be done with nobody there is said over the picture, beside which an open sheet leaves no room.
+      // An empty scene has suggestions over the picture, and an open sheet would leave no room for them.
       if (!scene.agents.size) form.open('peek');
       stage.view.turn = 0;
       lookAtOpened(o);
@@ -93,7 +93,7 @@ function connect(o: Opening): void {
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
 }
 
-/** A page that is loaded again opens what it showed, whatever other tabs have opened since. */
+/** A reloaded page opens its own scene, whatever other tabs have opened since. */
 function nameInAddress({ scenes }: Opening, id: string): void {
   if (!scenes.list.peek().some((s) => s.id === id)) return;
   const address = new URL(location.href);
@@ -105,7 +105,7 @@ async function openFirst(o: Opening, desk: Promise<Context>): Promise<void> {
   const wanted = new URLSearchParams(location.search).get('scene') ?? recall<string>('last-scene');
   try {
     await o.scenes.refresh();
-    // There may be a scene in the address, which the desk reads.
+    // The address may contain a scene, which the workspace reads.
     if (location.hash && (await (await desk).sharing.openFrom(location.hash))) return;
     const ids = o.scenes.list.peek().map((s) => s.id);
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));

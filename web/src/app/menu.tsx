@@ -1,4 +1,4 @@
-// The menus behind buttons: lists of actions.
+// The menus of buttons: lists of actions.
 import { useComputed } from '@preact/signals';
 import { LAYER_NAMES } from '../edit/session/view-settings';
 import { useApp } from './parts/app-context';
@@ -8,7 +8,7 @@ import { MenuList } from './parts/menu-list';
 
 const LAYER_ACTIONS = LAYER_NAMES.map((l) => `layer-${l}`);
 
-/** Ids of actions; null draws a line. */
+/** Ids of actions; null is a separator. */
 const MENUS: Record<string, readonly (string | null)[]> = {
   file: [
     'new-scene',
@@ -91,10 +91,10 @@ function placeUnder(name: string): Record<string, string> {
   return { top, left: `${left}px` };
 }
 
-/** Menus that one sets several things in. */
+/** Menus with several settings, which stay open. */
 const STAY = ['layers'];
 
-/** The one that is open, if it is one of these. */
+/** The open one, if it is one of these. */
 export function OpenMenu() {
   const name = useApp().ui.menu.value;
   return name !== null && name in MENUS ? <Menu key={name} name={name} /> : null;

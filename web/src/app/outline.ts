@@ -1,11 +1,11 @@
-// What is seen before there is anything to work with: the bar on top, with the name of the program.
+// The first paint: the top bar with the program's name.
 
-/** A place for components that takes no part in the layout. */
+/** A mount point for components, without a box in the layout. */
 export function place(...within: HTMLElement[]): HTMLElement {
   return element('swap', 'div', ...within);
 }
 
-/** The bar; what belongs into it is drawn over this (`topbar.tsx`). */
+/** The bar; `topbar.tsx` renders its content over this. */
 export function outlineOfBar(small: boolean): HTMLElement {
   const name = document.createElement('span');
   name.textContent = 'DragTraffic';

@@ -1,4 +1,4 @@
-// Keys, clicks and files that are not meant for one panel.
+// Keys, clicks and files that belong to no single panel.
 import type { Context } from '../actions/context';
 import { keyOf } from '../actions/keys';
 import { walkEnds } from '../actions/look';
@@ -13,7 +13,7 @@ export function listenToPage(c: Context): void {
     const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), now);
     if (!a || a.native || belongsToPage(c, e, a)) return;
     e.preventDefault();
-    // With Space held the picture is moved; only where it was not is playback meant.
+    // With Space held the picture is panned; only without a pan it means playback.
     if (a.id === 'play' && e.key === ' ') space = e.repeat ? space : { panned: c.gestures.pannedWithSpace };
     else perform(c, a.id);
   });
@@ -26,7 +26,7 @@ export function listenToPage(c: Context): void {
   takeDrops(c);
 }
 
-/** Is the key for the element that has the focus, and not for the action it is bound to? */
+/** Is the key for the focused element, and not for its action? */
 function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   const { editor, ui } = c;
   const target = e.target as HTMLElement;
@@ -34,7 +34,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
   if (input && input.type !== 'range' && a.context !== 'always' && !leavesField(input, e, a)) return true;
   if (ui.dialog.peek() && a.context !== 'always') return true;
-  // Tab walks through road users from the picture, once; elsewhere, and at its end, it is the browser's.
+  // Tab walks through road users from the picture, once; elsewhere, and at the end, it is the browser's.
   const inList = target.closest('[data-group="users"]') !== null;
   if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body)
     if (!inList || ui.drawer.peek() === 'users' || walkEnds(c, e.shiftKey ? -1 : 1)) return true;
@@ -49,29 +49,29 @@ const leavesField = (input: HTMLInputElement, e: KeyboardEvent, a: Action): bool
   !!input.dataset.field &&
   !('typed' in input.dataset);
 
-/** A button's own keys. In the list of road users they select, and after that Enter goes on to the inspector. */
+/** A button's own keys. In the list of road users they select; a further Enter moves on to the inspector. */
 function pressesButton(button: HTMLButtonElement, e: KeyboardEvent, selected: string | null): boolean {
   if ((e.key !== ' ' && e.key !== 'Enter') || e.ctrlKey) return false;
-  // Pictures that move are started by Space, taken by Enter.
+  // Animated pictures start with Space and are taken with Enter.
   if (e.key === ' ' && 'plays' in button.dataset) return false;
   return !button.dataset.agent || button.dataset.agent !== selected;
 }
 
 /**
- * A click with the mouse leaves no focus on a button: the Space that follows is meant to play. Keys keep theirs, and
- * so do dialogs and menus, which hand the focus back themselves.
+ * A mouse click leaves no focus on a button: the Space that follows is for playback. Keyboard focus stays, and so do
+ * dialogs and menus, which return the focus themselves.
  */
 function leaveButton(e: MouseEvent): void {
   const button = e.detail > 0 && e.target instanceof Element ? e.target.closest('button') : null;
   if (button && button === document.activeElement && !button.closest('.dlg, .menu')) button.blur();
 }
 
-/** Files may be dropped anywhere; a veil says so while they are over the page. */
+/** Files may be dropped anywhere; an overlay shows it while they are over the page. */
 function takeDrops({ importing, stage, ui }: Context): void {
   const veil = document.createElement('div');
   veil.className = 'dropping';
   veil.textContent = TEXTS.dropToImport;
-  /** How many elements the files are over: entering a child comes before leaving its parent. */
+  /** Number of entered elements: a child is entered before its parent is left. */
   let depth = 0;
   const gone = () => {
     veil.remove();

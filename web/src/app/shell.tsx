@@ -1,4 +1,4 @@
-// The page: what Preact draws around the canvases and over them. The canvases themselves are the stage's.
+// The page that Preact renders around and over the canvases. The canvases themselves belong to the stage.
 import { render, type ComponentChild } from 'preact';
 import { useComputed } from '@preact/signals';
 import type { Context } from '../actions/context';
@@ -15,7 +15,7 @@ import { Sheet } from './sheet/sheet';
 import { Timeline } from './timeline/timeline';
 import { TopBar } from './topbar';
 
-/** Puts the page around and over the stage's element. */
+/** Renders the page around and over the stage's element. */
 export function drawPage(c: Context): void {
   const picture = c.stage.element;
   const [over, below] = [place(), place()];

@@ -20,7 +20,7 @@ const SAVED: Record<SaveState, string> = {
   off: TEXTS.notSaved,
 };
 
-/** What takes turns while one works: the widest of these is always kept free, so that nothing beside it moves. */
+/** Texts that alternate during work: space for the widest is reserved, so that neighbours do not move. */
 const USUAL = [TEXTS.example, TEXTS.saved, TEXTS.saving, TEXTS.dragging].reduce((a, b) =>
   b.length > a.length ? b : a,
 );
@@ -62,7 +62,7 @@ export function TopBar() {
   );
 }
 
-/** Undo, share and the menus; everything else stands in these. */
+/** Undo, share and the menus; the menus contain everything else. */
 function SmallBar({ open }: { open: boolean }) {
   return (
     <header class="top" data-group="top">
@@ -126,7 +126,7 @@ function NameField() {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const name = useComputed(() => editor.resting.value?.name ?? '');
-  // As wide as the name, in characters: capitals are wider than most, so one is left out.
+  // Width of the name in characters: capitals are wider than most, so one is subtracted.
   const size = useComputed(() => Math.max(4, name.value.length - 1));
   return (
     <input

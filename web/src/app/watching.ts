@@ -1,10 +1,9 @@
-// What follows by itself from what happens: the hint of the first minute, the report of a crash, the wait for a
-// server that is not there yet.
+// Automatic follow-ups: the first-minute hint, the crash report, the wait for an unreachable server.
 import { effect } from '@preact/signals-core';
 import type { Opening } from '../actions/context';
 import { hasGoal } from '../model/document/scene';
 
-/** The three-step hint moves on with what one does and closes for good after the first drop. */
+/** The three-step hint follows the user's actions and closes for good after the first drop. */
 export function coach({ editor, ui }: Opening): void {
   let opened = ui.drawer.peek() === 'scenes';
   effect(() => {
@@ -18,12 +17,12 @@ export function coach({ editor, ui }: Opening): void {
     if (ui.coach.peek() === 1 && a) ui.coachTo(2);
     if (ui.coach.peek() === 2 && !a && !dragging) ui.coachTo(1);
     if (ui.coach.peek() === 2 && dragging) ui.coachTo(3);
-    // A goal that was set by keys needs no hand any more.
+    // A goal set by keys makes the drag hint unnecessary.
     if (ui.coach.peek() > 1 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
   });
 }
 
-/** An error nobody caught is said once; what was changed is saved already. */
+/** An uncaught error is reported once; changes are saved already. */
 export function reportCrashes({ editor }: Opening): void {
   addEventListener('error', (e) => {
     if (e.error) editor.notices.crashed(e.error);
@@ -35,7 +34,7 @@ export function reportCrashes({ editor }: Opening): void {
 
 const RETRY_S = [1, 2, 4, 6];
 
-/** Nothing to show without the server: it is asked again at growing intervals, then the page begins anew. */
+/** Without the server there is nothing to show: it is polled at growing intervals, then the page starts again. */
 export function waitForServer(c: Opening, tries = 0): void {
   const { answers } = c.editor;
   let left = RETRY_S[Math.min(tries, RETRY_S.length - 1)];

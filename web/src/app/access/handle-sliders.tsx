@@ -1,4 +1,4 @@
-// The handles of the selected road user, for keys and screen readers. They have no picture of their own.
+// The handles of the selected road user, for keys and screen readers. They are invisible.
 import { useComputed } from '@preact/signals';
 import { canMove } from '../../model/document/scene';
 import { Later } from '../later';

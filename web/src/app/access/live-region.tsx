@@ -1,5 +1,5 @@
-// A voice for what happens. Polite, at most one message a second, the newest wins; collisions and a missing generator
-// are said at once.
+// A live region for events. Polite, at most one message a second, the newest wins; collisions and a missing generator
+// are announced at once.
 import { useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';

@@ -1,4 +1,4 @@
-// The road users as a list: for those who do not see the canvas always, for everybody as a panel with filters.
+// The list of road users: always present for screen readers, and a panel with filters for all users.
 import { useEffect, useMemo } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
@@ -20,7 +20,7 @@ const KINDS: readonly (readonly [AgentType | 'all', string])[] = [
   ['pedestrian', TEXTS.onFoot],
 ];
 
-/** Who is listed: of which kind, and of these only who has a goal, or is in an event. */
+/** Filter of the list: kind, and optionally only road users with a goal, or in an event. */
 interface Filter {
   readonly kind: AgentType | 'all';
   readonly goal: boolean;
@@ -34,7 +34,7 @@ export function RoadUsers() {
   const label = useComputed(() => TEXTS.roadUsers(editor.resting.value?.agents.size ?? 0));
   const open = useComputed(() => ui.drawer.value === 'users').value;
   const filter = useSignal(EVERYBODY);
-  // Nobody is left out of a list whose filters cannot be seen.
+  // A closed list has no visible filters, so it contains all.
   useEffect(() => {
     if (!open) filter.value = EVERYBODY;
   }, [open, filter]);
@@ -52,7 +52,7 @@ export function RoadUsers() {
   );
 }
 
-/** In the open list the arrows walk, as in every list; what they move elsewhere stays. */
+/** In the open list the arrow keys walk the list instead of moving the selection. */
 function walkList(e: KeyboardEvent & { currentTarget: HTMLElement }): void {
   if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
   const all = [...e.currentTarget.querySelectorAll<HTMLElement>('[data-agent]')];
@@ -111,7 +111,7 @@ const inEvent = ({ editor }: Context, id: string) =>
 function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const c = useApp();
   const { editor } = c;
-  // Who comes or goes makes another list; who only changes does not.
+  // Added or removed road users change the list; changed ones do not.
   const castKey = useComputed(() => editor.resting.value?.castKey).value;
   const everybody = useMemo(
     () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
@@ -128,7 +128,7 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
     return everybody.filter((id) => fits(editor.resting.value?.agents.get(id))).join('\n');
   }).value;
   const shown = filter.value === EVERYBODY ? everybody : listed.split('\n').filter(Boolean);
-  /** The one that Tab comes to: who is selected, else the first. */
+  /** The Tab stop: the selected road user, else the first. */
   const tabStop = useComputed(() => editor.selected.value[0] ?? editor.resting.value?.agents.keys().next().value);
   return (
     <>
@@ -144,12 +144,12 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   );
 }
 
-/** The buttons stay while events come and go, or the focus would fall off the page. */
+/** The buttons persist when events change, or the focus would be lost. */
 function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string | undefined> }) {
   const c = useApp();
   const { editor } = c;
   const chosen = useComputed(() => editor.selected.value.includes(id));
-  // Nobody else changes while a hand moves, and nobody else's row is looked at then.
+  // During a drag the other rows are unchanged, so they do not follow the preview.
   const agent = useAgent(id, () => (chosen.value ? editor.scene : editor.resting));
   const event = useComputed(() => inEvent(c, id)?.label ?? '');
   const name = useComputed(() => agent.value.name);

@@ -1,4 +1,4 @@
-// A slider for each handle of a road user: where it starts, its goal, and the places on its way.
+// A slider for each handle of a road user: start, goal, and via points.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import type { Command } from '../../model/document/commands';
@@ -27,7 +27,7 @@ export function Sliders({ id }: { id: string }) {
   );
 }
 
-/** Which way an arrow key goes, to the right and up in the picture and as more or less. */
+/** Direction of an arrow key: right and up in the picture, and more or less. */
 const ARROWS: Record<string, readonly [right: number, up: number, more: 1 | -1]> = {
   ArrowLeft: [-1, 0, -1],
   ArrowRight: [1, 0, 1],
@@ -38,7 +38,7 @@ const ARROWS: Record<string, readonly [right: number, up: number, more: 1 | -1]>
 interface SliderProps {
   label: string;
   part: HandlePart;
-  /** The via point that it is about. */
+  /** Index of the via point. */
   via?: number;
   now: () => number;
   text: () => string;
@@ -76,7 +76,7 @@ function Slider({ label, part, via, now, text, move }: SliderProps) {
   );
 }
 
-/** What `read` gives; while a pointer drags, as it was before: nobody hears of a handle that they move with it. */
+/** The value of `read`; frozen during a pointer drag, which needs no announcements. */
 function useAtRest(read: () => string): ReadonlySignal<string> {
   const { editor } = useApp();
   const last = useRef<string | null>(null);

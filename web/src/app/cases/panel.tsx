@@ -1,4 +1,4 @@
-// The search for a case: the sentence of what is looked for, how far it is, and what was found.
+// The search for a case: the target as a sentence, progress, and results.
 import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/physics/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
@@ -17,7 +17,7 @@ import '../../styles/variants.css';
 import '../../styles/cases.css';
 import { TEXTS } from '../../texts/editing/cases';
 
-/** Shown while the search is open alone. */
+/** Rendered only while the search is open. */
 const useCases = () => useApp().searching.open.value;
 
 export default function CasesPanel() {

@@ -1,4 +1,4 @@
-// Which column of a table says what: as far as the names tell it is filled in already.
+// Assignment of a table's columns: prefilled from their names.
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/tools/importing/importing';
 import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/tools/outward/table-columns';

@@ -1,4 +1,4 @@
-// Which dialog is open.
+// The open dialog.
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 

@@ -1,4 +1,4 @@
-// What the palette finds: actions, and for what is typed road users, scenes and times.
+// Results of the palette: actions, and for typed text also road users, scenes and times.
 import type { Group } from '../../actions/action';
 import type { Context } from '../../actions/context';
 import { KINDS, type What } from '../../model/physics/cases';
@@ -17,9 +17,9 @@ export interface Entry {
   readonly group: string;
   readonly icon: string;
   readonly keys: readonly string[];
-  /** Has a letter of its own: what is done most often of several that answer as well. */
+  /** Ranked higher: the most common of several equal matches. */
   readonly common?: boolean;
-  /** Not possible now; the note says why. */
+  /** Not possible now; the note has the reason. */
   readonly off: boolean;
   run(): void;
 }
@@ -27,7 +27,7 @@ export interface Entry {
 const MOST = 60;
 const MOST_OF_A_KIND = 8;
 const MOST_RECENT = 4;
-/** Groups that stand under the name of the selected road user. */
+/** Groups under the name of the selected road user. */
 const FOR_AGENT: readonly Group[] = ['goal', 'rounds', 'move', 'edit'];
 const SCENES = TEXTS.scenes;
 const ALSO_CALLED: Readonly<Record<string, string>> = TEXTS.alsoCalled;
@@ -45,7 +45,7 @@ export function find(c: Context, typed: string): Entry[] {
   return inGroups(found, words).slice(0, MOST);
 }
 
-/** How well a text answers what was typed: all words must be in it, best at its start or at that of a word. */
+/** Score of a text for the typed words: all must occur, best at its start or at the start of a word. */
 export function fit(text: string, words: readonly string[]): number {
   const lower = text.toLowerCase();
   let sum = 0;
@@ -57,10 +57,10 @@ export function fit(text: string, words: readonly string[]): number {
   return sum / words.length;
 }
 
-/** More than what begins with the words has before what has them within. */
+/** Bonus of common entries, above the gap between a match at the start and one within. */
 const COMMON = 1.5;
 
-/** The group with the best answer first, and in each group the best first. */
+/** The group with the best match first, and in each group the best first. */
 function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
   const worth = (e: Entry): number => (e.off ? -10 : 0) + (e.common ? COMMON : 0) + (fit(e.label, words) || 0.5);
   const best = new Map<string, number>();
@@ -70,7 +70,7 @@ function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
   );
 }
 
-/** What one begins with first, then what one goes on with; what is for the selected one stands before all of it. */
+/** Order of a workflow: starting first, then continuing; groups of the selection come before all. */
 const ORDER: readonly Group[] = ['place', 'time', 'scene', 'variants', 'rounds', 'goal', 'look', 'edit', 'everything'];
 
 function actions(c: Context, words: readonly string[]): Entry[] {
@@ -130,7 +130,7 @@ const scenes = (c: Context, words: readonly string[]): Entry[] =>
     .slice(0, MOST_OF_A_KIND)
     .map((s) => sceneEntry(c, s));
 
-/** The scenes opened last, but for the one that is open. */
+/** The last opened scenes, except the open one. */
 const recent = (c: Context): Entry[] =>
   c.scenes.recent
     .peek()
@@ -139,7 +139,7 @@ const recent = (c: Context): Entry[] =>
     .slice(0, MOST_RECENT)
     .map((s) => sceneEntry(c, s));
 
-/** `near miss between Car 7 and Cyclist 2`: a case to look for, where one or two road users are named. */
+/** `near miss between Car 7 and Cyclist 2`: a case to search, if one or two road users are named. */
 function cases(c: Context, typed: string): Entry[] {
   const text = typed.toLowerCase();
   const all = [...(c.editor.scene.peek()?.agents.values() ?? [])];

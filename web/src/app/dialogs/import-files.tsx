@@ -1,4 +1,4 @@
-// What can be brought in, by kind, and the way to do it.
+// File kinds for import, and how to import each.
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { inKinds } from '../../edit/tools/outward/formats';
@@ -72,5 +72,5 @@ export function ImportFiles() {
   );
 }
 
-/** Without what stands in brackets: the endings say it. */
+/** Without the parenthesised part, which repeats the endings. */
 const short = (name: string): string => name.replace(/ \(.*\)$/, '').replace(/^ASAM /, '');

@@ -1,4 +1,4 @@
-// What became of the files that were brought in: one row a file, what is wrong with it below, and the way on.
+// Results of the import: one row for each file, faults below, and next steps.
 import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/tools/importing/importing';
@@ -10,17 +10,17 @@ import { Modal } from '../parts/modal';
 import { Columns } from './columns';
 import { TEXTS } from '../../texts/files/imports';
 
-/** More rows than these are shown when they are asked for. */
+/** Further rows are shown on demand. */
 const MOST_ROWS = 12;
 
 interface Rows<T> {
   readonly of: readonly T[];
-  /** Those that somebody has to look at are shown before the others. */
+  /** Rows that need attention come before the others. */
   readonly matters?: (row: T) => boolean;
   readonly row: (row: T) => ComponentChild;
 }
 
-/** Rows in their order, few of them until all are asked for. */
+/** Rows in order, limited until all are requested. */
 function Few<T>({ of, matters = () => false, row }: Rows<T>) {
   const all = useSignal(false);
   const first = [...of.filter(matters), ...of.filter((r) => !matters(r))].slice(0, MOST_ROWS);
@@ -87,7 +87,7 @@ function titleOf(verdicts: readonly FileVerdict[]): string {
   return TEXTS.files(all, counts.join(', '));
 }
 
-/** The likeliest next step is drawn as such and has the focus. */
+/** The likeliest next step is the primary button and has the focus. */
 function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boolean; close: () => void }) {
   const c = useApp();
   const details = bad.map((v) => v.details).filter(Boolean);
@@ -198,7 +198,7 @@ function Wrong({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
   );
 }
 
-/** What is wrong, where, and what to do about it. */
+/** The fault, its place, and the remedy. */
 function Words({ verdict: v }: { verdict: FileVerdict }) {
   if (v.ok) return <p>{v.wrong}</p>;
   const rest = v.without ? TEXTS.fixItOrWithout(v.without.join(', ')) : v.todo;

@@ -1,4 +1,4 @@
-// The palette: everything one can do, found by its name.
+// The palette: all actions, searched by name.
 import { useRef } from 'preact/hooks';
 import { useSignal, useComputed, type ReadonlySignal } from '@preact/signals';
 import { useApp } from '../parts/app-context';
@@ -108,7 +108,7 @@ function Result({ entry: e, query, index, at, point, go }: ResultProps) {
   );
 }
 
-/** A text with what was looked for marked in it. */
+/** A text with the search words highlighted. */
 function Marked({ text, query }: { text: string; query: string }) {
   const at = query ? text.toLowerCase().indexOf(query.toLowerCase()) : -1;
   if (at < 0) return <>{text}</>;

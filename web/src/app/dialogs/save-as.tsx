@@ -1,4 +1,4 @@
-// A copy under a name of one's own.
+// A copy under a new name.
 import { useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 import { Modal } from '../parts/modal';

@@ -1,4 +1,4 @@
-// The sheet of shortcuts, made from the actions; what the mouse does with modifiers is added.
+// The shortcut sheet, made from the actions; mouse gestures with modifiers are added.
 import { useRef } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { GROUPS, type Action, type Group } from '../../actions/action';
@@ -13,7 +13,7 @@ import { TEXTS } from '../../texts/desk/shortcuts';
 interface Line {
   readonly label: string;
   readonly keys: readonly string[];
-  /** What is done with the mouse meanwhile. */
+  /** The mouse gesture. */
   readonly how?: string;
 }
 
@@ -37,7 +37,7 @@ const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
   ],
 };
 
-/** Families of keys on one line, as people think of them. */
+/** Related keys on one line. */
 const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   { ids: /^nudge-(left|right|up|down)$/, label: TEXTS.nudge01M, keys: ['Left', 'Up', 'Down', 'Right'] },
   { ids: /^nudge-far-/, label: TEXTS.nudge1M, keys: ['Shift+Left', 'Up', 'Down', 'Right'] },
@@ -129,7 +129,7 @@ function linesOf(group: Group): Line[] {
   return [...new Set(lines), ...(POINTER_LINES[group] ?? [])];
 }
 
-/** The line of an action; the same one for all of a family. */
+/** The line of an action; shared by all of a family. */
 function lineOf(a: Action): Line {
   return (
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {

@@ -1,4 +1,4 @@
-// What was done in the scene, newest on top. A click goes there; what was left by going back hangs beside the line.
+// History of the scene, newest on top. A click goes to a step; abandoned branches are beside the line.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import type { History, HistoryStep } from '../../model/document/history';
@@ -8,18 +8,18 @@ import { Icon } from '../parts/icons';
 import { clock, dayAndTime } from '../scenes/dates';
 import { TEXTS } from '../../texts/desk/history';
 
-/** Rows that are drawn at first; older ones when they are asked for. */
+/** Rows drawn at first; older ones follow on demand. */
 const SHOWN = 120;
 
-/** A row of the list: a step of the line one is on, or of a branch beside it. */
+/** A row of the list: a step of the current line, or of a branch beside it. */
 interface Row {
   readonly step: HistoryStep;
   readonly branch: boolean;
-  /** Last of its branch: where it leads. */
+  /** Last of its branch: the branch leads here. */
   readonly tip: boolean;
 }
 
-/** Newest first; a branch stands above the step that it comes from. */
+/** Newest first; a branch is above the step it comes from. */
 export function rowsOf(h: History): Row[] {
   const line = h.line();
   const onLine = new Set(line.map((s) => s.id));

@@ -1,4 +1,4 @@
-// What one must know before going on: a crash, a generator that is away, a conflict, a scene that does not open.
+// Urgent notices: a crash, an unreachable generator, a conflict, a scene that does not open.
 import type { ComponentChildren } from 'preact';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';

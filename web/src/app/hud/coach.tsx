@@ -10,7 +10,7 @@ import { viewTick } from './view-tick';
 import { TEXTS } from '../../texts/desk/hud';
 
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseOthersReact];
-/** How far the hint reaches to both sides of the middle, with all steps and with one, and up or down from its edge. */
+/** Half width of the hint with all steps and with one, and its extent from its edge, up and down. */
 const HALF_WIDTH_PX = 340;
 const HALF_STEP_PX = 200;
 const REACHES_PX = 120;
@@ -22,14 +22,14 @@ export function Coach() {
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
-      // What can only be looked at is not dragged.
+      // A read-only scene has no drag.
       editor.document.lock.value === null &&
       !editor.drag.active.value &&
       !editor.notices.toast.value &&
       !filling.wish.value &&
       !layouts.isOpen.value &&
       editor.selected.value.length < 2 &&
-      // Those who look for something else, or put somebody there, have found their way.
+      // Users who search or place something do not need the hint any more.
       placedBy(c) === null &&
       !searching.open.value &&
       !rounds.isOpen.value &&
@@ -53,7 +53,7 @@ export function Coach() {
   );
 }
 
-/** It speaks of the car and of its flag, and must not lie over them: elsewhere than usual where it would. */
+/** The hint is about the car and its flag, and must not cover them: it moves elsewhere where it would. */
 function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'below' | 'left' | 'right' {
   void viewTick.value;
   const a = editor.agent.value;

@@ -1,16 +1,16 @@
-// Where north is, as soon as it is not up: a click turns the picture back, and taken hold of it turns with the hand.
+// The compass, shown while north is not up: a click resets the turn, a drag turns the picture.
 import { useComputed, useSignal } from '@preact/signals';
 import { deg, rad, wrapAngle } from '../../model/base/geometry';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { viewTick } from './view-tick';
 
-/** A movement by less is a click's, pixels. */
+/** A shorter movement is a click, pixels. */
 const START_PX = 4;
-/** So near to north the picture sticks to it. */
+/** Within this of north the picture snaps to it. */
 const STICKS_RAD = rad(3);
 
-/** The hand on it: where it took hold, in pixels and about its middle, and how the picture was turned then. */
+/** A drag of the compass: its start in pixels and as an angle, and the picture's turn then. */
 interface Hold {
   readonly x: number;
   readonly y: number;
@@ -29,7 +29,7 @@ export function Compass() {
   const { view, glide } = stage;
   const hold = useSignal<Hold | null>(null);
   const turn = useComputed(() => (void viewTick.value, view.turn)).value;
-  // It stays in the hand, also where the picture passes north.
+  // It stays during a drag, even when the picture passes north.
   if (!turn && !hold.value?.turning) return null;
   const down = (e: PointerEvent & { readonly currentTarget: HTMLElement }) => {
     hold.value = { x: e.clientX, y: e.clientY, angle: angleOn(e), turn: view.turn, turning: false };
@@ -39,7 +39,7 @@ export function Compass() {
     if (!from) return;
     if (!from.turning) {
       if (Math.hypot(e.clientX - from.x, e.clientY - from.y) < START_PX) return;
-      // From here on it is no click on the button.
+      // From here on it is a drag and not a click.
       e.currentTarget.setPointerCapture(e.pointerId);
       hold.value = { ...from, turning: true };
       glide.stop();

@@ -1,4 +1,4 @@
-// A map with nobody on it: what one can do about that.
+// Suggestions for a map without road users.
 import { useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { actionOf, perform } from '../../actions/registry';
@@ -14,7 +14,7 @@ export function EmptyScene() {
   const { editor, ui, layouts } = useApp();
   const scene = useComputed(() => editor.resting.value?.id ?? null).value;
   const nobody = useComputed(() => editor.resting.value?.agents.size === 0).value;
-  // Once somebody was here the card does not come back.
+  // Once road users were added the card does not return.
   useEffect(() => {
     if (scene !== null && !nobody) ui.hideEmpty(scene);
   }, [scene, nobody, ui]);

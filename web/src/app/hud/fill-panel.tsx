@@ -1,4 +1,4 @@
-// Filling an area: how busy, which kinds, and what is added with one key.
+// Filling an area: density, kinds, and adding it with one key.
 import { useComputed } from '@preact/signals';
 import type { ComponentChildren, ComponentProps } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/tools/filling/fill-mix';
@@ -25,7 +25,7 @@ const NAMES: Record<FillKind, string> = {
   cyclist: TEXTS.cyclists,
   pedestrian: TEXTS.pedestrians,
 };
-/** The most that one kind may weigh in the mix. */
+/** Largest weight of a kind in the mix. */
 const MOST_WEIGHT = 100;
 
 export default function FillPanel() {
@@ -111,7 +111,7 @@ export default function FillPanel() {
   );
 }
 
-/** One end of the range of speeds that vehicles start at. */
+/** One end of the range of start speeds. */
 function SpeedField({ end }: { end: 0 | 1 }) {
   const { editor, filling } = useApp();
   const { speedUnit } = editor.view;
@@ -129,7 +129,7 @@ function SpeedField({ end }: { end: 0 | 1 }) {
       set={(v) => {
         const other = filling.wish.value!.speeds[1 - end];
         const here = fromUnit(v, speedUnit.value);
-        // The end that is set wins: the other one goes along.
+        // The edited end wins: the other one follows.
         filling.setSpeeds(end ? [Math.min(other, here), here] : [here, Math.max(other, here)]);
       }}
       onUnit={end ? () => editor.view.setUnit(nextSpeedUnit(speedUnit.peek())) : undefined}
@@ -137,7 +137,7 @@ function SpeedField({ end }: { end: 0 | 1 }) {
   );
 }
 
-/** How many come in by each arm; the handles on the map are the same. */
+/** Arrivals of each arm; equal to the handles on the map. */
 function Arms() {
   const { filling } = useApp();
   const arms = filling.answer.value?.arms ?? [];
@@ -172,7 +172,7 @@ function RateField({ arm }: { arm: Arm }) {
   );
 }
 
-/** Who would come, for those who do not see the canvas: a button each, which pins. */
+/** The preview for screen readers: a button for each road user, which pins it. */
 function Preview() {
   const { filling } = useApp();
   const all = filling.all.value;
@@ -198,7 +198,7 @@ function Preview() {
 const what = (n: Newcomer): string =>
   n.parked ? TEXTS.parked : comesLater(n) ? TEXTS.arrivesAt(seconds(n.motion!.first * STEP_S)) : '';
 
-/** What to do next, or why there are not more. */
+/** The next step, or why fewer were placed. */
 function Note() {
   const { filling } = useApp();
   const wish = filling.wish.value!;

@@ -1,9 +1,9 @@
-// Who is under the pointer, in words beside it.
+// The road user under the pointer, described beside it.
 import { useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 
-/** Width of the card before it has been laid out. */
+/** Width of the card before layout. */
 const GUESSED_WIDTH = 220;
 
 export function HoverCard() {
@@ -11,7 +11,7 @@ export function HoverCard() {
   const card = useRef<HTMLDivElement>(null);
   const title = useRef<HTMLElement>(null);
   const line = useRef<HTMLSpanElement>(null);
-  // Written by hand: the card's own width decides where it stands.
+  // Written without rendering: the card's own width decides its position.
   useLiveEffect(() => {
     void [editor.hover.value, editor.drag.info.value, editor.selection.value];
     const el = card.current!;

@@ -1,4 +1,4 @@
-// Everything that floats over the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
+// All overlays of the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
 import { Fragment } from 'preact';
 import { useComputed } from '@preact/signals';
 import { typeOfKind } from '../../model/base/kinds';
@@ -22,7 +22,7 @@ import { WayBack } from './way-back';
 import { lengthUnit } from '../../model/base/units';
 import { TEXTS } from '../../texts/desk/hud';
 
-/** Those that are switched most; all are in the menu beside them. */
+/** The most used layers; the menu beside them has all. */
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
@@ -88,7 +88,7 @@ function Tool({ id, class: className }: { id: string; class?: string }) {
   );
 }
 
-/** What the modifier keys do to each handle. */
+/** Effect of the modifier keys on each handle. */
 const TIPS = {
   body: [
     ['Alt', TEXTS.noSnapping],

@@ -1,4 +1,4 @@
-// Under the loupe: where the thing in hand is.
+// Under the loupe: the place of the dragged handle.
 import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
 

@@ -1,4 +1,4 @@
-// What the placing tool puts down: a size, and one or many at once.
+// Settings of the placing tool: a size, and one or many at once.
 import { useComputed } from '@preact/signals';
 import { rangesOf } from '../../model/base/domain';
 import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/base/kinds';

@@ -1,4 +1,4 @@
-// The status line: what the generator is doing, or what happens in the scene.
+// The status line: the generator's state, or the events of the scene.
 import type { Lane } from '../../model/document/lanemap';
 import { num } from '../../model/base/units';
 import { counted, worstOf } from '../../model/physics/events';
@@ -14,10 +14,10 @@ import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/desk/hud';
 
 interface Line {
-  /** Colour of the dot; empty for all well. */
+  /** Colour of the dot; empty without problems. */
   readonly dot: '' | 'busy' | 'near' | 'collision';
   readonly text: string;
-  /** Where a press on it leads. */
+  /** Action of a press on it. */
   readonly go?: () => void;
 }
 
@@ -29,7 +29,7 @@ export function Status() {
 function statusLine(c: Context) {
   const { editor, layouts, filling } = c;
   const s = editor.answers.status.value;
-  // At an event the line says what happens in the scene, not what the generator did last.
+  // At an event the line describes the scene, not the generator.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return row(sceneLine(c));
   if (layouts.isOpen.value) return row(mapLine(c));
   const work = workLine(c);
@@ -44,7 +44,7 @@ function statusLine(c: Context) {
   return row(lineFor(c, s));
 }
 
-/** How far a search is that goes on, or the making of variants. */
+/** Progress of a search, or of making variants. */
 function workLine({ searching, variants }: Context): Line | null {
   const making = variants.making.value;
   if (making) return { dot: 'busy', text: TEXTS.makingVariants(making.made.length, making.of) };
@@ -54,11 +54,11 @@ function workLine({ searching, variants }: Context): Line | null {
   return { dot: 'busy', text: TEXTS.searching(tried, of, open.found.value.length) };
 }
 
-/** Lanes for motor vehicles, which are what one calls lanes. */
+/** Lanes for motor vehicles, which the word "lanes" means here. */
 const driven = (lanes: ReadonlyMap<string, Lane>): number =>
   [...lanes.values()].filter((l) => l.kind === 'road').length;
 
-/** What the map that is being made holds. */
+/** Contents of the map being made. */
 function mapLine({ layouts }: Context): Line {
   const made = layouts.made.value;
   if (!made) return { dot: 'busy', text: TEXTS.drawing };
@@ -68,7 +68,7 @@ function mapLine({ layouts }: Context): Line {
   return { dot: bad ? 'near' : '', text: words };
 }
 
-/** Not a component of its own, nor is the other one: a drag goes from one to the other and back in every frame. */
+/** Neither row is a component: a drag alternates between them in every frame. */
 function row({ dot, text, go }: Line) {
   const words = (
     <>
@@ -141,7 +141,7 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
     ms ? TEXTS.ms(ms.toFixed(0)) : '',
     adapted ? TEXTS.othersReact(adapted) : '',
   ];
-  // Beside a collision nothing is green.
+  // Beside a collision the dot is not green.
   return { dot: dotOf(editor.reading.events.value), text: parts.filter(Boolean).join(' · ') };
 }
 
@@ -150,7 +150,7 @@ function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
   return worst === 'collision' ? 'collision' : worst && worst !== 'short' ? 'near' : '';
 }
 
-/** What happens in the scene; a press leads to the first of what is worst. */
+/** Events of the scene; a press goes to the first of the worst kind. */
 function sceneLine(c: Context): Line {
   const { editor } = c;
   const events = editor.reading.events.value;

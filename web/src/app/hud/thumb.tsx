@@ -1,4 +1,4 @@
-// On a small page what the rail has stands behind a + at the thumb.
+// On a small page a + button within reach of the thumb replaces the rail.
 import { useComputed } from '@preact/signals';
 import { RAIL } from '../../edit/tools/tools';
 import { useApp } from '../parts/app-context';
@@ -7,13 +7,13 @@ import { Icon } from '../parts/icons';
 import { MenuList } from '../parts/menu-list';
 import { TEXTS } from '../../texts/desk/hud';
 
-/** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
+/** In the menu of the +: the most placed kinds, then the other tools; the last two need no entry. */
 const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];
 const NOT_LISTED = ['select', 'pan'];
 const REST = RAIL.map((t): string => t.name).filter((name) => ![...FIRST, ...NOT_LISTED].includes(name));
 const MENU = 'add';
 
-/** The + while nothing is placed; else what ends that. */
+/** The + while no road user is placed; else the button that ends placing. */
 export function Thumb() {
   const { editor, ui } = useApp();
   const busy = useComputed(() => editor.tool.value !== 'select').value;

@@ -1,4 +1,4 @@
-// What was done or cannot be done, for a few seconds, with a way back or on.
+// A short notice of a result or a refusal, with an action to undo or continue.
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { TEXTS } from '../../texts/desk/hud';

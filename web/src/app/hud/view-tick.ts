@@ -1,14 +1,14 @@
-// A signal that rises when the view has changed, once a frame at most.
+// A signal that increases after each change of the view, at most once a frame.
 import { signal, type ReadonlySignal } from '@preact/signals';
 import type { Stage } from '../../draw/stage';
 
 const tick = signal(0);
 export const viewTick: ReadonlySignal<number> = tick;
 const moving = signal(false);
-/** Is the picture on its way to another place by itself? */
+/** Is the picture being animated? */
 export const gliding: ReadonlySignal<boolean> = moving;
 const turned = signal(0);
-/** How the picture is turned, where it is not on its way. */
+/** The picture's turn, outside animations. */
 export const turnAtRest: ReadonlySignal<number> = turned;
 
 export function followView(stage: Stage): void {
@@ -20,7 +20,7 @@ export function followView(stage: Stage): void {
       queued = false;
       tick.value++;
       moving.value = stage.glide.going;
-      // Lets scripts that drive the page find world points on the screen.
+      // Lets scripts convert world points to screen positions.
       const { cx, cy, z, turn } = stage.view.camera;
       if (!stage.glide.going) turned.value = turn;
       stage.element.dataset.view = [cx, cy, z, turn].map((v) => v.toFixed(4)).join(' ');

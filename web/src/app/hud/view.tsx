@@ -1,4 +1,4 @@
-// Scale and zoom. The view changes many times a second; these follow once a frame at most.
+// Scale and zoom. The view changes many times a second; these follow at most once a frame.
 import { useComputed } from '@preact/signals';
 import { scaleOf } from '../../draw/scale';
 import { HOME_ZOOM } from '../../draw/view';

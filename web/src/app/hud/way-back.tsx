@@ -1,4 +1,4 @@
-// When nothing of the scene is in view: the way back.
+// A button to return when the scene is out of view.
 import { useComputed } from '@preact/signals';
 import { boxesMeet, boxOf, type Box } from '../../model/base/geometry';
 import type { LaneMap } from '../../model/document/lanemap';
@@ -9,7 +9,7 @@ import { viewTick } from './view-tick';
 
 const boxes = new WeakMap<LaneMap, readonly Box[]>();
 
-/** Around each lane; a map without lanes is its box. */
+/** Boxes around each lane; a map without lanes has its own box. */
 function boxesOf(map: LaneMap): readonly Box[] {
   const known = boxes.get(map);
   if (known) return known;

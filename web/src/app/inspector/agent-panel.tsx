@@ -1,4 +1,4 @@
-// The inspector of one road user: verdict on the goal, start, goal, six futures, who changed.
+// The inspector of one road user: verdict on the goal, start, goal, six futures, reactions.
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
@@ -22,7 +22,7 @@ import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
 import { TEXTS } from '../../texts/panels/agent';
 
-// Beside it in one script: who is selected has both at once.
+// In one script with the panel: a selection needs both at once.
 export { Sliders } from '../access/sliders';
 
 export function AgentPanel({ id }: { id: string }) {
@@ -56,7 +56,7 @@ export function AgentPanel({ id }: { id: string }) {
   );
 }
 
-/** When a road user is first seen in the log. */
+/** Time of the first recorded state. */
 const appearsAt = (a: Agent): string => seconds((a.log.valid[0]?.[0] ?? 0) / 10);
 
 const whyNot = (a: Agent): string => (a.type === 'other' ? TEXTS.objectsOfThis : TEXTS.onlyRoadUsers(appearsAt(a)));
@@ -74,7 +74,7 @@ function Head({ agent }: { agent: LiveAgent }) {
     const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
     const until = seenUntil(editor.scene.value!, editor.answers.motion.value, a);
     const seen = until === null ? place : TEXTS.seenUntil(seconds(until), place);
-    // Where the name says it already the place has the room.
+    // If the name already has the id, the place gets the space.
     return a.name.endsWith(` ${a.id}`) ? seen : TEXTS.id(seen, a.id);
   });
   return (
@@ -96,7 +96,7 @@ function Head({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** The verdict in a line, for where there is no room for more. */
+/** The verdict in one line, for small spaces. */
 function VerdictLine({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const v = useComputed(() => verdictOn(c, agent)).value;
@@ -108,7 +108,7 @@ function VerdictLine({ agent }: { agent: LiveAgent }) {
   ) : null;
 }
 
-/** The name, to be changed in place; emptied, it is the kind and the number again. */
+/** The name, editable in place; an empty one becomes kind and number again. */
 function NameField({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
@@ -143,7 +143,7 @@ function NameField({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** What is locked is shown, not changed. */
+/** A locked road user is shown read-only. */
 function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChildren }) {
   const fields = useRef<HTMLFieldSetElement>(null);
   useSteady(fields);
@@ -166,7 +166,7 @@ function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChil
   );
 }
 
-/** Who works in the panel keeps the fields under the hand, however many lines the verdict above them takes. */
+/** Keeps the fields under the pointer in place when the verdict above them changes height. */
 function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
   useEffect(() => {
     const within = fields.current!;
@@ -177,7 +177,7 @@ function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
       const now = below();
       const by = now && now === first ? now.offsetTop - was : 0;
       [first, was] = [now, now?.offsetTop ?? 0];
-      // The verdict itself stays in sight: no more than the head gives way.
+      // The verdict itself stays visible: scrolling is limited to the head's height.
       const most = Math.max(panel?.scrollTop ?? 0, within.offsetTop);
       if (by && panel?.matches(':hover, :focus-within')) panel.scrollTop = Math.min(panel.scrollTop + by, most);
     });
@@ -186,7 +186,7 @@ function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
   }, [fields]);
 }
 
-/** A note of one's own, and what it does while others change. */
+/** A note, and the behaviour when others change. */
 function NoteSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const area = useRef<HTMLTextAreaElement>(null);
@@ -242,7 +242,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const list = useComputed(() => {
     const all = c.editor.answers.motion.value.warnings?.get(agent.value.id);
-    // The verdict says that there is no lane.
+    // The verdict already reports the missing lane.
     return verdictOn(c, agent)?.snap ? all?.filter((w) => !OFF_ROAD.has(w.code)) : all;
   }).value;
   if (!list?.length) return null;

@@ -1,10 +1,10 @@
-// Who else does something else since the last change; during a drag, who would if one let go now.
+// Reactions to the last change; during a drag, to a release now.
 import { useComputed, useSignal } from '@preact/signals';
 import type { Change } from '../../model/words/change-words';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/panels/agent';
 
-/** More than these are counted until somebody asks for all. */
+/** Beyond this number they are counted until all are requested. */
 const LISTED = 8;
 
 const others = (n: number): string => TEXTS.others(n);
@@ -28,7 +28,7 @@ export function Changes() {
   );
 }
 
-/** Nothing of it has happened yet: the dots are hollow. */
+/** A preview: the dots are hollow. */
 function Foreseen({ list }: { list: readonly Change[] }) {
   if (!list.length) return null;
   return (

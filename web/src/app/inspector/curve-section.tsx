@@ -1,4 +1,4 @@
-// A speed that was drawn by hand, in words: its points, and where it stops on the way.
+// A drawn speed profile in numbers: its points, and its stops.
 import { useComputed } from '@preact/signals';
 import { project } from '../../model/base/geometry';
 import { poseAt, type Motion } from '../../model/base/motion';
@@ -12,18 +12,18 @@ import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/panels/curve-section';
 import type { LiveAgent } from './use-agent';
 
-/** So long a new stop lasts, seconds. */
+/** Duration of a new stop, seconds. */
 const STOP_S = 2;
-/** A speed that is missed by more is said, m/s. */
+/** A larger deviation of the speed is reported, m/s. */
 const MISSED_MPS = 0.5;
 
-/** The motion that comes of the curve, as far as it is worked out. */
+/** The motion computed from the curve, where known. */
 const drivenOf = (e: Editor): Motion | undefined =>
   e.reading.toldFutures.value?.modes[e.reading.toldChosen.value]?.motion;
 
 export function CurveSection({ agent }: { agent: LiveAgent }) {
   const { editor, ui, curve } = useApp();
-  // Who opens the tall timeline is about to draw one.
+  // Opening the tall timeline means that the user is about to draw one.
   const shown = useComputed(
     () => curve.profile.value !== null || (ui.tall.value && curve.points.value.length > 1),
   ).value;
@@ -31,7 +31,7 @@ export function CurveSection({ agent }: { agent: LiveAgent }) {
   const points = curve.points.value;
   const unit = editor.view.unitOf(agent.value);
   const driven = drivenOf(editor);
-  /** What is driven instead where a point cannot be. */
+  /** The actual speed where a point is not reached. */
   const missed = (p: SpeedPoint): string | null => {
     const now = curve.profile.value && driven && poseAt(driven, p.t);
     return now && Math.abs(now.speed - p.v) > MISSED_MPS ? TEXTS.actual(speedLabel(now.speed, unit)) : null;

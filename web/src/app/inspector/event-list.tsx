@@ -1,4 +1,4 @@
-// What happens as a list, and the way to one of them.
+// The list of events; a click goes to one.
 import type { ComponentChild } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
@@ -10,12 +10,12 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/panels/inspector';
 
-/** `below` is what stands under the event that is picked. */
+/** `below`: content under the selected event. */
 export function EventList({ most = Infinity, below }: { most?: number; below?: (e: TrafficEvent) => ComponentChild }) {
   const { editor, ui } = useApp();
   const all = editor.reading.events.value;
   const own = counted(all);
-  // Those that count come first.
+  // Events that count come first.
   const events = [...own, ...all.filter((e) => e.inLog)].slice(0, most);
   const left = own.length - events.length;
   return (
@@ -37,7 +37,7 @@ function Row({ event: e, below }: { event: TrafficEvent; below?: (e: TrafficEven
   const c = useApp();
   const all = useRef<HTMLDivElement>(null);
   const picked = c.editor.selectedEvent.value === e;
-  // It may be picked in the picture or by a key, far down a long list.
+  // The selection may come from the picture or from a key, far down a long list.
   useEffect(() => {
     if (picked) all.current?.scrollIntoView({ block: 'nearest' });
   }, [picked]);

@@ -1,4 +1,4 @@
-// The list of events, and the facts of the one that is picked.
+// The list of events, and the facts of the selected one.
 import { useEffect, useMemo } from 'preact/hooks';
 import { counted, worstOf } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -21,7 +21,7 @@ import { TEXTS as COUNTS } from '../../texts/panels/thresholds';
 
 export function EventsPanel() {
   const { editor, ui } = useApp();
-  // Asked for by itself it comes first, above however many events there are.
+  // When opened for the thresholds, that section comes first, above all events.
   const first = ui.eventsPanel.value === 'counts';
   const events = editor.reading.events.value;
   const worst = worstOf(events);
@@ -49,10 +49,10 @@ export function EventsPanel() {
   );
 }
 
-/** The lane on which the first of them is then. */
+/** The lane of the first road user at that time. */
 function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): string {
   const p = poseAt(editor.reading.motionFor(a), time);
-  // Where it is itself: between the two are other lanes.
+  // The place of the road user itself: between the two are other lanes.
   return laneWords(editor.scene.peek()!.map, a, p?.x ?? x, p?.y ?? y, p?.heading ?? 0);
 }
 

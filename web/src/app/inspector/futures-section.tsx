@@ -1,4 +1,4 @@
-// The six futures of a road user: names, shares, and which one it takes.
+// The six futures of a road user: names, probabilities, and the followed one.
 import { useComputed } from '@preact/signals';
 import { markOf, type Mark } from '../../model/document/future-facts';
 import { isSettled, LETTERS, percents, type Future } from '../../model/document/futures';
@@ -48,7 +48,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** Why another future is shown than the one that was bold in the drag. */
+/** Why the shown future is not the one that was bold in the drag. */
 function Remark({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const words = useComputed(() => {
@@ -84,7 +84,7 @@ function Waiting() {
   return <p class="mut">{words}</p>;
 }
 
-/** What was recorded, where it is what happens or would be again without the pick. */
+/** The recorded motion, if it is followed or would be without the pick. */
 function RecordedRow({ agent }: { agent: LiveAgent }) {
   const c = useApp();
   const replays = useComputed(() => c.editor.reading.throttle.read(() => c.editor.reading.replays.value));
@@ -227,7 +227,7 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
   ok: TEXTS.reached,
 };
 
-/** The worst of its verdicts. A tick belongs to a goal; where none is set, only what is wrong is marked. */
+/** The worst verdict. A tick requires a goal; without one only faults are marked. */
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
@@ -252,7 +252,7 @@ function inWords(scene: Scene | null, m: Future | undefined): string {
   return TEXTS.at(m.name, placeWord(worst, nameIn(scene)), seconds(worst.time));
 }
 
-/** A bar as long as the future is likely, beside the likeliest. It is pushed out of sight, which lays out nothing. */
+/** A bar for the probability relative to the likeliest. It is moved by a transform, which needs no layout. */
 function Share({ index }: { index: number }) {
   const { editor } = useApp();
   const missing = useComputed(() => {

@@ -1,4 +1,4 @@
-// The verdict on the goal, and the ways out of one that cannot be reached.
+// The verdict on the goal, and the remedies for an unreachable one.
 import { useComputed } from '@preact/signals';
 import { actionOf, perform } from '../../actions/registry';
 import { remedies, snapToNearest } from '../../edit/moves/moves';
@@ -34,7 +34,7 @@ export function Hint({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** What is wrong leads to the moment at which it is. */
+/** A click on a fault moves the playhead to it. */
 function Title({ verdict: { title, at } }: { verdict: Verdict }) {
   const { editor } = useApp();
   if (at == null) return <b>{title}</b>;
@@ -49,7 +49,7 @@ function Title({ verdict: { title, at } }: { verdict: Verdict }) {
   );
 }
 
-/** By the road first; then leave to go over what is in the way. */
+/** By road first; then permission to cross the edge. */
 function WaysOut({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const road = useComputed(() => roadWay(editor, agent.value)).value;
@@ -69,7 +69,7 @@ interface WayOutProps {
   words: string;
   command: Command;
   note?: string;
-  /** The key to show; there is little room. */
+  /** The key to show; space is short. */
   cap?: string;
   primary?: boolean;
 }

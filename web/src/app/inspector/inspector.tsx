@@ -1,4 +1,4 @@
-// The panel on the right: the events when they are asked for, else the selected road user, else the scene.
+// The right panel: the events if requested, else the selected road user, else the scene.
 import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
@@ -13,7 +13,7 @@ export function Inspector() {
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const events = useComputed(() => {
     const open = ui.eventsPanel.value;
-    // Where what counts was changed it stays open, though nothing may be left that does.
+    // It stays open after a change of thresholds, even if no event remains.
     const changed = Object.keys(editor.resting.value?.thresholds ?? {}).length > 0;
     return open === 'counts' || (open && (changed || editor.reading.events.value.length > 0));
   }).value;

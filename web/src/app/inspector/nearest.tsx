@@ -1,4 +1,4 @@
-// How near the selected ones come to each other, in space and in time.
+// Closest approach of the selected ones, in space and in time.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import { closestOf, timeGapOf, type Closest } from '../../model/physics/proximity';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -7,10 +7,10 @@ import { metres, seconds } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/panels/several-panel';
 
-/** Nearer than this they touch, metres. */
+/** Nearer than this they are in contact, metres. */
 const TOUCH_M = 0.005;
 
-/** How near they come: in space the two that come closest, and of two alone in time as well. */
+/** Closest approach: in space of the closest two, and for exactly two also in time. */
 export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) {
   const { editor } = useApp();
   const moving = useComputed(() => {
@@ -20,7 +20,7 @@ export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) 
   });
   const closest = useComputed(() => {
     const c = moving.value && closestOf(moving.value.all, moving.value.duration);
-    // Of those who touch the event knows when, between two steps.
+    // For a collision the event has the time between two steps.
     const hits = (e: TrafficEvent): boolean =>
       e.kind === 'collision' && [e.a, e.b].every((x) => x === c?.a || x === c?.b);
     const hit = c && c.gap <= TOUCH_M ? editor.reading.shownEvents.value.find(hits) : undefined;
@@ -47,7 +47,7 @@ export function Nearest({ those }: { those: ReadonlySignal<readonly Agent[]> }) 
 const closestWords = ({ a, b, gap }: Closest): string =>
   gap > TOUCH_M ? TEXTS.andGap(a.name, b.name, metres(gap, 1)) : TEXTS.andInContact(a.name, b.name);
 
-/** What happens at a moment; a click goes there. */
+/** A moment; a click goes there. */
 function Moment({ time, title, words }: { time: number; title: string; words: string }) {
   const { editor } = useApp();
   return (

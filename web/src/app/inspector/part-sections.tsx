@@ -1,4 +1,4 @@
-// Start and goal: every field with its value, and whether one decides it or leaves it to the generator.
+// Start and goal: each field with its value, and whether it is fixed or free.
 import type { ComponentChildren } from 'preact';
 import { useComputed } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/base/geometry';
@@ -89,7 +89,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** What it may go over on its way, to be taken back. */
+/** Road edges that it may cross, with a button to withdraw that. */
 function LeaveLine({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const leave = useComputed(() => leaveGiven(editor, agent.value)).value;
@@ -104,14 +104,14 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** The words for a lane begin with their own preposition where "on" does not fit. */
+/** Lane texts have a preposition where "on" does not fit. */
 const onLane = (name: string): string => (SAYS_WHERE.test(name) ? name : TEXTS.on(name));
 
 interface RowProps {
   label: string;
   children: ComponentChildren;
   end?: ComponentChildren;
-  /** The label is dragged to change the value. */
+  /** Dragging the label changes the value. */
   scrub?: Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'>;
 }
 
@@ -132,7 +132,7 @@ interface PartProps {
 
 const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
-/** What the fields of one part have in common. */
+/** Shared parts of the fields. */
 function usePart({ agent, part }: PartProps) {
   const { editor } = useApp();
   return {
@@ -152,7 +152,7 @@ function usePart({ agent, part }: PartProps) {
   };
 }
 
-/** A value as it is shown: one that the generator decides is marked as about. */
+/** A displayed value: a free one is marked as approximate. */
 const about = (free: boolean, v: number | null | undefined, text: (v: number) => string): string =>
   v == null ? '' : `${free ? '≈ ' : ''}${text(v)}`;
 
@@ -284,7 +284,7 @@ function SpeedRow(props: PartProps) {
   );
 }
 
-/** What it is: a kind in one of its usual sizes. Another kind is another expert. */
+/** Its type: a kind in one of its usual sizes. Another kind uses another expert. */
 function TypeRow({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const shown = useComputed(() => {

@@ -1,4 +1,4 @@
-// The inspector with nothing selected: who is here, what happens, what the map holds.
+// The inspector without a selection: road users, events, contents of the map.
 import { useComputed } from '@preact/signals';
 import type { Agent, Scene } from '../../model/document/scene';
 import { drivingSide } from '../../model/physics/driving-side';
@@ -16,7 +16,7 @@ const FIRST_EVENTS = 6;
 
 export function ScenePanel() {
   const { editor } = useApp();
-  // Who comes or goes is counted anew; who is dragged is not.
+  // Counts are updated when road users are added or removed, not during a drag.
   void useComputed(() => editor.resting.value?.castKey).value;
   const scene = editor.scene.peek();
   return scene ? <About scene={scene} /> : <Nothing />;
@@ -104,7 +104,7 @@ function About({ scene }: { scene: Scene }) {
   );
 }
 
-/** The same ways out as on the picture, for when that was closed. */
+/** The suggestions of the picture, for when they were closed there. */
 function Ways() {
   return (
     <div class="offers">

@@ -1,5 +1,4 @@
-// The scene in four figures: how often somebody is hit, how close it gets, how many goals are reached, how far from
-// the log.
+// The scene in four figures: collisions, closest approach, goals reached, distance from the recording.
 import { counted } from '../../model/physics/events';
 import { comparedWithLog } from '../../model/words/change-words';
 import { meetsGoal } from '../../model/physics/playback';

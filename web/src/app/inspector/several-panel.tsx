@@ -1,4 +1,4 @@
-// The inspector of several: what they have in common, and one value for all of them.
+// The inspector of several: common values, and one value for all of them.
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { KIND_WORDS, kindsWords, PLACED_KINDS, type AgentType } from '../../model/base/kinds';
@@ -76,7 +76,7 @@ function Head({ all }: { all: Live }) {
   );
 }
 
-/** Narrows whom typing hits. */
+/** Limits edits to one type. */
 function Filter({ all, only }: { all: Live; only: { value: AgentType | null } }) {
   const rows = GROUPS.flatMap(([type, word]) => {
     const n = all.value.filter((a) => a.type === type).length;
@@ -122,7 +122,7 @@ function Row({ shared, those, fixes }: RowProps) {
   );
 }
 
-/** How many have a field fixed; a click fixes it for all at what each one has, or frees it for all. */
+/** Number with a fixed field; a click fixes it for all at their own values, or frees it for all. */
 function FixedOf({ those, part, field }: { those: Live; part: 'start' | 'goal'; field: 'heading' | 'speed' }) {
   const { editor } = useApp();
   const fixed = useComputed(() => those.value.filter((a) => a[part][field] !== null).length).value;
@@ -236,7 +236,7 @@ const DO: Record<Others, readonly [string, string]> = {
   still: [TEXTS.holdsStill, TEXTS.holdStillWithin],
 };
 
-/** It is about those who were asked nothing: the others do what they were asked. */
+/** It applies to road users without conditions: the others follow theirs. */
 function Rule({ all: chosen }: { all: Live }) {
   const { editor } = useApp();
   const all = useComputed(() => chosen.value.filter((a) => !touched(a)));
@@ -271,7 +271,7 @@ const LISTED = 8;
 function Who({ those }: { those: Live }) {
   const c = useApp();
   const { editor } = c;
-  // While a hand moves them nothing is compared.
+  // During a drag nothing is compared.
   const now = useComputed(() => {
     if (editor.drag.active.value) return '';
     const boxes = those.value.flatMap((a) => {
@@ -323,11 +323,11 @@ function Who({ those }: { those: Live }) {
   );
 }
 
-/** How fast somebody is where the playhead is, as it stands on the picture. */
+/** Displayed speed of a road user at the playhead. */
 function SpeedNow({ agent }: { agent: Agent }) {
   const { editor } = useApp();
   const words = useComputed(() => {
-    // As it is in the document now: what was given may be how it was before a change.
+    // From the current document: the given object may be older than a change.
     const a = editor.scene.value?.agents.get(agent.id);
     const p = a && poseShown(editor, a);
     return p ? speedLabel(p.speed, editor.view.unitOf(a)) : '';

@@ -1,4 +1,4 @@
-// One field for several road users: the value they share, or "mixed" with its range. What is typed goes to all.
+// One field for several road users: the common value, or "mixed" with its range. Typed values go to all.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle } from '../../model/base/geometry';
@@ -29,7 +29,7 @@ import { useLiveEffect } from '../parts/hooks';
 import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-field';
 import { TEXTS } from '../../texts/panels/several-panel';
 
-/** What a shared field is about. Values are in the unit that is shown. */
+/** A shared field. Values are in the displayed unit. */
 export interface Shared {
   readonly word: string;
   readonly label: string;
@@ -37,14 +37,14 @@ export interface Shared {
   readonly step: number;
   unit(all: readonly Agent[]): string;
   quantity(all: readonly Agent[]): Quantity;
-  /** Null for one that has none. */
+  /** Null for a road user without the value. */
   of(a: Agent, all: readonly Agent[]): number | null;
   text(v: number, all: readonly Agent[]): string;
   range(all: readonly Agent[]): readonly [number, number];
   command(all: readonly Agent[], to: (now: number) => number, fold?: string): Command | null;
 }
 
-/** All on foot read what one reads of those, else all read what one reads of vehicles. */
+/** If all are pedestrians, their unit; otherwise the unit of vehicles. */
 const speedUnit = (e: Editor, all: readonly Agent[]) =>
   all.every((a) => a.type === 'pedestrian') ? walkingUnit(e.view.speedUnit.value) : e.view.speedUnit.value;
 
@@ -72,7 +72,7 @@ function speedField(e: Editor, part: 'start' | 'goal'): Shared {
       const unit = speedUnit(e, all);
       const of = (a: Agent): number => toUnit(mps(a) ?? startPose(a)?.speed ?? 0, unit);
       const what = part === 'start' ? TEXTS.speed : TEXTS.goalSpeed;
-      // Each within what its own kind can do: a sum that fits one need not fit another.
+      // Each within its own limits: a sum that fits one need not fit another.
       return several.setAll(all, part, 'speed', (a) => clamp(fromUnit(to(of(a)), unit), 0, topSpeed(a)), what, fold);
     },
   };
@@ -163,7 +163,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
   });
   const text = useComputed(() => common.value ?? (values.value.length ? TEXTS.mixedWord : TEXTS.freeWithin));
   const unit = useComputed(() => shared.unit(those.value));
-  /** From the least to the greatest, or how many have one at all. */
+  /** From least to greatest, or the number that have one. */
   const span = useComputed(() => {
     const v = values.value;
     if (common.value !== null || !v.length) return unit.value;
@@ -188,7 +188,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     const command = shared.command(several.movable(those.peek()), to, live ? 'live' : undefined);
     if (command) editor.commits.run(command);
   };
-  /** A value of its own has to be possible for all; a change is kept within what each one can do. */
+  /** An absolute value must be possible for all; a relative change is clamped for each. */
   const commit = (): boolean => {
     if (!typed.current) return true;
     const entered = input.current!.value;

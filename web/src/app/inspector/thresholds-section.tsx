@@ -1,4 +1,4 @@
-// What counts as an event in this scene: numbers to be changed, with what is usual beside them.
+// Thresholds of events in this scene, editable, with the usual ones beside them.
 import { useComputed } from '@preact/signals';
 import {
   isUsual,

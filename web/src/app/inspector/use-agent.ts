@@ -1,12 +1,12 @@
-// A road user as the document has it now, or in a drag had it a moment ago. It changes with the drag of one's own
-// handles alone: the others stay the same objects while the scene around them changes.
+// A road user in the current document, or shortly before in a drag. It changes only with its own drag: the others stay
+// the same objects while the scene changes.
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import type { Agent, Scene } from '../../model/document/scene';
 import { useApp } from '../parts/app-context';
 
 export type LiveAgent = ReadonlySignal<Agent>;
 
-/** The panel goes when the road user does; until then it shows it as it last was. `of` says which document is meant. */
+/** The panel disappears with the road user; until then it shows the last state. `of` selects the document. */
 export function useAgent(id: string, of?: () => ReadonlySignal<Scene | null>): LiveAgent {
   const { editor } = useApp();
   const first = editor.scene.peek()!.agents.get(id)!;

@@ -1,4 +1,4 @@
-// What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
+// The verdict on a road user's goal in words: whether it is reachable, whether it was reached.
 import type { Context } from '../../actions/context';
 import { markOf, type Mark } from '../../model/document/future-facts';
 import { comparedWithLog } from '../../model/words/change-words';
@@ -22,22 +22,22 @@ export interface Verdict {
   readonly icon: string;
   readonly title: string;
   readonly words: string;
-  /** Where the playhead goes on a click on the title, seconds. */
+  /** Playhead time for a click on the title, seconds. */
   readonly at?: number | null;
-  /** Are there ways out to offer? */
+  /** Are there remedies to offer? */
   readonly remedies?: boolean;
-  /** Is "snap to the nearest lane" to be offered? */
+  /** Is "snap to the nearest lane" offered? */
   readonly snap?: boolean;
 }
 
-/** A future that ends nearer to the goal than this has reached it, in metres. */
+/** A future that ends within this distance has reached the goal, in metres. */
 const REACHED_M = 2;
-/** Who is no faster than this after a stop has not gone on, m/s. */
+/** A road user below this speed after a stop has not started again, m/s. */
 const CREEPS_MPS = 0.5;
-/** A goal further from all lanes than this lies beside the road, in metres. */
+/** A goal further than this from all lanes is beside the road, in metres. */
 const NO_LANE_M = 4;
 
-/** As panels say it: in a drag now and then. */
+/** At the panels' rate: in a drag only at intervals. */
 export const verdictOn = (c: Context, agent: LiveAgent): Verdict | null =>
   c.editor.reading.throttle.read(() => verdictNow(c, agent.value));
 
@@ -90,7 +90,7 @@ const WALKS = [
   [Infinity, TEXTS.aRun],
 ] as const;
 
-/** Metres that a motion goes up to a time. */
+/** Length of a motion up to a time, metres. */
 function wayUntil(m: Motion, time: number): number {
   const s = distances(m);
   return s[Math.min(s.length - 1, Math.max(0, Math.round(time * 10) - m.first))] ?? 0;
@@ -103,7 +103,7 @@ const AS_RECORDED: Verdict = {
   words: TEXTS.dragTheFlag,
 };
 
-/** During a drag, until the generator has judged it, the quick answer stands even when it is yes. */
+/** During a drag, until the generator's verdict arrives, the local estimate is shown even when positive. */
 function onQuickReach({ editor: e }: Context, a: Agent): Verdict | null {
   const local = a.goal.pos ? e.reading.localReach.value : null;
   return local && { kind: 'plain', icon: 'flag', title: local.title, words: local.words };
@@ -117,7 +117,7 @@ const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
   ok: 'ok',
 };
 
-/** What the generator says is wrong with the future that is shown. */
+/** Faults of the shown future, from the generator. */
 function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.reading.futures.value;
   if (!f || !verdictsHold(e)) return null;
@@ -130,7 +130,7 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at };
 }
 
-/** Of a speed that was drawn by hand, where nothing is wrong with it: what it does. */
+/** For a drawn speed profile without faults: its result. */
 function onCurve({ editor: e, curve }: Context, a: Agent): Verdict | null {
   const f = e.reading.futures.value;
   const mode = f?.modes[e.reading.chosen.value];
@@ -168,7 +168,7 @@ function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
 function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.reading.futures.value;
   if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.answers.motion.value.stale || isJudged(f)) return null;
-  // Nobody has judged them one by one; what is known to happen is said all the same.
+  // The futures are not judged individually; known events are reported all the same.
   return happening(e, a) ?? goalReached(a, f, a.goal.pos);
 }
 
@@ -179,7 +179,7 @@ const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
   short: TEXTS.shortOfIt,
 };
 
-/** The worst that happens to it on the way it is shown on; null where nothing does. */
+/** The worst event on its shown path; null without one. */
 function happening(e: Editor, a: Agent): Verdict | null {
   const own = counted(e.reading.events.value).filter((ev) => ev.a.id === a.id || ev.b?.id === a.id);
   const kind = worstOf(own);
@@ -192,11 +192,11 @@ function happening(e: Editor, a: Agent): Verdict | null {
   return { kind: KINDS[kind], icon: `mark-${kind}`, title, words: `${worst.title}: ${worst.words}.`, at: worst.time };
 }
 
-/** Which of the futures reach the goal, and how closely: for futures that nobody has judged. */
+/** Futures that reach the goal, and how closely: for unjudged futures. */
 function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Verdict {
   const misses = f.modes.flatMap(({ motion }, i) => {
     const p = poseAt(motion, a.goal.time) ?? endPose(motion);
-    // Of a goal later than 9 s only the future that goes on can say anything.
+    // For a goal later than 9 s only a future of that length counts.
     if (endsBefore(motion, a.goal.time)) return [];
     return [{ letter: LETTERS[i], d: Math.hypot(p.x - goal[0], p.y - goal[1]) }];
   });

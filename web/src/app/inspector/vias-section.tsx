@@ -1,4 +1,4 @@
-// Places on the way: each with where it is, how near it is passed, and when.
+// Via points: each with its place, passing distance and time.
 import { useComputed } from '@preact/signals';
 import type { Vec } from '../../model/base/geometry';
 import { lengthText, lengthUnit, lengthUnitWord, metres, num, seconds } from '../../model/base/units';
@@ -37,7 +37,7 @@ export function ViasSection({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** The path would pass two of them the other way round: whether they swap is asked. */
+/** The path would pass two of them in reverse order: offers to swap them. */
 function Order({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const i = useComputed(() => (editor.drag.active.value ? null : outOfOrder(editor, agent.value))).value;

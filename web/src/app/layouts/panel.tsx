@@ -1,4 +1,4 @@
-// The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
+// Parameters of a map being made: the selected arm, the whole map, and its checks.
 import { armTitle } from '../../model/words/arm-names';
 import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
@@ -18,7 +18,7 @@ import '../../styles/layouts.css';
 import { TEXTS } from '../../texts/panels/layouts';
 import { inSentence } from '../../texts/language';
 
-/** What stands in the panel for each number, in its order; `whole` are counted. */
+/** The rows of the panel, in order; `whole` ones are counts. */
 interface Line {
   readonly label: string;
   readonly unit: string;
@@ -57,9 +57,9 @@ const SWITCHES: Readonly<Record<string, string>> = {
   off_ramp: TEXTS.rampLeaves,
   speed_bumps: TEXTS.speedBumps,
 };
-/** What is tried until it looks right, rather than known: dragged as well as typed. */
+/** Values found by trial: draggable, and typed. */
 const DRAGGED: ReadonlySet<string> = new Set(['kerb_radius_m', 'lane_width_m']);
-/** Widths that a switch turns on. */
+/** Default widths of switchable elements. */
 const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
 
 export default function LayoutPanel() {
@@ -278,10 +278,10 @@ const TURNS = ['left', 'straight', 'right'] as const;
 const TURN_WORDS = TEXTS.turns;
 const SIGNS = { left: '↰', straight: '↑', right: '↱' } as const;
 
-/** Where each lane leads; a click on a sign adds or takes it. */
+/** Turns of each lane; a click on a sign adds or removes one. */
 function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
   const { layouts } = useApp();
-  // What turn lanes say, and what is there with single connections.
+  // Turns by the turn lanes, and by single connections.
   const said = arm.turns ?? layouts.made.value?.arms[index]?.turns ?? [];
   if (!said.length) return null;
   const there = (lane: number, turn: (typeof TURNS)[number]): boolean =>
@@ -318,7 +318,7 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
   );
 }
 
-/** Single ways of the arm in hand: picked, taken away, added; the same as on the picture. */
+/** Single ways of the selected arm: selected, removed, added; the same as on the picture. */
 function Connections({ arm }: { arm: number }) {
   const { layouts } = useApp();
   const [lane, setLane] = useState(0);
@@ -483,7 +483,7 @@ function Whole({ parameters }: { parameters: Parameters }) {
   );
 }
 
-/** A corner that is drawn with a smaller radius than asked. */
+/** A corner that is drawn with a smaller radius than requested. */
 function Tightest({ asked_m }: { asked_m: number }) {
   const made = useApp().layouts.made.value;
   const [least] = [...(made?.corners ?? [])].sort((a, b) => a.radius_m - b.radius_m);

@@ -1,4 +1,4 @@
-// What a new map can start from: eight small maps, drawn as they are.
+// Templates of a new map: eight small maps, drawn to scale.
 import { useEffect, useRef } from 'preact/hooks';
 import { readScene } from '../../model/document/scene-reader';
 import { TEMPLATES, TEMPLATE_TITLES } from '../../model/document/layouts';
@@ -15,7 +15,7 @@ import { TEXTS } from '../../texts/panels/layouts';
 
 const SIZE = { width: 112, height: 88 };
 const PX_PER_PX = 2;
-/** A junction is shown as large as its middle, metres from its centre. */
+/** Shown extent of a junction, metres from its centre. */
 const SHOWN_M = 48;
 
 const pictures = new Map<TemplateName, Promise<MapPicture>>();

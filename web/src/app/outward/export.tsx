@@ -1,4 +1,4 @@
-// Files out of the scene: each with what it loses, before it is chosen.
+// Exports of the scene: each with its losses, before the choice.
 import { num } from '../../model/base/units';
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
@@ -58,10 +58,10 @@ export default function Export() {
   );
 }
 
-/** More than so many are found sooner by a word. */
+/** Beyond this number a search field is shown. */
 const MANY = 8;
 
-/** What goes out, once it is known what the server writes. */
+/** Kinds of export, once the server's formats are known. */
 function Kinds({ scope }: { scope: Scope }) {
   const c = useApp();
   const kinds = useSignal<readonly Kind[] | null>(null);
@@ -71,14 +71,14 @@ function Kinds({ scope }: { scope: Scope }) {
       const some = scope === 'present' ? [...all, ...ofScreen(c)] : ofVariants(all, c.variants.within(scope));
       kinds.value = WISHES.flatMap(([wish]) => some.filter((k) => k.wish === wish));
     };
-    // What is made here needs no server.
+    // Local kinds need no server.
     void c.client.formats().then(offer, () => offer([]));
   }, []);
   if (!kinds.value) return <div class="kinds waiting" aria-busy="true" />;
   return kinds.value.length ? <Offer kinds={kinds.value} /> : <p class="pad mut">{TEXTS.theServerIsNot}</p>;
 }
 
-/** Makes each file, one after the other; the one that is looked at comes first. */
+/** Makes each file in turn; the viewed one comes first. */
 function useFiles(kinds: readonly Kind[], chosen: Signal<string>, stop: AbortSignal) {
   const c = useApp();
   const made = useSignal<ReadonlyMap<string, ExportedFile | string>>(new Map());
@@ -110,7 +110,7 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const kind = kinds.find((k) => k.id === chosen.value)!;
   const { editor } = useApp();
   const code = CODE.codeIs(resultCode(editor.scene.peek()!, editor.answers.motion.peek()));
-  // What earlier letters have chosen is not meant any more.
+  // A choice by earlier letters no longer applies.
   const ready = shown.length ? made.value.get(kind.id) : TEXTS.noFormatOfThat;
   const choose = (step: number) => {
     if (!shown.length) return;
@@ -129,7 +129,7 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
             aria-label={TEXTS.findAFormat}
             onInput={(e) => {
               sought.value = e.currentTarget.value;
-              // What is saved is in sight, and what the last letter makes of the search.
+              // The chosen one is visible, and the one that the last letter finds.
               const best = sought.value.trim() && meant(found(kinds, sought.value), sought.value);
               if (best) chosen.value = best.id;
             }}
@@ -226,7 +226,7 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
   );
 }
 
-/** What is short to say is named, else counted. */
+/** Short lists are named, longer ones counted. */
 const MOST_NAMED = 24;
 
 function lossTag(losses: readonly Loss[]): string {
@@ -235,7 +235,7 @@ function lossTag(losses: readonly Loss[]): string {
   return TEXTS.lossesCount(losses.length);
 }
 
-/** A list that is longer is opened by hand. */
+/** A longer list is collapsed at first. */
 const MOST_LOSSES = 6;
 
 function Losses({ of }: { of: readonly Loss[] }) {

@@ -1,11 +1,11 @@
-// A panel under its button in the top bar. It closes with Esc and with a click beside it, and gives the focus back.
+// A panel under its button in the top bar. It closes on Esc and on a click outside, and returns the focus.
 import type { ComponentChildren } from 'preact';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 
 interface FlyoutProps {
   label: string;
-  /** Id of the action whose button it stands under. */
+  /** Id of the action of its button. */
   under: string;
   class: string;
   children: ComponentChildren;

@@ -1,4 +1,4 @@
-// What can go out: the server's formats, and what is made here of what is on screen.
+// Kinds of export: the server's formats, and local ones of the screen.
 import { deg } from '../../model/base/geometry';
 import { num, seconds } from '../../model/base/units';
 import type { Context } from '../../actions/context';
@@ -20,13 +20,13 @@ export interface Kind extends Findable {
   readonly id: string;
   readonly wish: Wish;
   readonly icon: string;
-  /** In place of a loss, for what is to be looked at. */
+  /** In place of losses, for media. */
   readonly tag?: string;
   make(c: Context, progress: (share: number) => void, stop: AbortSignal): Promise<ExportedFile | null>;
 }
 
 const FINE = 2;
-/** The server's formats, for the scene on screen. */
+/** The server's formats, for the shown scene. */
 export const ofServer = (formats: readonly FormatInfo[]): Kind[] =>
   outFormats(formats).map((f) => ({ ...f, make: (c) => exported(c, f.id) }));
 
@@ -45,7 +45,7 @@ function pictureOf({ editor, stage }: Context): HTMLCanvasElement {
   return canvas;
 }
 
-/** What is made here: events, pictures and a report of what is on screen. */
+/** Local exports: events, pictures and a report of the screen. */
 export function ofScreen(c: Context): Kind[] {
   const { editor, stage } = c;
   const time = editor.playhead.time.peek();
@@ -133,7 +133,7 @@ export function ofScreen(c: Context): Kind[] {
       label: TEXTS.animation,
       ending: '.gif',
       icon: 'film',
-      // Where no film can be made it is what comes nearest to one.
+      // Without film support the animation stands in for a film.
       name: moving ? TEXTS.animationNames : `${TEXTS.animationNames}, ${TEXTS.videoNames}`,
       tag: TEXTS.sAt10Fps(num(scene.duration, 1)),
       make: async (_, progress, stop) => {
@@ -168,7 +168,7 @@ function originOf({ file }: Context): string {
   return TEXTS.originIsAt(String(o.x_m ?? 0), String(o.y_m ?? 0), o.crs ?? TEXTS.theRecording);
 }
 
-/** Several variants in one format: a file each. A file of records has room for all of them. */
+/** Several variants in one format: a file for each. A file of records contains all of them. */
 export const ofVariants = (kinds: readonly Kind[], cards: readonly WholeCard[]): Kind[] =>
   kinds.map((kind) => ({
     ...kind,
@@ -184,7 +184,7 @@ export const ofVariants = (kinds: readonly Kind[], cards: readonly WholeCard[]):
       }
       const losses = [...new Map(files.flatMap((f) => f.losses).map((l) => [l.what, l])).values()];
       if (kind.id !== 'womd') return { ...files[0], losses, others: files.slice(1) };
-      // Records follow each other in a file.
+      // Records are concatenated in a file.
       return { blob: new Blob(files.map((f) => f.blob)), name: `${slug(name)}-variants${kind.ending}`, losses };
     },
   }));

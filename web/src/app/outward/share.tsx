@@ -1,4 +1,4 @@
-// A link with the whole scene inside: what goes into it, how much that is, and the copy of it.
+// A link with the whole scene inside: its contents, its size, and a copy button.
 import { num } from '../../model/base/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
@@ -40,7 +40,7 @@ export default function Share() {
       copied.value = true;
       setTimeout(() => (copied.value = false), COPIED_MS);
     } catch {
-      // Without the right to the clipboard the text is there to be copied by hand.
+      // Without clipboard permission the text is selected for copying.
       document.querySelector<HTMLInputElement>('.share input')?.select();
     }
   };
@@ -112,7 +112,7 @@ interface SwitchProps {
   label: string;
   note?: string;
   on: boolean;
-  /** Absent where it cannot be changed. */
+  /** Absent where it is fixed. */
   set?: (on: boolean) => void;
 }
 

@@ -1,4 +1,4 @@
-// What futures are asked with: seed, diversity, and the button that asks.
+// Options of generation: seed, diversity, and the Generate button.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { setDiversity, setSeed } from '../../model/document/commands';
@@ -30,7 +30,7 @@ export function Controls() {
   );
 }
 
-/** Names what is shown in six characters, to be told to somebody else; a click copies it. */
+/** A six-character code of the shown result, to compare with others; a click copies it. */
 function ResultCode() {
   const { editor } = useApp();
   const code = useComputed(() => {
@@ -66,7 +66,7 @@ interface SeedFieldProps {
   set: (v: number) => void;
 }
 
-/** A whole number; what is none goes back to the seed that holds, and is said. */
+/** A whole number; other input restores the current seed, with a notice. */
 export function SeedField({ label, seed, set }: SeedFieldProps) {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);

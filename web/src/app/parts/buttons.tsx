@@ -31,9 +31,9 @@ interface ActionButtonProps {
   /** Shows the first key of the action. */
   withKey?: boolean;
   iconOnly?: boolean;
-  /** What stands in place of the action's label. */
+  /** Replaces the action's label. */
   children?: ComponentChildren;
-  /** What stands after everything else. */
+  /** Content after everything else. */
   after?: ComponentChildren;
 }
 

@@ -1,9 +1,9 @@
-// What components do with signals beyond reading them.
+// Hooks for signals beyond reading them.
 import type { RefObject } from 'preact';
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { effect, signal, type ReadonlySignal } from '@preact/signals';
 
-/** Runs when the component is on the page, before it is painted, and again whenever a signal it read changes. */
+/** Runs when the component is mounted, before painting, and again whenever a signal it read changes. */
 export function useLiveEffect(run: () => void): void {
   const latest = useRef(run);
   latest.current = run;
@@ -11,8 +11,8 @@ export function useLiveEffect(run: () => void): void {
 }
 
 /**
- * A count that rises when something `read` looks at has changed, at most once a frame: for what is dear to draw,
- * while signals change several times a frame.
+ * A count that increases when a signal of `read` has changed, at most once a frame: for costly drawings, while signals
+ * change several times a frame.
  */
 export function useFrameTick(read: () => unknown): ReadonlySignal<number> {
   const [tick] = useState(() => signal(0));
@@ -30,8 +30,8 @@ export function useFrameTick(read: () => unknown): ReadonlySignal<number> {
 }
 
 /**
- * A press beside what is open closes it; one on an element with the data that is spared is left to it. A finger on the
- * picture means no more than that, and takes hold of nothing there.
+ * A press outside an open box closes it; elements with the spared data attribute are excluded. A finger on the picture
+ * only closes it, and grabs nothing there.
  */
 export function usePressBeside(box: RefObject<Element | null>, close: () => void, spared?: string): void {
   const latest = useRef(close);

@@ -1,4 +1,4 @@
-// A list of actions that opens: it takes the focus, arrows walk in it, and a choice or a press beside it closes it.
+// A list of actions that opens: it takes the focus, arrows walk in it, and a choice or an outside press closes it.
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { useApp } from './app-context';
@@ -8,7 +8,7 @@ interface MenuListProps {
   readonly label?: string;
   readonly class?: string;
   readonly style?: Record<string, string>;
-  /** Does it stay open when something in it is chosen? */
+  /** Does it stay open after a choice? */
   readonly stays?: boolean;
   readonly children: ComponentChildren;
 }

@@ -1,4 +1,4 @@
-// A dialog over everything: it keeps the focus inside and gives it back on Esc.
+// A modal dialog: it traps the focus and returns it on Esc.
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 

@@ -1,5 +1,5 @@
-// A field for one number: shows what the handle shows, takes sums and units, steps with the arrow keys, and is
-// scrubbed by dragging its letter. What is typed belongs to the field until it is taken over.
+// A field for one number: shows the handle's value, accepts sums and units, steps with arrow keys, and is scrubbed by
+// dragging its letter. Typed text belongs to the field until it is committed.
 import { useRef, useState } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
@@ -19,41 +19,41 @@ import { TEXTS } from '../../texts/desk/number-field';
 
 export interface NumberFieldProps {
   label: string;
-  /** Stands before the number and is dragged to change it. */
+  /** Letter before the number, dragged to change it. */
   letter?: string;
   unit: () => string;
-  /** Of a `length` all numbers here are metres, whatever unit is shown. */
+  /** For a `length` all numbers here are metres, whatever unit is shown. */
   quantity: () => Quantity;
   step: number;
-  /** Value in the shown unit; null when there is nothing to show. */
+  /** Value in the shown unit; null when there is none. */
   value: () => number | null;
   text: () => string;
-  /** `live`: one of many values on the way, by a drag or a key that repeats. */
+  /** `live`: an intermediate value, from a drag or a repeating key. */
   set: (value: number, live?: boolean) => void;
-  /** The least and the greatest value, in the shown unit; what lies outside is not taken. */
+  /** The accepted range, in the shown unit; values outside are refused. */
   range?: () => readonly [min: number, max: number];
-  /** Does the generator decide it? */
+  /** Is the value free? */
   free?: () => boolean;
   /** Is its handle being dragged? */
   live?: () => boolean;
   onUnit?: () => void;
   onFocus?: () => void;
-  /** Names the field for keys and tests. */
+  /** Identifies the field for keys and tests. */
   field?: string;
 }
 
 /** Pixels of drag on the letter for one step. */
 const PX_PER_STEP = 2;
-/** So long the reason of a refusal stays after the field has been left. */
+/** Time that a refusal's reason stays after the field is left. */
 export const WHY_MS = 4000;
 
-/** How many fields there have been: the page is drawn in several places, and none may take the name of another's. */
+/** Number of fields so far: the page has several roots, and ids must be unique. */
 let made = 0;
 
-/** Sums of steps are kept free of binary dust. */
+/** Removes floating-point residue from sums of steps. */
 const clean = (v: number): number => Number(v.toFixed(6));
 
-/** Who uses a field for a length or an acceleration gives and gets metres; who reads it sees the unit of lengths. */
+/** A field for lengths or accelerations is used in metres and displayed in the unit of lengths. */
 function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
   if (!/^(?:length|acceleration)$/.test(p.quantity()) || lengthUnit() === 'm') return p;
   return {
@@ -73,9 +73,9 @@ export function NumberField(props: NumberFieldProps) {
   const { form, editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const [id] = useState(() => `number-${++made}`);
-  /** Something is typed that has not been taken over. */
+  /** There is typed text that is not committed. */
   const typed = useRef(false);
-  /** Why what was typed is not taken. */
+  /** Why typed text is refused. */
   const bad = useSignal<string | null>(null);
   const shown = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   const className = useComputed(() =>
@@ -102,7 +102,7 @@ export function NumberField(props: NumberFieldProps) {
     if (document.activeElement === el) el.select();
   });
 
-  /** Takes over what was typed; false when it cannot be understood. */
+  /** Commits typed text; false when it cannot be parsed. */
   const commit = (): boolean => {
     const text = input.current!.value;
     if (!typed.current) return true;
@@ -117,7 +117,7 @@ export function NumberField(props: NumberFieldProps) {
     show();
     return true;
   };
-  /** What could not be taken goes; why it went stays to be read for a while. */
+  /** Refused text is removed; its reason stays visible for a while. */
   const leave = () => {
     const why = bad.value;
     show();
@@ -133,7 +133,7 @@ export function NumberField(props: NumberFieldProps) {
     p.set(clean(now + d), true);
     input.current!.value = p.text();
   };
-  /** For fingers, while the field is in use: one step less, one more. */
+  /** For fingers, while the field is in use: buttons for one step less and one more. */
   const stepper = (by: 1 | -1) =>
     form.touch.value ? (
       <button
@@ -164,7 +164,7 @@ export function NumberField(props: NumberFieldProps) {
     }
   };
   return (
-    // Without a name to stand for, a label presses its first button: a step less.
+    // Without a target, a label presses its first button: a step less.
     <label class={className} for={id}>
       {p.letter ? <Scrub letter={p.letter} {...p} /> : null}
       {stepper(-1)}
@@ -187,7 +187,7 @@ export function NumberField(props: NumberFieldProps) {
           bad.value = null;
         }}
         onBlur={() => {
-          // A field that is taken off the page with the focus in it hears of that last.
+          // A focused field that is unmounted gets no blur event.
           if (input.current && !commit()) leave();
         }}
         onKeyDown={keyDown}
@@ -218,14 +218,14 @@ export function NumberField(props: NumberFieldProps) {
   );
 }
 
-/** What an arrow key adds: ten steps with Shift, a tenth of one with Alt. */
+/** Step of an arrow key: ten steps with Shift, a tenth with Alt. */
 export const arrowStep = (e: KeyboardEvent, step: number): number =>
   (e.key === 'ArrowUp' ? 1 : -1) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
 
-/** Why what was typed cannot be understood. */
+/** Why typed text cannot be parsed. */
 export const noNumber = (typed: string): string => TEXTS.isNoNumber(typed.trim().slice(0, 12));
 
-/** In words, why a value is not taken; null where it is. */
+/** Why a value is refused, in words; null where it is accepted. */
 export function outside(v: number, p: Pick<NumberFieldProps, 'range' | 'unit'>): string | null {
   if (!Number.isFinite(v)) return TEXTS.notANumber;
   if (!p.range) return null;
@@ -237,7 +237,7 @@ export function outside(v: number, p: Pick<NumberFieldProps, 'range' | 'unit'>):
 
 type ScrubProps = Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'> & { letter: string; class?: string };
 
-/** The letter or the name of a field, which is dragged to change the number. */
+/** The letter or the name of a field, dragged to change the number. */
 export function Scrub({ letter, value, step, set, range, class: className = 'k' }: ScrubProps) {
   const from = useRef<{ x: number; v: number } | null>(null);
   const within = (v: number): number => {

@@ -1,4 +1,4 @@
-// What the others do while one is changed.
+// Behaviour of the others while one is changed.
 import { useComputed } from '@preact/signals';
 import type { Others } from '../../model/document/scene';
 import { TEXTS } from '../../texts/desk/parts';
@@ -14,7 +14,7 @@ const choices = (log: string): Choices => [
 const RECORDED = choices(TEXTS.replayLog);
 const PLACED = choices(TEXTS.continueAsNow);
 
-/** What the others may do, as pairs of action and word. Where everybody was put here there is no log to be replayed. */
+/** Choices for the others, as pairs of action and word. If all were placed there is no recording to replay. */
 export function useOthers(): Choices {
   const { editor } = useApp();
   return useComputed(() => {
@@ -23,7 +23,7 @@ export function useOthers(): Choices {
   }).value;
 }
 
-/** What that means. */
+/** The meaning of each. */
 export const OTHERS_DO: Readonly<Record<Others, string>> = {
   react: TEXTS.allReactOnRelease,
   log: TEXTS.recordedReplay,

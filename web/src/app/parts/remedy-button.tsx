@@ -1,11 +1,11 @@
-// A way out as a button: pointed at it shows what comes of it, pressed it is one step.
+// A remedy as a button: hover shows the outcome, a press is one step.
 import type { Remedy } from '../../edit/moves/moves';
 import type { Outcome } from '../../edit/asking/remedy-outcomes';
 import { useApp } from './app-context';
 import { Icon } from './icons';
 import { useTrying } from './trying';
 
-/** `outcome`: what comes of it, where that is known already. */
+/** `outcome`: the outcome, where already known. */
 export function RemedyButton({ remedy, outcome }: { remedy: Remedy; outcome?: Outcome }) {
   const { editor } = useApp();
   const { label, note, icon, primary, command } = remedy;

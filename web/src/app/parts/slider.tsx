@@ -1,10 +1,10 @@
-// A number that is dragged along a line between its least and its greatest value.
+// A number dragged along a line between its least and its greatest value.
 interface SliderProps {
   label: string;
   value: number;
   range: readonly [least: number, greatest: number];
   step: number;
-  /** The value in words, for who does not see the line. */
+  /** The value in words, for screen readers. */
   text: string;
   title?: string;
   set: (v: number) => void;

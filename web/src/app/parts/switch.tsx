@@ -1,4 +1,4 @@
-// On or off, where what it is for stands beside it.
+// A switch, with its label beside it.
 interface SwitchProps {
   label: string;
   on: boolean;

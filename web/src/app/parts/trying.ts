@@ -1,4 +1,4 @@
-// A button that makes a change shows what comes of it while the pointer or the focus is on it.
+// A button with a change previews the outcome while it has the pointer or the focus.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Command } from '../../model/document/commands';
 import { useApp } from './app-context';
@@ -14,7 +14,7 @@ export function useTrying(command: Command) {
     on.current = false;
     remedyPreview.stop();
   };
-  // A button that goes from under the pointer hears nothing of its leaving.
+  // A button that is removed under the pointer gets no leave event.
   useEffect(
     () => () => {
       if (on.current) remedyPreview.stop();

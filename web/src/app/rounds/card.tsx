@@ -1,4 +1,4 @@
-// One card of a round: its picture, what it is like, and what is said of it. Pulled up it is kept, down rejected.
+// A card of a round: picture, facts and verdict. Dragged up it is kept, down rejected.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { factWords, reasons, wishKey } from '../../model/words/feedback-words';
@@ -39,7 +39,7 @@ export function CardView({ hand, index, picture, album }: Props) {
       onPointerEnter={() => editor.pointAt({ future: index })}
       onPointerLeave={() => editor.pointAt({})}
       onKeyDown={(e) => {
-        // The card has the focus: Enter takes what was kept.
+        // The card has the focus: Enter takes a kept one.
         if (e.key !== 'Enter' || verdict !== 'keep' || !(e.target as Element).closest('.face')) return;
         e.preventDefault();
         e.stopPropagation();
@@ -105,13 +105,13 @@ export function CardView({ hand, index, picture, album }: Props) {
   );
 }
 
-/** So far a card is pulled before it counts, and so far it can be pulled, pixels. */
+/** Distance of a drag that counts, and its limit, pixels. */
 const PULLED_PX = 48;
 const FURTHEST_PX = 72;
-/** Less is the tremble of a click. */
+/** Shorter movements are a click. */
 const TREMBLE_PX = 6;
 
-/** Where a card is pulled to by its face, and what it says when it is let go. */
+/** Offset of a dragged card, and the verdict at its release. */
 function usePull(say: (up: boolean) => void) {
   const from = useRef<number | null>(null);
   const by = useSignal(0);
@@ -138,7 +138,7 @@ function usePull(say: (up: boolean) => void) {
     onPointerUp: (e: PointerEvent & { currentTarget: HTMLElement }) => {
       const d = by.peek();
       end();
-      // What was pulled is not what the next key is about.
+      // The next key is not for the dragged card.
       if (moved.current) e.currentTarget.querySelector<HTMLElement>('.face')?.blur();
       if (Math.abs(d) >= PULLED_PX) say(d < 0);
     },

@@ -1,4 +1,4 @@
-// What was learned from rounds: wishes with what they rest on, and where answers pull apart.
+// Learned preferences: each with its evidence, and contradicting verdicts.
 import { earlierAnswers, type Answer } from '../../model/document/feedback';
 import type { Subject } from '../../model/document/feedback-commands';
 import { againstWords, restsOn, wishes, wishKey } from '../../model/words/feedback-words';
@@ -53,7 +53,7 @@ interface Of {
 
 const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
-/** Of everybody speeds are told as those of vehicles. */
+/** For whole-scene cards speeds use the unit of vehicles. */
 function unitFor(e: Editor, { id }: Subject): SpeedUnit {
   const a = id === null ? undefined : e.scene.value?.agents.get(id);
   return a ? e.view.unitOf(a) : e.view.speedUnit.value;
@@ -166,7 +166,7 @@ function AddWish() {
   );
 }
 
-/** More contradictions than this are counted. */
+/** Further contradictions are counted. */
 const MOST_NAMED = 3;
 
 function Apart({ subject }: Of) {

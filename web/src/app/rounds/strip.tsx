@@ -15,13 +15,13 @@ import '../../styles/variants.css';
 import '../../styles/rounds.css';
 import { TEXTS } from '../../texts/panels/rounds-panel';
 
-/** Whose futures the cards are. */
+/** Subject of the cards. */
 const WHOSE = [
   ['rounds-one', TEXTS.thisRoadUser],
   ['rounds-scene', TEXTS.wholeScene],
 ] as const;
 
-/** So many rounds are shown as dots from the beginning. */
+/** Number of rounds shown as dots from the start. */
 const USUAL_ROUNDS = 5;
 
 export default function RoundStrip() {
@@ -125,7 +125,7 @@ function Cards({ hand }: { hand: Hand }) {
   );
 }
 
-/** The scene with each card in turn; where a card is one road user's, the others do as they do now. */
+/** The scene with each card in turn; for one road user's cards, the others move as now. */
 function picturesOf(scene: Scene, motion: MotionSet, hand: Hand): Pictured[] {
   if (hand.id === null)
     return hand.sets.map((set) => ({ scene, set, events: readEvents(scene, set), state: { subject: null } }));

@@ -1,4 +1,4 @@
-// When something was done, as people say it.
+// Dates and times in everyday form.
 
 import { LOCALE } from '../../texts/language';
 import { TEXTS } from '../../texts/desk/scenes';

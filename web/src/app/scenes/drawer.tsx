@@ -1,4 +1,4 @@
-// List of scenes with search, dates and pictures; the place to drop files.
+// List of scenes with search, dates and pictures; files can be dropped here.
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { perform } from '../../actions/registry';
@@ -58,7 +58,7 @@ export function Drawer() {
   );
 }
 
-/** Not the registry's button: in a sentence it has no look of its own. */
+/** Not the registry's button: within a sentence it is a plain link. */
 export function ChooseFiles() {
   const c = useApp();
   return (
@@ -74,7 +74,7 @@ export function ChooseFiles() {
   );
 }
 
-/** Recently opened ones stand first, when there are enough for that to help. */
+/** Recently opened ones come first, if the list is long enough. */
 const MANY = 8,
   MOST_RECENT = 3;
 

@@ -1,5 +1,5 @@
-// A small picture of a scene, painted with the same code as the big one. What it shows is fetched, one scene after the
-// other, and only when its place in the list can be seen.
+// A thumbnail of a scene, painted with the code of the main picture. Its data is fetched for one scene at a time, and
+// only when it is visible in the list.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Client } from '../../net/client';
 import type { SceneListItem } from '../../net/types';
@@ -16,7 +16,7 @@ import { useLiveEffect } from '../parts/hooks';
 
 /** The first picture waits a little: the scene itself comes first. */
 const BEHIND_MS = 250;
-/** After a change of colours the big picture is painted first. */
+/** After a change of theme the main picture is painted first. */
 const RECOLOUR_MS = 30;
 const KEPT = 60;
 const PX_PER_PX = 2;
@@ -73,7 +73,7 @@ export function Thumbnail({ item, width, height }: ThumbnailProps) {
   return <canvas ref={canvas} width={width * PX_PER_PX} height={height * PX_PER_PX} aria-hidden="true" />;
 }
 
-/** Small road users are drawn larger than they are, or one would not see them. */
+/** Small road users are enlarged, to be visible. */
 const mini = <T extends { length: number; width: number }>(a: T) => ({
   ...a,
   mini: true,

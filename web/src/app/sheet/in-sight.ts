@@ -1,4 +1,4 @@
-// Who is selected comes out from under a sheet that opens: the picture moves just as far as that takes.
+// Moves the selected road user out from under an opening sheet, by the least distance.
 import type { Opening } from '../../actions/context';
 import { FLAG_HEIGHT } from '../../draw/handles';
 import type { View } from '../../draw/view';
@@ -7,9 +7,9 @@ import { boxOf, type OnLine, type Vec } from '../../model/base/geometry';
 import type { Agent } from '../../model/document/scene';
 import { endShown, whenItsEndIsKnown } from '../look';
 
-/** This near to the edge of the sheet somebody is as good as under it, pixels. */
+/** Nearer to the edge of the sheet than this a road user counts as covered, pixels. */
 const EDGE_PX = 20;
-/** How far a flag reaches to the side of its foot, pixels of a plain one. */
+/** Width of a flag beside its foot, unscaled pixels. */
 const FLAG_WIDTH = 26;
 
 type Shown = readonly (readonly [Agent, OnLine])[];
@@ -19,7 +19,7 @@ export function keepInSight(c: Opening): void {
   stage.onCovered = (before) => {
     const ids = editor.selected.peek();
     const seen = shownOf(c, ids).some(([, p]) => before.shows(p.x, p.y));
-    // Who is taken along at once by the hand that selected it stays under that hand.
+    // A road user that is dragged at once stays under the pointer.
     queueMicrotask(() => {
       if (!seen || editor.drag.active.peek()) return;
       panTo(c, ids);
@@ -37,7 +37,7 @@ function shownOf({ editor }: Opening, ids: readonly string[]): Shown {
   });
 }
 
-/** With its flag where there is room for both. */
+/** With its flag, if both fit. */
 function panTo(c: Opening, ids: readonly string[]): void {
   const { editor, stage } = c;
   const all = shownOf(c, ids);

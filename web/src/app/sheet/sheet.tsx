@@ -13,42 +13,42 @@ import { Timeline } from '../timeline/timeline';
 import { TEXTS } from '../../texts/desk/page';
 
 const WORDS: Record<SheetHeight, string> = { peek: TEXTS.nearlyClosed, half: TEXTS.halfOpen, full: TEXTS.fullyOpen };
-/** A grip that moved less was tapped, pixels. */
+/** A shorter movement is a tap, pixels. */
 const TAP_PX = 6;
-/** A flick is faster than this, pixels a millisecond. */
+/** A flick is faster than this, pixels per millisecond. */
 const FLICK = 0.45;
 
 export function Sheet() {
   const c = useApp();
   const { editor, form, rounds, ui, variants } = c;
-  /** Pixels while the grip is in hand. */
+  /** Height during a drag of the grip, pixels. */
   const inHand = useSignal<number | null>(null);
   const px = useComputed(() => {
     const wanted = inHand.value ?? form.pixels(form.height.value);
     return editor.drag.active.value ? Math.min(wanted, form.whileDragging) : wanted;
   });
   const opened = useRef<string | null>(null);
-  /** Is a list over the picture that has no room beside an open sheet? */
+  /** Is there a list over the picture, without room beside an open sheet? */
   const list = useComputed(() => form.crowded && editor.isOpen.value && ui.drawer.value !== null);
   const instead = useComputed(() => variants.open.value || rounds.isOpen.value || list.value);
-  // Who is selected has fields to show, unless something else has their room.
+  // A selection opens the sheet for its fields, unless other content needs the space.
   useLiveEffect(() => {
     const id = editor.selection.value;
     if (!instead.peek() && id !== null && id !== opened.current) form.offer();
     opened.current = id;
   });
-  // So have events that are asked for.
+  // So do requested events.
   useLiveEffect(() => {
     if (ui.eventsPanel.value && !instead.peek()) form.offer();
   });
-  // Strip and open sheet together would leave nothing of the picture.
+  // Strip and open sheet together would cover the whole picture.
   useLiveEffect(() => {
     if (instead.value) form.open('peek');
   });
   useLiveEffect(() => {
     if (form.height.value !== 'peek' && list.peek()) ui.showDrawer(null);
   });
-  // What floats over the picture stands above the sheet; a sheet that covers everything leaves it where it was.
+  // Floating elements are above the sheet; a fully open sheet leaves them in place.
   useLiveEffect(() => {
     const px = form.pixels(form.height.value === 'peek' ? 'peek' : 'half');
     document.documentElement.style.setProperty('--sheet', `${px}px`);
@@ -64,7 +64,7 @@ export function Sheet() {
       style={useComputed(() => `height: ${px.value}px`)}
       onClick={(e) => {
         const at = e.target as Element;
-        // Hardly open it is its title, and a tap on that says: show me more. What is pressed in it does what it does.
+        // Nearly closed it shows a title, and a tap on that opens it. Buttons in it keep their function.
         if (form.height.peek() === 'peek' && at.closest('.ih') && !at.closest('button')) form.pull('half');
       }}
     >
@@ -78,11 +78,11 @@ export function Sheet() {
   );
 }
 
-/** The sheet follows the hand; let go, it goes to the nearest height, or the next one where it was flicked. */
+/** The sheet follows the drag; on release it goes to the nearest height, or the next one after a flick. */
 function useGrip({ form }: Context, inHand: { value: number | null }) {
   const from = useRef<{ y: number; px: number; far: number } | null>(null);
   const last = useRef({ y: 0, at: 0, speed: 0 });
-  /** With a mouse a click follows the release; one that ended a drag is none. */
+  /** A mouse click follows the release; after a drag it is ignored. */
   const moved = useRef(false);
   const start = (e: PointerEvent & { currentTarget: HTMLElement }) => {
     moved.current = false;

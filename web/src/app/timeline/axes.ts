@@ -1,4 +1,4 @@
-// Where seconds and speeds lie in the plot.
+// Positions of seconds and speeds in the plot.
 import { inTenths, type SpeedUnit, toUnit, walkingUnit } from '../../model/base/units';
 import { motionOf } from '../../model/physics/playback';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -60,20 +60,20 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
   };
 }
 
-/** More lines than these would be one grey patch. */
+/** More lines than this would be a grey patch. */
 const MOST_LINES = 40;
 
-/** Somebody and the motion whose speed is shown. */
+/** A road user and the motion with the shown speeds. */
 export interface Line {
   readonly agent: Agent;
   readonly motion: Motion;
 }
 
-/** The event that is looked at; null where somebody is selected, whose speed is asked for then. */
+/** The viewed event; null with a selection, whose speeds are shown instead. */
 export const eventShown = ({ editor }: Context): TrafficEvent | null =>
   editor.selected.peek().length ? null : editor.selectedEvent.peek();
 
-/** What happens in the plot: of two variants in both, each told by its number. */
+/** Events in the plot: for two variants those of both, each with its number. */
 export function eventsShown(c: Context): readonly TrafficEvent[] {
   if (c.layouts.isNew.peek()) return [];
   const both = c.variants.compared.peek();
@@ -89,8 +89,8 @@ export function eventsShown(c: Context): readonly TrafficEvent[] {
 }
 
 /**
- * A line each: of who is compared in both variants, of those in a case or an event that is looked at, else of several
- * that are selected.
+ * Lines of the plot: the compared road user in both variants, the road users of a viewed case or event, or several
+ * selected ones.
  */
 export function severalShown(c: Context): Line[] {
   const { editor } = c;
@@ -111,7 +111,7 @@ export function severalShown(c: Context): Line[] {
     : [];
 }
 
-/** A round figure above everything shown. */
+/** A round figure above all shown speeds. */
 function topSpeedShown(c: Context, unit: SpeedUnit): number {
   const { editor } = c;
   const log = editor.agent.peek()?.log;
@@ -127,13 +127,13 @@ function topSpeedShown(c: Context, unit: SpeedUnit): number {
   return steps.find((s) => s >= max * 1.02) ?? steps[steps.length - 1];
 }
 
-/** Half of a sign without words, and the space kept between two things in the lane, in pixels. */
+/** Half of a sign without words, and the space between two in the lane, in pixels. */
 export const SIGN = 10;
 const APART = 3;
 
-/** A sign in the lane of events. It stands at its time; its words stand where there is room for them. */
+/** A sign in the lane of events. It is at its time; its words are where there is room. */
 export interface Placed {
-  /** Index of the item that is shown, and of all that happen so close together that they share its sign. */
+  /** Index of the shown item, and of all that share its sign because they are close in time. */
   readonly item: number;
   readonly items: readonly number[];
   readonly x: number;
@@ -141,7 +141,7 @@ export interface Placed {
 }
 
 export interface Sign {
-  /** Where its time is, in pixels. */
+  /** Position of its time, in pixels. */
   readonly at: number;
   /** Width of its words. */
   readonly w: number;
@@ -149,7 +149,7 @@ export interface Sign {
   readonly rank: number;
 }
 
-/** Signs at their times, by time; those that would cover each other share one, which is that of the worst. */
+/** Signs in order of time; overlapping ones share the sign of the worst. */
 export function placeSigns(items: readonly Sign[], from: number, to: number): Placed[] {
   const groups: { item: number; items: number[] }[] = [];
   items.forEach(({ at, rank }, i) => {
@@ -171,7 +171,7 @@ export function placeSigns(items: readonly Sign[], from: number, to: number): Pl
   });
 }
 
-/** Seconds marked behind the curves for something from `time` to `until`: wide enough to be seen, within the plot. */
+/** Seconds marked behind the curves from `time` to `until`: wide enough to be visible, within the plot. */
 export function markedSpan(time: number, until: number, least: number, duration: number): [number, number] {
   const extra = Math.max(0, least - (until - time)) / 2;
   const from = Math.max(0, time - extra);

@@ -1,5 +1,4 @@
-// What of the speed curve cannot be driven, in words, and what can be done about it: pointed at it is shown, pressed it
-// is one step.
+// Infeasible parts of the speed curve, in words, with remedies: hover previews one, a press is one step.
 import { useEffect } from 'preact/hooks';
 import { misfitOf, type Misfit, type Way } from '../../model/physics/curve-fit';
 import { limitsOf, topSpeed } from '../../model/base/domain';
@@ -11,7 +10,7 @@ import { TEXTS } from '../../texts/panels/point-fields';
 
 export function CurveMisfit() {
   const { editor, curve } = useApp();
-  // What is shown goes with its buttons.
+  // The preview ends with its buttons.
   useEffect(() => () => curve.try(null), [curve]);
   const a = editor.agent.value;
   const profile = curve.asked.value;

@@ -1,4 +1,4 @@
-// The speed curves of the selected road user: its log, its futures, its start and goal.
+// Speed curves of the selected road user: recording, futures, start and goal.
 import { untracked } from '@preact/signals';
 import { thinned, type Vec } from '../../model/base/geometry';
 import { smoothSpeed, STEP_S, stretches, type Motion } from '../../model/base/motion';
@@ -52,7 +52,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
   );
 }
 
-/** The title stands above or below, wherever the beginnings of the curves leave it more room. */
+/** The title is above or below, wherever the start of the curves leaves more room. */
 function titleAt(a: Axes, motions: readonly Motion[]): number {
   const room = (y: number): number =>
     Math.min(
@@ -64,7 +64,7 @@ function titleAt(a: Axes, motions: readonly Motion[]): number {
   return room(below) > room(above) ? below : above;
 }
 
-/** One thin line each; thick for the one under the pointer, and for the few in a case or an event. */
+/** One thin line each; thick for the one under the pointer, and for the few of a case or an event. */
 function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]; strong: boolean }) {
   const { editor } = useApp();
   const hovered = editor.hover.peek();
@@ -105,9 +105,9 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   const { editor, curve } = useApp();
   const f = editor.reading.futures.peek();
   const before = f && curve.before.peek();
-  // What is to be taken hold of is drawn apart; while a handle is dragged nothing is.
+  // The draggable points are rendered separately; while a handle is dragged there are none.
   const taken = curve.points.peek().length > 0 && !editor.drag.active.peek();
-  // Of two dashed lines one would be taken for the other.
+  // With two dashed lines one would be mistaken for the other.
   const showLog = !before && (editor.view.layers.peek().log || !f || editor.reading.replays.peek());
   const inForce = !f || editor.reading.replays.peek();
   return (
@@ -131,19 +131,19 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   );
 }
 
-/** About as many steps of a curve as the title is long. */
+/** About the length of the title in steps of a curve. */
 const TITLE_STEPS = 14;
 
 const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
 
-/** The one in force last, on top of the others. */
+/** The followed one last, on top of the others. */
 function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
   const { editor, curve } = useApp();
   const chosen = editor.reading.bold.peek();
   const hovered = editor.hoverFuture.peek();
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = isSettled(f) && !f.sketch ? '' : '3 3';
-  // Of a speed drawn by hand the others are no answer.
+  // With a drawn speed profile the other futures do not apply.
   const others = !curve.profile.peek();
   const inForce: Future | undefined = f.modes[chosen];
   return (
@@ -199,7 +199,7 @@ function Curve({ axes, motion, colour, width, opacity, dash, smooth = false }: C
   );
 }
 
-/** A line through the speeds, with gaps where the log has gaps. */
+/** A line through the speeds, with the gaps of the recording. */
 function pathOf(a: Axes, m: Motion, smooth: boolean): string {
   const speeds = smooth ? smoothSpeed(m) : m.speed;
   const last = Math.floor((a.duration + 1e-6) / STEP_S) - m.first;

@@ -1,4 +1,4 @@
-// What happens above the plot, each sign at its time. What is in the log is a small grey one and takes no room.
+// Events above the plot, each sign at its time. Events of the recording are small and grey and take no room.
 import { goToEvent } from '../../actions/time';
 import { counted } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
@@ -10,7 +10,7 @@ const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
 const FILL = { collision: '--collision', rule: '--near', near: '--near', short: '--surface-3' } as const;
 const INK = { collision: '--on-collision', rule: '--on-near', near: '--on-near', short: '--ink-2' } as const;
 
-/** Estimated width of the words of a sign, with the space after them. */
+/** Estimated width of a sign's words, with the space after them. */
 const wordsWidth = (text: string): number => text.length * 5.9 + 8;
 
 export function EventBadges({ axes: a }: { axes: Axes }) {
@@ -55,10 +55,10 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const picked = c.editor.selectedEvent.peek();
   const more = events.length - 1;
   const label = `${e.label}: ${e.title}${more ? TEXTS.andMore(more) : ''}`;
-  // A second click goes on to the next one that shares the place.
+  // A second click goes to the next one that shares the place.
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const to = events[turn % events.length];
-  // What happens in a case or a variant is no event of the scene as it is.
+  // Events of a case or a variant are not events of the current scene.
   const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.compared.peek();
   const go = () => (elsewhere() ? c.editor.playhead.moveTo(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
@@ -95,7 +95,7 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   );
 }
 
-/** How many share the place, at the outer edge of the sign. */
+/** Number that share the place, at the outer edge of the sign. */
 function More({ x, count }: { x: number; count: number }) {
   return (
     <>

@@ -6,7 +6,7 @@ import { useApp } from '../parts/app-context';
 import { eventsShown, LANE, markedSpan, X0, type Axes } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
-/** Seconds marked behind the curves at least. */
+/** Least marked seconds behind the curves. */
 const MARKED_S = { collision: 0.3, rule: 0.3, near: 0.8 } as const;
 const COLOURS = { collision: '--collision', rule: '--near', near: '--near' } as const;
 
@@ -61,7 +61,7 @@ function SecondLines({ axes: a }: { axes: Axes }) {
   );
 }
 
-/** The times at which something happens to whose curves they are, marked behind them; else to anybody. */
+/** Times of events of the road user with the curves, marked behind them; without one, of all. */
 export function EventTimes({ axes: a }: { axes: Axes }) {
   const c = useApp();
   const id = c.variants.compared.peek() ? null : c.editor.selection.peek();

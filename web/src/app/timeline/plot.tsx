@@ -1,5 +1,5 @@
-// Speed over time of the selected road user, with a lane of events above. Curves are drawn again when they change,
-// once a frame at most; the playhead only moves.
+// Speed over time of the selected road user, with a lane of events above. Curves are redrawn when they change, at most
+// once a frame; the playhead only moves.
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
@@ -15,7 +15,7 @@ import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
 import { TEXTS } from '../../texts/panels/timeline';
 
-/** Everything that the curves, the grid and the badges show. */
+/** All inputs of curves, grid and badges. */
 const shown = ({ editor, variants, layouts, curve }: Context): unknown => [
   layouts.isNew.value,
   variants.compared.value,
@@ -50,13 +50,13 @@ export function Plot() {
   useLayoutEffect(() => {
     const el = box.current!;
     const watch = new ResizeObserver(() => {
-      // Nobody sees a plot without a height, and it has no axes.
+      // A plot without a height is invisible, and has no axes.
       if (el.clientHeight) size.value = { w: el.clientWidth, h: el.clientHeight };
     });
     watch.observe(el);
     return () => watch.disconnect();
   }, [size]);
-  /** Worked out once for all that is drawn by them. */
+  /** Computed once for all drawings. */
   const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const seek = useSeek(c, size);
   const pointed = useComputed(() => curve.point.value !== null).value;
@@ -95,7 +95,7 @@ interface DrawingProps {
 function Drawing({ tick, axes: all }: DrawingProps) {
   void tick.value;
   const now = all.value;
-  // While a goal is dragged the curves change and the axes hardly ever do: the grid is left as it is.
+  // While a goal is dragged the curves change and the axes rarely do: the grid is not redrawn.
   const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
   const grid = useMemo(() => <Grid axes={axes} />, [axes]);
   return (
@@ -107,7 +107,7 @@ function Drawing({ tick, axes: all }: DrawingProps) {
   );
 }
 
-/** Above the playhead, which would lie over their words. */
+/** Above the playhead, which would cover their words. */
 function Badges({ tick, axes }: DrawingProps) {
   void tick.value;
   return (
@@ -120,7 +120,7 @@ function Badges({ tick, axes }: DrawingProps) {
 function Points({ tick, axes }: DrawingProps) {
   const { editor, curve } = useApp();
   void tick.value;
-  // What is shown then is another motion than the one whose points these are.
+  // The shown motion then is not the one of these points.
   if (editor.view.beside.peek()?.meeting || editor.drag.active.peek()) return null;
   return curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
 }
@@ -141,10 +141,10 @@ function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
   );
 }
 
-/** The playhead goes where one presses and drags, and by keys in steps of 0.1 s. */
+/** The playhead follows a press and drag, and keys in steps of 0.1 s. */
 function useSeek(c: Context, size: ReadonlySignal<Size>) {
   const on = useRef(false);
-  /** Where the playhead was before the last two presses: a double click is not about it. */
+  /** Playhead before the last two presses: a double click restores it. */
   const before = useRef<readonly [number, number]>([0, 0]);
   const tenth = (t: number): number => Math.round(t * 10) / 10;
   const timeAt = (e: PointerEvent & { currentTarget: HTMLElement }): number => {
@@ -158,7 +158,7 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
   return {
     onPointerDown: (e: PointerEvent & { currentTarget: HTMLElement }) => {
       if ((e.target as Element).closest('.badge')) return;
-      // Shift: a via point where it is then.
+      // Shift: a via point at the road user's place then.
       const a = c.editor.agent.peek();
       const added = e.shiftKey && a && canMove(a) ? addViaAt(c.editor, a, timeAt(e)) : null;
       if (added) {

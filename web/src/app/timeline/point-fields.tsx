@@ -1,4 +1,4 @@
-// The point of the speed curve that is in use, in numbers: how fast, for how long, when.
+// The active point of the speed curve in numbers: speed, duration, time.
 import { acceleration, fromUnit, inTenths, num, speedText, toUnit } from '../../model/base/units';
 import { hardestBraking } from '../../model/base/motion';
 import { roomOf } from '../../model/physics/speed-profile';
@@ -9,7 +9,7 @@ import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import { TEXTS } from '../../texts/panels/point-fields';
 
-/** Braking is marked from here on, m/s². */
+/** Harder braking is marked, m/s². */
 const HARD_MPS2 = 4;
 const TOO_HARD_MPS2 = 8;
 
@@ -20,11 +20,11 @@ export function PointFields() {
   const p = i === null ? undefined : curve.points.value[i];
   if (!agent || agent.locked || i === null || !p || !curve.profile.value) return null;
   const unit = editor.view.unitOf(agent);
-  // Which point it is, too, is read anew: the fields stay while another is taken.
+  // The index is read again too: the fields stay while another point is taken.
   const at = () => curve.point.value ?? i;
   const room = () => roomOf(curve.points.value, at(), editor.scene.value?.duration ?? 9);
   const now = () => curve.points.value[at()] ?? p;
-  // Of what is in hand, too.
+  // During a drag too.
   const shown =
     editor.reading.futures.value?.modes[editor.reading.chosen.value]?.motion ?? editor.reading.motionFor(agent);
   const braking = hardestBraking(shown);

@@ -1,5 +1,5 @@
-// The points of the speed curve: dragged up and down for speed, sideways for time; pulled to the ground they stick, and
-// pulled on they hold there. Each is a slider for keys.
+// The points of the speed curve: dragged up and down for speed, sideways for time; at zero they stick, and further down
+// they extend a stop. Each is a slider for keys.
 import { useRef } from 'preact/hooks';
 import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/base/units';
 import type { SpeedPoint } from '../../model/document/profile';
@@ -7,20 +7,20 @@ import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
-/** Above the ground a point sticks to it, below it one pulls a hold out of it, pixels. */
+/** Above zero a point sticks to it, below zero the drag extends a stop, pixels. */
 const STICK_PX = 6;
 const HOLD_FROM_PX = 12;
-/** Seconds that a hold begins with. */
+/** Initial duration of a stop, seconds. */
 const FIRST_HOLD_S = 1;
-/** What takes hold of a point, pixels; fingers need more. */
+/** Grab distance of a point, pixels; larger for fingers. */
 const REACH_PX = 11;
 const REACH_FINGER_PX = 22;
 
 interface Grip {
   readonly i: number;
-  /** The point, the end of its hold, or the hold as a whole. */
+  /** The point, the end of its hold, or the whole hold. */
   readonly what: 'point' | 'end' | 'hold';
-  /** How long after the point it was taken hold of, seconds. */
+  /** Time between the point and the grab, seconds. */
   readonly after: number;
   readonly moved: boolean;
 }

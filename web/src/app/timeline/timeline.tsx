@@ -1,4 +1,4 @@
-// Transport controls, what is worked out, what the others do, and the speed plot.
+// Transport controls, planned time, behaviour of the others, and the speed plot.
 import { useComputed } from '@preact/signals';
 import { LENGTHS, REPLANS } from '../../model/document/scene';
 import { figure, num } from '../../model/base/units';
@@ -36,7 +36,7 @@ export function Timeline() {
 
 type Items = readonly (readonly [string, string])[];
 
-/** What is chosen, by name, and from what; they stay side by side where the line is broken. */
+/** A choice with its name; both stay together at a line break. */
 function Choice({ name, label, items }: { name: string; label: string; items: Items }) {
   return (
     <span class="choice">
@@ -46,7 +46,7 @@ function Choice({ name, label, items }: { name: string; label: string; items: It
   );
 }
 
-/** Seconds side by side; the unit stands once, at the end. */
+/** Seconds side by side; the unit is shown once, at the end. */
 const seconds = (action: string, all: readonly number[]): Items =>
   all.map((s, i) => [`${action}-${s}`, i === all.length - 1 ? `${s} s` : `${s}`]);
 
@@ -62,7 +62,7 @@ function Clock() {
   );
 }
 
-/** Where fingers are the hand, the playhead has a rail of its own. */
+/** On touch devices the playhead has a separate slider. */
 function Scrubber() {
   const { editor } = useApp();
   const end = useComputed(() => editor.resting.value?.duration ?? 9);

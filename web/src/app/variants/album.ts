@@ -1,4 +1,4 @@
-// The view that the pictures of several cards share.
+// The view shared by the pictures of several cards.
 import { useRef } from 'preact/hooks';
 import { boxOf, type Box, type Vec } from '../../model/base/geometry';
 import { busyBox } from '../../model/physics/scene-centre';
@@ -15,14 +15,11 @@ import type { Album } from './live-picture';
 const CARD_W = 174;
 const CARD_H = 92;
 const LOW_H = 60;
-/** A page lower than this has lower pictures, pixels. */
+/** A lower page has lower pictures, pixels. */
 const LOW_PAGE = 800;
 const MARGIN_M = 10;
 
-/**
- * One view for all of them, turned as the picture is: on what the road user does that they are about, else where most
- * things move.
- */
+/** One view for all of them, turned like the picture: on the motion of the subject, else where most movement is. */
 export function useAlbum(cards: readonly Pictured[]): Album {
   const { editor, ui } = useApp();
   const kept = useRef<{ key: string; album: Album; of: unknown } | null>(null);

@@ -1,4 +1,4 @@
-// One variant: its picture, its name, what happens in it, and what is thought of it.
+// A variant: picture, name, events and rating.
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { closeInTime, counted, worstOf } from '../../model/physics/events';
@@ -17,7 +17,7 @@ const MARKS: Record<TrafficEvent['kind'], readonly [colour: string, word: string
   short: ['near', TEXTS.goalMissed],
 };
 
-/** What happens in it, in a word with its colour, and one fact. */
+/** Its events as a word with a colour, and one fact. */
 export function verdictOf({ set, events }: Pictured): { colour: string; word: string; fact: string } {
   const worst = worstOf(events);
   if (!set) return { colour: '', word: '…', fact: '' };
@@ -150,6 +150,6 @@ function NameField({ card }: { card: Card }) {
   );
 }
 
-/** What was left as it stood is no name of one's own. */
+/** An unchanged default is not a given name. */
 const named = (typed: string, { variant, name }: Card): string =>
   variant.called === null && typed.trim() === name ? '' : typed;

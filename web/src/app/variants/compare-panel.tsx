@@ -1,4 +1,4 @@
-// What differs between the two variants that are compared: a table, and the moments at which they part.
+// Differences between the two compared variants: a table, and the moments when they diverge.
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/base/units';
 import type { Moment } from '../../model/words/comparison';
@@ -86,7 +86,7 @@ export default function ComparePanel() {
   );
 }
 
-/** Its number, and what somebody called it. */
+/** Its number, and its given name. */
 const calledOf = ({ id, variant }: WholeCard): string => [id, variant.called].filter(Boolean).join(' ');
 
 function MomentRow({ moment: m }: { moment: Moment }) {

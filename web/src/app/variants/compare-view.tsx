@@ -1,4 +1,4 @@
-// Two variants beside each other: the left one is the picture itself, the right one another that looks where it looks.
+// Two variants beside each other: the left one is the picture itself, the right one another that follows its view.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { motionOf } from '../../model/physics/playback';
@@ -58,7 +58,7 @@ function SideTitle({ card, side }: { card: WholeCard; side: 'left' | 'right' }) 
   );
 }
 
-/** Zoom a pixel of wheel. */
+/** Zoom for each pixel of wheel. */
 const WHEEL_ZOOM = 0.0016;
 
 function Pane({ now }: { now: Compared }) {
@@ -147,7 +147,7 @@ function paintAgents(g: Pen, v: View, card: WholeCard, time: number, poseIn: Pos
     const p = at(a);
     return p ? [{ a, p }] : [];
   });
-  // Large before small, so that nobody on foot hides under a bus.
+  // Large before small, so that no pedestrian is hidden under a bus.
   all.sort((p, q) => q.a.length * q.a.width - p.a.length * p.a.width);
   for (const { a, p } of all) stamp(g, v, a, p);
   g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);

@@ -1,4 +1,4 @@
-// The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
+// The picture of a variant in its card, at the playhead: all share one clock.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pictured } from '../../edit/tools/variants/cards';
 import { motionOf } from '../../model/physics/playback';
@@ -15,14 +15,14 @@ import type { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 
-/** What the pictures of all cards share. */
+/** Shared by the pictures of all cards. */
 export interface Album {
   readonly painter: Miniatures;
   readonly map: MapPicture;
   readonly view: View;
 }
 
-/** While the scene plays a picture is painted anew after so many milliseconds. */
+/** Interval between repaints during playback, milliseconds. */
 const PAUSE_MS = (navigator.hardwareConcurrency || 2) > 2 ? 33 : 100;
 
 export function LivePicture({ card, album }: { card: Pictured; album: Album }) {
@@ -64,7 +64,7 @@ export function LivePicture({ card, album }: { card: Pictured; album: Album }) {
   return <canvas ref={canvas} width={view.w * view.dpr} height={view.h * view.dpr} aria-hidden="true" />;
 }
 
-/** Nobody is so small on a card that one would not see it. */
+/** Small road users are enlarged, to be visible on a card. */
 const mini = <T extends { length: number; width: number }>(a: T) => ({
   ...a,
   mini: true,

@@ -1,4 +1,4 @@
-// New variants by a number: which one is gone through, from where to where, in what steps.
+// New variants by a swept number: which one, its range, and its step.
 import { limitsOfSweep, LEAST_STEP, type Over } from '../../model/physics/sweep';
 import { fromUnit, inTenths, num, type Quantity, toUnit } from '../../model/base/units';
 import { perform } from '../../actions/registry';
@@ -14,7 +14,7 @@ const BY: readonly (readonly [Over, string])[] = [
 
 const SAID: Record<Over, string> = { start: TEXTS.startsAt, goal: TEXTS.arrivesAt, time: TEXTS.reachesTheGoalAfter };
 
-/** What new ones differ by: chance, or a number of the one road user that they are about. */
+/** Difference of new ones: the seed, or a number of the subject. */
 export function RangePick() {
   const { variants } = useApp();
   const sweep = variants.sweep.value;
@@ -36,7 +36,7 @@ export function RangePick() {
   );
 }
 
-/** The range as a sentence with its numbers to fill in. */
+/** The range as a sentence with input fields. */
 export function Range() {
   const c = useApp();
   const { editor, variants } = c;

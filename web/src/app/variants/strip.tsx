@@ -1,4 +1,4 @@
-// The strip of variants: one card each, all of them on the clock of the playhead.
+// The strip of variants: one card each, all at the playhead's time.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
@@ -97,7 +97,7 @@ export default function Strip() {
   }
 }
 
-/** A place for one that is made: what is there of it is shown, and can be taken once all are. */
+/** A place for a variant being made: its known part is shown, and it can be taken once all are done. */
 function Arriving({ one, album }: { one: Pictured | undefined; album: Album }) {
   if (!one) return <div class="vcard waiting" aria-hidden="true" />;
   const { colour, word, fact } = verdictOf(one);
@@ -117,7 +117,7 @@ function Arriving({ one, album }: { one: Pictured | undefined; album: Album }) {
 const countOf = (all: readonly Card[], filter: Filter): number =>
   filter === 'all' ? all.length : all.filter((c) => (filter === 'events' ? hasEvents(c) : c.variant.starred)).length;
 
-/** Of whom they are, from which numbers; how far it is while more are made. */
+/** Subject and numbers; progress while more are made. */
 function About() {
   const { editor, variants } = useApp();
   const making = variants.making.value;
@@ -155,7 +155,7 @@ function About() {
   );
 }
 
-/** How far it is, what happens in those that are there, and the ways to end it. */
+/** Progress, events so far, and buttons to end it. */
 function Progress({ of: m }: { of: Making }) {
   const { variants } = useApp();
   const paused = variants.paused.value;

@@ -1,4 +1,4 @@
-// Whose speed the timeline shows, in the one variant and in the other.
+// The road user whose speeds the timeline shows in both variants.
 import type { Compared } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/panels/variants-panel';
