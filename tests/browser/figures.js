@@ -1,9 +1,9 @@
-// How fast the hand is answered, as a table; measures, never verdicts.
+// Response times as a table: measurements, not verdicts.
 //
-//   npm run figures                                    all rows, with the program as it is built
-//   npm run figures -- --bin OLD --bin NEW --turns 3   two programs by turns, so that both meet the same machine
+//   npm run figures                                    all rows, with the built program
+//   npm run figures -- --bin OLD --bin NEW --turns 3   two programs in turn, on the same machine
 //   npm run figures -- drag tabs                       some rows: opening, drag, crowds, record, edits, tabs
-//   npm run figures -- --hand 60                       a hand that is told of so often a second, else 125 times
+//   npm run figures -- --hand 60                       pointer moves per second; 125 by default
 import { availableParallelism, loadavg } from 'node:os';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -18,12 +18,12 @@ const EDITS = 1000;
 const TABS = 12;
 const SIZES = { '1440x900': { width: 1440, height: 900 } };
 
-/** Where the flag is dragged: to and fro, so that every drag begins where the last one ended. */
+/** Places of the flag: to and fro, so that every drag begins where the last one ended. */
 const REACH = 0.35;
 
 const address = (program, id) => (id ? new URL(`?scene=${id}`, program.url).href : program.url);
 
-/** One drag that is listened to and one that is not, each on a page of its own. */
+/** One drag with listening and one without, each on a page of its own. */
 async function ofScene(row, { browser, program }, id, { scale = 1, after = false, frames = FRAMES } = {}) {
   for (const listening of ['times', 'nothing']) {
     const e = await Editor.open(browser, address(program, id), {
@@ -36,7 +36,7 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
       const flag = await takeFlag(e);
       const way = [flag(0), flag(REACH)];
       if (after) {
-        // Once somebody has a goal of ours, everybody who is in the way has answered.
+        // After the first goal all road users in the way have reacted.
         await e.drag(flag(0), flag(REACH), { moves: 12 });
         await e.release();
         way.splice(0, 2, await flagNow(e), flag(0));
@@ -71,7 +71,7 @@ const ROWS = {
   async opening(row, { browser, program }) {
     const e = await Editor.open(browser, program.url, { listening: 'times' });
     try {
-      // As the first paint, from when the address was asked for.
+      // Since the request of the address, like the first paint.
       row('ready', await e.page.evaluate(() => performance.now()));
       const paint = await e.page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime);
       row('first paint', paint);
@@ -165,7 +165,7 @@ async function imported(url, { path, name }) {
   return (await reply.json()).scenes[0].id;
 }
 
-/** The example so often, under ids of their own. */
+/** Copies of the example, each with its own id. */
 async function copies(url, count) {
   const ids = [];
   for (let i = 0; i < count; i++) {
@@ -183,7 +183,7 @@ const median = (all) => all.filter((v) => v !== null && v !== undefined).sort((a
 const written = (v) => (v === null ? '-' : v >= 1000 ? Math.round(v).toLocaleString('en') : v.toFixed(1));
 
 async function run(bins, names, turns) {
-  /** What was measured: by row, then by program, a number a turn. */
+  /** Measurements: by row, then by program, one number for each turn. */
   const table = new Map();
   const loads = [];
   for (let turn = 0; turn < turns; turn++)

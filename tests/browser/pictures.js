@@ -1,12 +1,12 @@
-// Pictures of the editor's states beside the ones that were accepted.
+// Compares pictures of the editor's states with the accepted ones.
 //
-//   npm run pictures                 takes them all and says which differ
-//   npm run pictures -- 03 27        those whose names begin so
-//   npm run pictures -- --accept     takes them and accepts what they show (also with names)
+//   npm run pictures                 takes all and reports which differ
+//   npm run pictures -- 03 27        only those with names that start with these
+//   npm run pictures -- --accept     takes and accepts them (also with names)
 //
 // The same program, scene and seed give the same pictures: the viewport is fixed, motion is reduced, every step waits
-// for a condition, and clocks stand still, so that no measured milliseconds and no dates are in a picture. What was
-// accepted lies small in `pictures/`; the pictures of this run lie in full in `out/pictures/`.
+// for a condition, and clocks stand still, so that no measured milliseconds and no dates are in a picture. Accepted
+// pictures are scaled down in `pictures/`; the pictures of this run are in full size in `out/pictures/`.
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { STATES } from './pictures/states.js';
@@ -20,7 +20,7 @@ const ACCEPTED = fileURLToPath(new URL('pictures', import.meta.url));
 const TAKEN = `${out}/pictures`;
 const NOW = '2026-03-02T10:42:00';
 
-/** Takes one state's picture; gives back its path. */
+/** Takes the picture of one state; returns its path. */
 async function take(program, browser, [name, reach, { hide = [], holds, after, ...page } = {}]) {
   const door = holds ? await Holding.before(program.url) : null;
   const e = await Editor.open(browser, door?.url ?? program.url, {
@@ -36,7 +36,7 @@ async function take(program, browser, [name, reach, { hide = [], holds, after, .
       await e.until(() => [...document.querySelectorAll('.scns canvas')].every((c) => c.dataset.done));
     }
     await reach(e, { program, door });
-    // The picture is painted apart from the page: it is there a frame later.
+    // A worker paints the picture: it is there a frame later.
     await e.frames(4);
     await e.page.evaluate(() => document.fonts.ready);
     const path = `${TAKEN}/${name}.png`;
@@ -64,7 +64,7 @@ async function run(names, accept) {
   try {
     for (const state of states) {
       const [name] = state;
-      // What one state leaves in the store is not in the next one's list of scenes.
+      // Stored scenes of one state are not in the next one's list.
       const program = await Program.start();
       try {
         const small = await pixels.small(readFileSync(await take(program, browser, state)));

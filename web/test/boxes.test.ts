@@ -1,4 +1,4 @@
-// Boxes on the ground: whether they touch, how far they are apart, and when several come closest.
+// Boxes on the ground: overlap, distance, and the closest approach of several.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { gapAtLeast, gapBetween, touching, type Footprint } from '../src/model/physics/boxes';
@@ -72,7 +72,7 @@ function straight(
 }
 
 describe('the closest moment', () => {
-  it('is found between those who come closest, at the time at which they do', () => {
+  it('is found between the closest two, with its time', () => {
     const found = closestOf(
       [straight('car', '1', 0, 0, 10, 0), straight('car', '2', 50, 30, 0, -5), straight('car', '3', 0, 80, 10, 0)],
       9,
@@ -82,7 +82,7 @@ describe('the closest moment', () => {
     expect(found.time).toBeLessThan(7);
   });
 
-  it('is between unlike ones where there are such, and none for one alone or for too many', () => {
+  it('is between unlike types where there are some, and none for a single one or for too many', () => {
     const crowd = [straight('pedestrian', '1', 20, 0, 0, 1), straight('pedestrian', '2', 20.9, 0, 0, 1)];
     const car = straight('car', '3', 0, 0, 4, 0);
     expect(closestOf(crowd, 9)!.gap).toBeLessThan(0.1);
@@ -96,14 +96,14 @@ describe('the closest moment', () => {
 });
 
 describe('the time between two', () => {
-  // The one drives east along y = 0 at 10 m/s, the other comes from the south along x = 40.
+  // One drives east along y = 0 at 10 m/s, the other comes from the south along x = 40.
   const east = straight('car', '1', 0, 0, 10, 0);
   const north = (y: number): readonly [Agent, Motion] => straight('car', '2', 40, y, 0, 10);
 
   it('is from the one leaving the ground to the other coming to it', () => {
     const found = timeGapOf(east, north(-61), 9)!;
     const half = (a: Agent): number => (a.length + a.width) / 2;
-    // The rear of the one leaves at 4 s and half a box, the front of the other comes at 6.1 s less half a box.
+    // The rear of one leaves at 4 s and half a box, the front of the other comes at 6.1 s less half a box.
     expect(Math.abs(found.gap - (2.1 - (half(east[0]) + half(north(0)[0])) / 10))).toBeLessThan(0.11);
     expect([found.first.id, found.second.id]).toEqual(['1', '2']);
     expect(found.time).toBeGreaterThan(5);
@@ -117,7 +117,7 @@ describe('the time between two', () => {
     expect(Math.abs(found.gap - (2 - east[0].length / 10))).toBeLessThan(0.11);
   });
 
-  it('is at each moment what is left if both go on as they go', () => {
+  it('is at each moment the time left at constant velocities', () => {
     const driven = (x: number, speed: number) => {
       const { pose, ...rest } = box(x, 0);
       return { ...rest, pose: { ...pose, speed } };
@@ -128,7 +128,7 @@ describe('the time between two', () => {
     expect(timeToCollision(driven(0, 10), driven(3, 0))).toBeNull();
   });
 
-  it('is none where they touch, share no ground, or one stands', () => {
+  it('is none where they overlap, share no ground, or one stands', () => {
     expect(timeGapOf(east, north(-40), 9)).toBeNull();
     expect(timeGapOf(east, straight('car', '2', 0, 6, 10, 0), 9)).toBeNull();
     expect(timeGapOf(east, straight('car', '2', 40, 0, 0, 0), 3)).toBeNull();
@@ -148,7 +148,7 @@ describe('a ghost', () => {
   const scene = crossing();
   const lane = [...scene.map.lanes.values()].find((l) => l.kind === 'road' && l.line.length > 60)!;
 
-  it('drives with the lane, at its speed, and no faster than whoever is ahead allows', () => {
+  it('drives with the lane, at its speed, and no faster than the road user ahead allows', () => {
     const empty = { ...scene, agents: new Map() };
     const [x, y] = lane.line.pts[0];
     const free = ghostAt(empty, firstChoice('car'), [x, y], { zoom: 8 });

@@ -1,4 +1,4 @@
-// Cases: what counts as one, what is tried, and what a search leaves behind.
+// Cases: conditions, attempts, and the state after a search.
 import { describe, expect, it } from 'vitest';
 import { NOTHING_SAID } from '../src/model/document/future-facts';
 import { attempt, withAttempt } from '../src/model/physics/attempts';
@@ -38,7 +38,7 @@ function straight(x: number, y: number, heading: number, speed: (t: number) => n
   });
 }
 
-/** Far from everything else in the scene. */
+/** Far from all else in the scene. */
 const FAR = 500;
 
 function twoWays(scene: Scene, mine: Motion, theirs: Motion): MotionSet {
@@ -65,7 +65,7 @@ const sought = (what: Sought['what'], limit = KINDS[what].limit, other: string |
   limit,
 });
 
-/** East at 10 m/s; the other one north across its way, `later` seconds after it. */
+/** East at 10 m/s; the other one north across its path, `later` seconds after it. */
 const crossingWays = (later: number): [Motion, Motion] => [
   straight(FAR, FAR, 0, () => 10),
   straight(FAR + 40, FAR - 40 - later * 10, Math.PI / 2, () => 10),
@@ -85,13 +85,13 @@ describe('a case', () => {
     expect(near.other).toBe(OTHER);
     expect(of(sought('near', near.value - 0.01), crossingWays(0.8)).found).toBe(false);
     expect(of(sought('collision'), crossingWays(0.8)).found).toBe(false);
-    // Nearer misses come before those that are further off, and a collision after all of them.
+    // A nearer miss comes before a wider one, and a collision after all of them.
     const wide = of(sought('near', 5), crossingWays(1.2));
     expect(near.miss).toBeLessThan(wide.miss);
     expect(hit.miss).toBeGreaterThan(wide.miss);
   });
 
-  it('is what the scene tells as an event, with its numbers: it also knows what happens between two steps', () => {
+  it('is the event of the scene, with its numbers, including moments between two steps', () => {
     const told = (kind: 'collision' | 'near_miss', extent: number): Moment => {
       const set = twoWays(scene, ...crossingWays(0.8));
       const fault = { kind, time: 4.34, until: 4.4, at: [FAR, FAR] as const, extent, with: OTHER, edge: null };
@@ -102,17 +102,17 @@ describe('a case', () => {
     };
     expect(told('collision', 20)).toMatchObject({ found: false, value: 0, time: 4.34 });
     expect(told('near_miss', 0.7)).toMatchObject({ found: true, value: 0.7, time: 4.34, other: OTHER });
-    // Who passes near but would not meet is no near miss; further than counts as one it is measured alone.
+    // A close pass without a collision course is no near miss; wider gaps than the threshold are only measured.
     const { value } = of(sought('near', 5), crossingWays(0.7));
     expect(value).toBeLessThan(1);
     expect(of(sought('near', 1), crossingWays(0.7)).found).toBe(false);
     expect(of(sought('near', 1.1), crossingWays(0.7)).found).toBe(true);
   });
 
-  it('is to come first by little, not second, and not by much', () => {
+  it('is a passing order by a small margin: first, not second', () => {
     const first = of(sought('first'), crossingWays(1));
     expect(first.found).toBe(true);
-    // Middle after middle it is a second; of that the boxes take what they need to pass.
+    // Between the centres it is one second; the boxes take their passing time off that.
     const boxes = scene.agents.get(ME)!;
     expect(Math.abs(first.value - (1 - (boxes.length + boxes.width) / 10))).toBeLessThan(0.11);
     expect(of(sought('first'), crossingWays(-1)).found).toBe(false);
@@ -121,7 +121,7 @@ describe('a case', () => {
     expect(momentOf(scene, twoWays(scene, ...apart), sought('first'))).toBeNull();
   });
 
-  it('is braking that is hard enough, and hits nobody', () => {
+  it('is hard braking without a collision', () => {
     const brakes = (rate: number) => straight(FAR, FAR, 0, (t) => Math.max(0, 12 - rate * Math.max(0, t - 2)));
     const away = straight(FAR, FAR + 100, 0, () => 5);
     const hard = of(sought('braking', 4, null), [brakes(6), away]);
@@ -158,7 +158,7 @@ describe('a red light', () => {
   const scene = { ...plain, signals: [{ lane: '', stop: [FAR + 20, FAR] as const, states: [[0, 'stop'] as const] }] };
   const ways = crossingWays(3);
 
-  it('is run where the verdict says so; else what counts is how near one comes to a red one', () => {
+  it('is run according to the verdict; otherwise the distance to a red one counts', () => {
     const none = momentOf(scene, twoWays(scene, ...ways), sought('red', 0, null))!;
     expect([none.found, none.value, none.time]).toEqual([false, 0, 2]);
     const set = twoWays(scene, ...ways);
@@ -195,14 +195,14 @@ describe('attempts', () => {
     }
   });
 
-  it('leave everybody else as they are', () => {
+  it('leave all others unchanged', () => {
     const tried = withAttempt(scene, ME, { seed: 9, speed: 3, time: null, ahead: 2 });
     expect(tried.seed).toBe(9);
     expect(startPose(tried.agents.get(ME)!)!.speed).toBe(3);
     for (const [id, a] of scene.agents) if (id !== ME) expect(tried.agents.get(id)).toBe(a);
     const [p, q] = [scene, tried].map((s) => startPose(s.agents.get(ME)!)!);
     expect(Math.hypot(q.x - p.x, q.y - p.y)).toBeCloseTo(2, 1);
-    // Where somebody stands it does not start.
+    // It does not start where another road user stands.
     const blocker = { ...scene.agents.get(OTHER)!, start: { pos: [q.x, q.y] as const, heading: q.heading, speed: 0 } };
     const full = withAgents(scene, [blocker]);
     const beside = startPose(withAttempt(full, ME, { seed: 9, speed: 3, time: null, ahead: 2 }).agents.get(ME)!)!;
@@ -210,7 +210,7 @@ describe('attempts', () => {
   });
 });
 
-/** Answers at once with the same six futures; the score says nothing. */
+/** Answers at once with the same six futures; the score is empty. */
 class Prompt extends InMemoryGenerator {
   override ask(q: Parameters<InMemoryGenerator['ask']>[0]): void {
     super.ask(q);
@@ -230,7 +230,7 @@ describe('a search', () => {
     return { editor: s.editor, cases, line };
   }
 
-  it('ends by itself, changes nothing, and says what came nearest', async () => {
+  it('ends by itself, changes nothing, and reports the closest attempt', async () => {
     const { editor, cases, line } = begin();
     const before = editor.scene.peek();
     cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
@@ -243,7 +243,7 @@ describe('a search', () => {
     expect(cases.found.peek().length + (cases.closest.peek() ? 1 : 0)).toBeGreaterThan(0);
   });
 
-  it('finds, shows beside the scene, and takes a case in one step that undo takes back', async () => {
+  it('finds a case, shows it beside the scene, and takes it in one step that can be undone', async () => {
     const { editor, cases } = begin();
     const before = editor.scene.peek()!;
     cases.seek({ ...cases.sought.peek()!, limit: 10 });
@@ -261,7 +261,7 @@ describe('a search', () => {
     expect(editor.document.undoName.peek()).toBeNull();
   });
 
-  it('asks nothing while a hand drags', async () => {
+  it('sends no request during a drag', async () => {
     const { editor, cases, line } = begin();
     editor.select(ME);
     editor.drag.begin({ part: 'start', handle: 'body' });
@@ -273,7 +273,7 @@ describe('a search', () => {
     expect(cases.state.peek()).toBe('done');
   });
 
-  it('stops at once, and goes on where it was', async () => {
+  it('stops at once, and resumes where it was', async () => {
     const { cases, line } = begin();
     cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
     const going = cases.run();
@@ -288,7 +288,7 @@ describe('a search', () => {
     expect(cases.state.peek()).toBe('done');
   });
 
-  it('says what is missing before it begins', () => {
+  it('reports a missing setting before it begins', () => {
     const { cases } = begin();
     expect(cases.obstacle.peek()).toBeNull();
     cases.open('near', [ME]);

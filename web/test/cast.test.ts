@@ -1,4 +1,4 @@
-// Road users come, go, change kind and are changed together: every command has an exact inverse, however they mix.
+// Road users are added, removed, and change kind alone or together: every command has an exact inverse, in any order.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import type { Command } from '../src/model/document/commands';
@@ -16,7 +16,7 @@ import { crossing, crossingJson } from './helpers';
 /** A number of runs that the environment may raise. */
 const RUNS = Number(process.env.SEQUENCES ?? 300);
 
-/** Numbers as a file has them: of zeros it knows one. */
+/** Numbers as in a file, which has only one zero. */
 const number = (min: number, max: number) => fc.double({ min, max, noNaN: true }).map((v) => v + 0);
 const metres = number(-150, 150);
 const kind = fc.constantFrom(...PLACED_KINDS);
@@ -29,7 +29,7 @@ const pose = fc.record({
 const comer = fc.tuple(kind, pose).map(([k, p]) => newcomer(k, PRESETS[k][0], p));
 const does = fc.constantFrom('react', 'log', 'still' as const);
 
-/** A command for some of those who are there; null where it would change nobody. */
+/** A command for some of the present road users; null where none would change. */
 type Make = (s: Scene, all: readonly Agent[]) => Command | null;
 
 const makers: fc.Arbitrary<Make> = fc.oneof(
@@ -117,21 +117,21 @@ const makers: fc.Arbitrary<Make> = fc.oneof(
   }),
 );
 
-/** Which of those who are there: any mix of them. */
+/** Any subset of the present road users. */
 const pick = fc.array(fc.nat(1000), { maxLength: 5 });
 const picked = (s: Scene, which: readonly number[]): Agent[] => {
   const all = [...s.agents.values()];
   return all.length ? [...new Set(which.map((i) => all[i % all.length]))] : [];
 };
 
-/** Everything that a command may change, in the order of the road users. */
+/** All that a command may change, in the order of the road users. */
 const face = (s: Scene): string =>
   sceneKey(s) +
   s.issued +
   JSON.stringify([s.variants, s.variantStates]) +
   JSON.stringify(Array.from(s.agents.values(), (a) => ({ ...a, log: null, source: null })));
 
-describe('commands about who is there', () => {
+describe('commands that add and remove road users', () => {
   it('are undone exactly by their inverse', { timeout: 3_600_000 }, () => {
     const scene = crossing();
     fc.assert(
@@ -176,7 +176,7 @@ describe('commands about who is there', () => {
     );
   });
 
-  it('never give an id twice, not even one of somebody who is gone', () => {
+  it('never reuse an id, not even that of a removed road user', () => {
     const scene = crossing();
     const last = [...scene.agents.values()].reduce((a, b) => (Number(b.id) > Number(a.id) ? b : a));
     const without = several.removeThem(scene, [last]).apply(scene);
@@ -187,7 +187,7 @@ describe('commands about who is there', () => {
     expect(ids.some((i) => scene.agents.has(i))).toBe(false);
   });
 
-  it('take somebody out with log, goal and place in the order, and bring all of it back', () => {
+  it('remove a road user with recording, goal and position in the order, and restore all of it', () => {
     const scene = crossing();
     const a = scene.agents.get('2')!;
     const asked = setGoal(a, { ...a.goal, pos: [3, 4] }).apply(scene);
@@ -201,7 +201,7 @@ describe('commands about who is there', () => {
     expect(back.castKey).toBe(asked.castKey);
   });
 
-  it('leave locked ones and those that are only shown alone where the whole is reset', () => {
+  it('leave locked and read-only road users unchanged when everything is reset', () => {
     const scene = crossing();
     const all = [...scene.agents.values()].slice(0, 2);
     const moved = several.moveAll(all, 5, 0)!.apply(scene);
@@ -215,40 +215,44 @@ describe('commands about who is there', () => {
 describe('a scene as a file', () => {
   const json = crossingJson();
 
-  it('keeps who came, went, was named, locked, made another kind, and what they do', { timeout: 60_000 }, () => {
-    fc.assert(
-      fc.property(fc.array(fc.tuple(makers, pick), { maxLength: 8 }), (steps) => {
-        let scene = readScene(json);
-        for (const [make, which] of steps) scene = make(scene, picked(scene, which))?.apply(scene) ?? scene;
-        const text = JSON.stringify(writeScene(json, scene, null));
-        const read = readScene(JSON.parse(text));
-        // Written again it is the same: what is read is what was meant.
-        expect(JSON.parse(JSON.stringify(writeScene(json, read, null)))).toEqual(JSON.parse(text));
-        expect(read.castKey).toBe(scene.castKey);
-        for (const a of scene.agents.values()) {
-          const b = read.agents.get(a.id)!;
-          expect([b.type, b.kind, b.name, b.note, b.locked, b.does, b.placed]).toEqual([
-            a.type,
-            a.kind,
-            a.name,
-            a.note,
-            a.locked,
-            a.does,
-            a.placed,
-          ]);
-          expect([b.length, b.width, b.goal]).toEqual([a.length, a.width, a.goal]);
-          const [p, q] = [startPose(a), startPose(b)];
-          expect(q?.x).toBeCloseTo(p?.x ?? 0, 2);
-          expect(q?.speed).toBeCloseTo(p?.speed ?? 0, 2);
-        }
-      }),
-      { numRuns: Math.min(RUNS, 60) },
-    );
-  });
+  it(
+    'keeps added, removed, named and locked road users, their new kinds, and their behaviour',
+    { timeout: 60_000 },
+    () => {
+      fc.assert(
+        fc.property(fc.array(fc.tuple(makers, pick), { maxLength: 8 }), (steps) => {
+          let scene = readScene(json);
+          for (const [make, which] of steps) scene = make(scene, picked(scene, which))?.apply(scene) ?? scene;
+          const text = JSON.stringify(writeScene(json, scene, null));
+          const read = readScene(JSON.parse(text));
+          // Written again it is equal: reading loses nothing.
+          expect(JSON.parse(JSON.stringify(writeScene(json, read, null)))).toEqual(JSON.parse(text));
+          expect(read.castKey).toBe(scene.castKey);
+          for (const a of scene.agents.values()) {
+            const b = read.agents.get(a.id)!;
+            expect([b.type, b.kind, b.name, b.note, b.locked, b.does, b.placed]).toEqual([
+              a.type,
+              a.kind,
+              a.name,
+              a.note,
+              a.locked,
+              a.does,
+              a.placed,
+            ]);
+            expect([b.length, b.width, b.goal]).toEqual([a.length, a.width, a.goal]);
+            const [p, q] = [startPose(a), startPose(b)];
+            expect(q?.x).toBeCloseTo(p?.x ?? 0, 2);
+            expect(q?.speed).toBeCloseTo(p?.speed ?? 0, 2);
+          }
+        }),
+        { numRuns: Math.min(RUNS, 60) },
+      );
+    },
+  );
 });
 
 describe('copies as text', () => {
-  it('come back as they were', () => {
+  it('are restored as they were', () => {
     fc.assert(
       fc.property(fc.array(comer, { minLength: 1, maxLength: 5 }), (all) => {
         const back = readCopies(copiesText(all))!;
@@ -257,7 +261,7 @@ describe('copies as text', () => {
     );
   });
 
-  it('are nobody where the text is something else, and never more than a scene holds', () => {
+  it('are empty where the text is something else, and never more than a scene holds', () => {
     for (const text of [
       '',
       'hello',

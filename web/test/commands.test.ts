@@ -65,7 +65,7 @@ const makers: fc.Arbitrary<(s: Scene, a: Agent) => Command> = fc.oneof(
   fc.constantFrom(...REPLANS).map((r) => () => setReplan(r)),
 );
 
-/** Everything that a command may change, as text. */
+/** All that a command may change, as text. */
 const face = (s: Scene): string =>
   sceneKey(s) +
   s.name +
@@ -97,7 +97,7 @@ describe('commands', () => {
     expect(Object.isFrozen(next) && Object.isFrozen(next.agents.get('1'))).toBe(true);
   });
 
-  it('stretch the scene, and bring goals back that would come after its end', () => {
+  it('stretch the scene, and move goals that would be after its end', () => {
     const long = setLength(scene, 20).apply(scene);
     expect([long.length, long.duration]).toEqual([20, 20]);
     const a = long.agents.get('1')!;

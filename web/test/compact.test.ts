@@ -1,10 +1,10 @@
-// Compact futures come out as the columns that the server would have sent.
+// Compact futures are expanded to the columns that the server would have sent.
 import { expect, test } from 'vitest';
 import { expanded } from '../src/net/compact';
 
 const head = { seq: 1, job: 'j', elapsed_ms: 1 };
 
-test('a compact column is a value, a change, and changes of the change', () => {
+test('a compact column is a value, a difference, and differences of differences', () => {
   const future = {
     probability: 0.5,
     first_step: 1,
@@ -44,7 +44,7 @@ test('a compact column is a value, a change, and changes of the change', () => {
   });
 });
 
-test('what is sent in columns stays as it is', () => {
+test('futures sent in columns stay unchanged', () => {
   const agents = { a: { chosen: 0, modes: [{ probability: 1, first_step: 1, x_m: [1], y_m: [2] }] } };
   const final = { ...head, event: 'final', samples: [{ agents, score: null }], windows: 1 };
   const e = expanded(final as unknown as Parameters<typeof expanded>[0]);

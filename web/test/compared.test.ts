@@ -1,4 +1,4 @@
-// What somebody does beside what was recorded of it, where the recording has gaps, begins late or goes on for longer.
+// A road user's motion compared with its recording, which has gaps, starts late or lasts longer.
 import { describe, expect, it } from 'vitest';
 import { comparedWithLog, findChanges } from '../src/model/words/change-words';
 import { emptyMotion } from '../src/model/document/futures';
@@ -6,7 +6,7 @@ import { distances, motionFrom, type Motion } from '../src/model/base/motion';
 import { sceneKey, withAgents, type Agent } from '../src/model/document/scene';
 import { car, crossing } from './helpers';
 
-/** Along x at 10 m/s, seen in these steps; elsewhere the columns hold noughts, as files have them. */
+/** Along x at 10 m/s, recorded in these steps; elsewhere the columns hold zeros, as in files. */
 function seen(steps: number, valid: [number, number][], speed = 10): Motion {
   const there = (i: number): boolean => valid.some(([a, b]) => i >= a && i < b);
   const at = Array.from({ length: steps }, (_, i) => i);
@@ -36,13 +36,13 @@ describe('compared with the log', () => {
     expect(said.d).toBeCloseTo(9, 1);
   });
 
-  it('counts neither what was recorded after the end nor what came before both are there', () => {
+  it('counts only the time in which both are present', () => {
     expect(comparedWithLog(of(seen(200, [[0, 200]])), own, 9)!.words).toBe('Travels 9 m less than in the log.');
-    // Seen from 4.5 s on it has half of the time to get behind.
+    // Recorded from 4.5 s on it has half of the time to fall behind.
     expect(comparedWithLog(of(seen(91, [[45, 91]])), own, 9)!.words).toBe('Travels 5 m less than in the log.');
   });
 
-  it('says of nobody that it comes later because its recording goes on', () => {
+  it('reports no delay because a recording lasts longer', () => {
     const a = of(seen(200, [[0, 200]]));
     const there = withAgents(scene, [a]);
     const motion = seen(91, [[0, 91]], 9.99);

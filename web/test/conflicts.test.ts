@@ -1,4 +1,4 @@
-// Where ways cross within a short time: crossing and meeting count, following and passing much later do not.
+// Paths that cross within a short time: crossing and meeting count, following and much later passing do not.
 import { describe, expect, it } from 'vitest';
 import { conflictZones, WITHIN_S } from '../src/model/physics/conflicts';
 import { emptyMotion, type MotionSet } from '../src/model/document/futures';
@@ -6,7 +6,7 @@ import { STEP_S, type Motion } from '../src/model/base/motion';
 import { withAgents, type Agent, type Scene } from '../src/model/document/scene';
 import { car, crossing } from './helpers';
 
-/** From a place in a direction at 10 m/s, from so many seconds on. */
+/** From a place in a direction at 10 m/s, starting after this many seconds. */
 function going(x: number, y: number, heading: number, since = 0): Motion {
   const n = 90;
   const at = (i: number) => Math.max(0, i * STEP_S - since) * 10;
@@ -21,7 +21,7 @@ function going(x: number, y: number, heading: number, since = 0): Motion {
   };
 }
 
-/** Two cars and nobody else, each with its motion as the log. */
+/** Only two cars, each with its motion as the recording. */
 function two(a: Motion, b: Motion): { scene: Scene; set: MotionSet } {
   const scene = crossing();
   const like: Agent = { ...car(scene), length: 4, placed: false, parked: false };
@@ -39,7 +39,7 @@ const zones = (a: Motion, b: Motion) => {
 };
 
 describe('conflict zones', () => {
-  it('lie where two cross, with the time between them', () => {
+  it('are where two paths cross, with the time between them', () => {
     const found = zones(going(-30, 0, 0), going(0, -45, Math.PI / 2));
     expect(found.length).toBeGreaterThan(0);
     for (const z of found) expect(Math.hypot(z.x, z.y)).toBeLessThan(6);
@@ -48,13 +48,13 @@ describe('conflict zones', () => {
     expect(least).toBeLessThan(1.5);
   });
 
-  it('are none where one comes long after the other, or is behind it, or stands', () => {
+  it('are none where one arrives long after the other, follows it, or stands', () => {
     expect(zones(going(-30, 0, 0), going(0, -30, Math.PI / 2, WITHIN_S + 1.5))).toEqual([]);
     expect(zones(going(-30, 0, 0), going(-42, 0, 0))).toEqual([]);
     expect(zones(going(-30, 0, 0), going(0, 0, Math.PI / 2, 99))).toEqual([]);
   });
 
-  it('are without a gap where both are there at once', () => {
+  it('have no gap where both are present at once', () => {
     const found = zones(going(-30, 0, 0), going(0, -30, Math.PI / 2));
     expect(Math.min(...found.map((z) => z.gap))).toBe(0);
   });

@@ -1,4 +1,4 @@
-// What of a speed curve cannot be driven, and the ways out that are offered.
+// Infeasible parts of a speed curve, and the offered remedies.
 import { describe, expect, it } from 'vitest';
 import { misfitOf, type Asked } from '../src/model/physics/curve-fit';
 import { limitsOf } from '../src/model/base/domain';
@@ -22,12 +22,12 @@ const asked = (points: readonly SpeedPoint[], goal: Asked['goal'] = null): Asked
 const speedAt = (points: readonly SpeedPoint[], t: number): number =>
   motionOf({ path, points }, LIMITS, 12).speed[Math.round(t * 10)];
 
-describe('a speed curve that cannot be driven', () => {
-  it('is none where it can', () => {
+describe('an infeasible speed curve', () => {
+  it('is none where all is feasible', () => {
     expect(misfitOf(asked([p(0, 8), p(4, 0, 3), p(9, 4)]))).toBeNull();
   });
 
-  it('names the point that braking does not reach, and how fast it still is there', () => {
+  it('names the point that braking does not reach, and its actual speed', () => {
     const m = misfitOf(asked([p(0, 20), p(1, 0), p(9, 4)]))!;
     if (m.what !== 'braking') throw new Error(m.what);
     expect(m.point).toEqual(p(1, 0));
@@ -43,7 +43,7 @@ describe('a speed curve that cannot be driven', () => {
     expect(misfitOf(asked(sooner))?.what).toBe('braking');
   });
 
-  it('offers a shorter stop where it gathers speed too late', () => {
+  it('offers a shorter stop where it accelerates too late', () => {
     const m = misfitOf(asked([p(0, 8), p(3, 0, 3), p(7, 12), p(12, 12)]))!;
     if (m.what !== 'gathering') throw new Error(m.what);
     const way = m.ways.find((w) => w.kind === 'shorter')!;
@@ -51,7 +51,7 @@ describe('a speed curve that cannot be driven', () => {
     expect(Math.abs(speedAt(way.points, 7) - 12)).toBeLessThan(0.31);
   });
 
-  it('says how far it is from its goal, and each way out arrives', () => {
+  it('reports the distance from its goal, and each remedy arrives', () => {
     const stop = [p(0, 8), p(3, 0, 4), p(9, 4)];
     const goal = { at: [19, 0.5] as const, time: 9 };
     const m = misfitOf(asked(stop, goal))!;
@@ -65,7 +65,7 @@ describe('a speed curve that cannot be driven', () => {
     }
   });
 
-  it('says nothing of a goal that does not lie on the path', () => {
+  it('ignores a goal off the path', () => {
     expect(misfitOf(asked([p(0, 8), p(9, 0)], { at: [30, 20], time: 9 }))).toBeNull();
   });
 });

@@ -1,4 +1,4 @@
-// On which side one drives: worked out from the lanes, or said by what the map was made from.
+// Driving side: inferred from the lanes, or stored in the map's layout.
 import { describe, expect, it } from 'vitest';
 import type { MapJson, Point, SceneJson } from '../src/model/document/scene-json';
 import { drivingSide } from '../src/model/physics/driving-side';
@@ -9,7 +9,7 @@ import { PRESETS } from '../src/model/base/kinds';
 import { Layouts } from '../src/edit/tools/layouts/layouts';
 import { crossing, crossingJson } from './helpers';
 
-/** All lanes of a scene on the other side of the x axis: who drove on the right drives on the left. */
+/** All lanes of a scene mirrored at the x axis: right-hand driving becomes left-hand. */
 function mirrored(json: SceneJson): SceneJson {
   const over = ([x, y, ...z]: Point): Point => [x, -y, ...z] as unknown as Point;
   const map = json.map as MapJson;
@@ -25,12 +25,12 @@ function mirrored(json: SceneJson): SceneJson {
 const leftHand = () => readScene(mirrored(crossingJson())).map;
 
 describe('the side of the road', () => {
-  it('is where the lanes of the other direction are not', () => {
+  it('is opposite to the lanes of the other direction', () => {
     expect(drivingSide(crossing().map)).toBe('right-hand');
     expect(drivingSide(leftHand())).toBe('left-hand');
   });
 
-  it('is not known of a map with one direction alone, or where as much speaks for both', () => {
+  it('is unknown for a map with only one direction, or with equal evidence for both', () => {
     const one = crossingJson();
     const map = one.map as MapJson;
     map.lanes = map.lanes!.filter((l) => l.id.startsWith('in'));
@@ -50,7 +50,7 @@ describe('the side of the road', () => {
     expect(drivingSide(readScene(both).map)).toBeNull();
   });
 
-  it('is the one that a map was made with, whatever its lanes say', () => {
+  it("is the one in a map's layout, whatever its lanes", () => {
     const { map } = crossing();
     expect(drivingSide(map, { template: 'merge', parameters: { traffic: 'left-hand' } })).toBe('left-hand');
     expect(drivingSide(map, { template: 'merge', parameters: { traffic: 'both' } })).toBe('right-hand');
@@ -58,8 +58,8 @@ describe('the side of the road', () => {
   });
 });
 
-describe('what follows the side', () => {
-  it('people on foot in an area keep to it', () => {
+describe('uses of the driving side', () => {
+  it('pedestrians in an area keep to it', () => {
     const right = crossing();
     const left = { ...right, map: leftHand() };
     const choice = { kind: 'pedestrian', size: PRESETS.pedestrian[0], spread: 'area', count: 12 } as const;
@@ -72,7 +72,7 @@ describe('what follows the side', () => {
     expect(new Set(sides(left))).toEqual(new Set([1]));
   });
 
-  it('a new map has it until another one is chosen by hand', () => {
+  it('a new map has it until the user chooses another one', () => {
     const layouts = new Layouts();
     layouts.choose('four-arms', 'left-hand');
     expect(layouts.wish.value).toEqual({ template: 'four-arms', parameters: null, traffic: 'left-hand' });

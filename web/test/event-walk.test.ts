@@ -1,4 +1,4 @@
-// Whoever goes to an event sees it, however it was picked.
+// Going to an event brings it into view, however it was selected.
 import { describe, expect, it, vi } from 'vitest';
 import { goToEvent, time } from '../src/actions/time';
 import type { Context } from '../src/actions/context';
@@ -39,13 +39,13 @@ function page(events: TrafficEvent[]) {
 }
 
 describe('going to an event', () => {
-  it('leaves a picture that shows it', () => {
+  it('keeps a picture that shows it', () => {
     const { c, view, now } = page([]);
     goToEvent(c, event(10, 5, 3));
     expect([view.cx, view.cy, now.time]).toEqual([0, 0, 3]);
   });
 
-  it('brings it from under a panel and from beyond the picture, by the key as well', () => {
+  it('brings it out from under a panel and from outside the picture, by key too', () => {
     const hidden = event(-30, 0, 2);
     const beyond = event(400, 90, 5);
     const { c, view, now } = page([hidden, beyond]);

@@ -1,4 +1,4 @@
-// Where a recording paints is never outside of what is said of it, and what is said is not much more.
+// The extent of a recording contains all painted places, and is not much larger.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { Extent } from '../src/draw/recording/extent';
@@ -27,7 +27,7 @@ const shape = fc.oneof(
   fc.record({ kind: fc.constant('curve' as const), x: coordinate, y: coordinate, dx: length, dy: length }),
 );
 type Point = [number, number];
-/** Places that are painted for sure. */
+/** Places that are certainly painted. */
 function samples(s: typeof shape extends fc.Arbitrary<infer T> ? T : never): Point[] {
   const steps = Array.from({ length: 17 }, (_, i) => i / 16);
   switch (s.kind) {
@@ -52,7 +52,7 @@ function samples(s: typeof shape extends fc.Arbitrary<infer T> ? T : never): Poi
 const extent = (scale: number) => new Extent(scale, () => ({ left: 10, top: 20, right: 30, bottom: 40 }));
 
 describe('the extent of a recording', () => {
-  it('holds every place that is painted', () => {
+  it('contains every painted place', () => {
     fc.assert(
       fc.property(fc.constantFrom(1, 2), fc.array(fc.oneof(move, shape), { maxLength: 25 }), (scale, all) => {
         const e = extent(scale);
@@ -101,7 +101,7 @@ describe('the extent of a recording', () => {
     );
   });
 
-  it('is a little more than what is painted', () => {
+  it('is a little larger than the painted part', () => {
     const e = extent(2);
     e.fillRect(50, 60, 10, 5);
     expect(e.part(SIZE.w, SIZE.h)).toEqual({ left: 98, top: 118, right: 122, bottom: 132 });
@@ -109,7 +109,7 @@ describe('the extent of a recording', () => {
     expect(nothing.right > nothing.left).toBe(false);
   });
 
-  it('knows shadows, letters and paths made before', () => {
+  it('covers shadows, letters and existing paths', () => {
     const e = extent(1);
     e.save();
     e.shadowBlur = 4;

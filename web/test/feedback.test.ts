@@ -1,4 +1,4 @@
-// What is said of futures in rounds: every step can be taken back, a file has it all, words say what it rests on.
+// Feedback on futures in rounds: every step can be undone, a file stores all, words give the evidence.
 import { describe, expect, it } from 'vitest';
 import {
   answerTo,
@@ -50,8 +50,8 @@ const say = (s: Scene, n: number, verdict: Verdict | null): Scene =>
 const step = (s: Scene, make: (a: Subject, r: Asked) => Command): Scene => make(oneSubject(car(s)), asked(s)).apply(s);
 const verdicts = (s: Scene) => car(s).feedback?.answers.map((a) => `${a.round}${a.letter} ${a.verdict}`) ?? [];
 
-describe('what was said of futures', () => {
-  it('is no change of what anybody does', () => {
+describe('feedback on futures', () => {
+  it('changes no motion', () => {
     const s = crossing();
     const said = step(say(s, 1, 'keep'), nextRound);
     expect(sceneKey(said)).toBe(sceneKey(s));
@@ -78,7 +78,7 @@ describe('what was said of futures', () => {
       const next = command.apply(s);
       const back = command.invert(s).apply(next);
       expect(car(back).feedback, command.name).toEqual(car(s).feedback);
-      // The history keeps plain differences, which a browser can store.
+      // The history stores plain differences, which a browser can store.
       const diff = JSON.parse(JSON.stringify(diffOf(s, next))) as ReturnType<typeof diffOf>;
       expect(car(applyDiff(s, diff, 'forth')).feedback).toEqual(car(next).feedback);
       expect(car(applyDiff(next, diff, 'back')).feedback ?? null).toEqual(car(s).feedback);
@@ -105,7 +105,7 @@ describe('what was said of futures', () => {
     expect(hasNews(car(s).feedback, asked(s))).toBe(false);
   });
 
-  it('belongs to the card that it was said of, also where that is drawn again a little elsewhere', () => {
+  it('belongs to its card, also where that is drawn again with a small offset', () => {
     const s = say(crossing(), 2, 'reject');
     const f = car(s).feedback;
     const again = card(car(s).id, 2);
@@ -116,7 +116,7 @@ describe('what was said of futures', () => {
     expect(verdicts(say(s, 2, 'keep'))).toEqual(['1C keep']);
   });
 
-  it('goes on with another round where the document is another one', () => {
+  it('continues with another round for another document', () => {
     let s = say(crossing(), 0, 'keep');
     s = patchScene('', { seed: 5 }).apply(s);
     expect(asked(s).round).toBe(2);
@@ -124,7 +124,7 @@ describe('what was said of futures', () => {
     expect(verdicts(say(s, 1, 'reject'))).toEqual(['1A keep', '2B reject']);
   });
 
-  it('keeps one wish about one thing', () => {
+  it('keeps one preference for each trait', () => {
     let s = crossing();
     s = step(s, (a, r) => addWish(a, r, { trait: 'pace', wants: 'more' }, ''));
     s = step(s, (a, r) => addWish(a, r, { trait: 'pace', wants: 'less' }, ''));
@@ -135,7 +135,7 @@ describe('what was said of futures', () => {
     expect(car(s).feedback!.forgotten).toEqual([]);
   });
 
-  it('comes back from a file, with the round that a picked card is from', () => {
+  it('is read back from a file, with the round of a picked card', () => {
     const raw = crossingJson();
     let s = say(say(readScene(raw), 0, 'keep'), 1, 'reject');
     s = step(s, nextRound);
@@ -145,7 +145,7 @@ describe('what was said of futures', () => {
     expect(sceneKey(back)).toBe(sceneKey(s));
   });
 
-  it('tells a card from the usual future of the same letter', () => {
+  it('distinguishes a card from the usual future of the same letter', () => {
     const s = crossing();
     const key = (dealt: string) => sceneKey(takeDealt(car(s), 1, dealt, 'B').apply(s));
     expect(key('one')).not.toBe(key('two'));
@@ -176,7 +176,7 @@ describe('words of rounds', () => {
   const learned = (w: Partial<LearnedWishJson> & Pick<LearnedWishJson, 'trait'>) =>
     ({ wants: 'more', strength: 0.5, said: false, against: [], ...w }) as LearnedWishJson;
 
-  it('name what is wished', () => {
+  it('name the preference', () => {
     expect(wishWords({ trait: 'harshness', wants: 'less' }, nameOf)).toBe('Smoother');
     expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'less' }, nameOf)).toBe('Car 12 first');
     expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'more' }, nameOf)).toBe('Car 7 first');
@@ -186,7 +186,7 @@ describe('words of rounds', () => {
     expect(wishWords({ trait: 'does', who: '7', manoeuvre: 'left', wants: 'less' }, nameOf)).toBe('Not: turns left');
   });
 
-  it('say what it rests on', () => {
+  it('give its evidence', () => {
     const smooth = learned({ trait: 'harshness', wants: 'less', kept: [1, 2.1], rejected: [2.8, 3.6] });
     expect(restsOn(smooth, [], speaking)).toBe('Highest acceleration: kept 2.1, rejected 3.6 m/s².');
     const gap = learned({ trait: 'gap', kept: [2.4, 5], rejected: [0.9, 1.8] });
@@ -207,7 +207,7 @@ describe('words of rounds', () => {
     expect(againstWords(answers[1])).toBe('B of round 1, “Way 1”, was kept.');
   });
 
-  it('offer as a reason what a card can be blamed or liked for', () => {
+  it('offer reasons for and against a card', () => {
     const words = (f: FeaturesJson, v: Verdict) => reasons('7', f, v, nameOf).map((r) => r.words);
     const first = (yes: boolean) => like(1, { first: { 7: { 12: yes } } });
     expect(words(first(true), 'reject')).toContain('should go after Car 12');
@@ -221,7 +221,7 @@ describe('words of rounds', () => {
     expect(liked.wish).toMatchObject({ wants: 'more' });
   });
 
-  it('make a table that no spreadsheet takes for formulas', () => {
+  it('make a table that no spreadsheet reads as formulas', () => {
     let s = crossing();
     const { id } = car(s);
     const odd = { ...card(id, 0, like(1.5, { first: { [id]: { 12: true } } })), name: '=1+1, "so"' };
@@ -236,12 +236,12 @@ describe('words of rounds', () => {
   });
 });
 
-describe('what was said of the whole scene', () => {
+describe('feedback on the whole scene', () => {
   const whole = (s: Scene) => everybody(s);
   const asking = (s: Scene): Asked => presentRound(s.feedback, printOf(s));
   const many = Array.from({ length: 50 }, (_, i) => `${i}`);
 
-  /** Everybody goes straight on but one, who turns; one pair goes in this order or in the other. */
+  /** All go straight on except one, which turns; one pair has either order. */
   const sceneCard = (n: number): Judged => ({
     card: {
       features: like(n, {
@@ -261,7 +261,7 @@ describe('what was said of the whole scene', () => {
     crossing(),
   );
 
-  it('is asked about with no more traits than may be, and those that tell the cards apart', () => {
+  it('is sent with a limited number of traits: those that distinguish the cards', () => {
     const next = nextRound(whole(judged), asking(judged)).apply(judged);
     const { answers = [] } = docOf(next.feedback, asking(next));
     expect(answers).toHaveLength(4);
@@ -275,11 +275,11 @@ describe('what was said of the whole scene', () => {
     expect(traits.size).toBeGreaterThan(40);
     for (const told of ['40 before other', '45 left', '45 straight']) expect(traits).toContain(told);
     for (const { features } of answers) expect(features.gap_s).toBe(2.4);
-    // What is kept is all of it: later rounds may tell others apart.
+    // All of it is stored: later rounds may distinguish others.
     expect(Object.keys(next.feedback!.answers[0].features.manoeuvres!)).toHaveLength(50);
   });
 
-  it('says where everybody is in few words, and is found again by it', () => {
+  it('stores positions in short form, and is found again by them', () => {
     const [first] = judged.feedback!.answers;
     expect(first.places).toEqual({
       moving: [

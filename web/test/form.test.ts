@@ -1,9 +1,9 @@
-// The sheet of a small page: what opens it, and that a hand which pulled it down is heeded.
+// The sheet of a small page: what opens it, and that a sheet pulled down stays down.
 import { describe, expect, it } from 'vitest';
 import { Form } from '../src/actions/form';
 
 describe('a sheet', () => {
-  it('opens for somebody who is selected', () => {
+  it('opens for a selected road user', () => {
     const form = new Form();
     form.offer();
     expect(form.height.value).toBe('half');
@@ -16,7 +16,7 @@ describe('a sheet', () => {
     expect(form.height.value).toBe('full');
   });
 
-  it('stays down once a hand has pulled it down, until a hand pulls it up', () => {
+  it('stays down once pulled down, until it is pulled up', () => {
     const form = new Form();
     form.offer();
     form.pull('peek');

@@ -1,4 +1,4 @@
-// The conversation with the generator: latest wins, late answers are dropped, losses are survived.
+// The conversation with the generator: the latest wins, late answers are dropped, losses are tolerated.
 import { afterEach, describe, expect, it } from 'vitest';
 import type { SceneJson } from '../src/model/document/scene-json';
 import { Client } from '../src/net/client';
@@ -84,7 +84,7 @@ describe('generator', () => {
     expect(a.seen).toEqual({ drafts: [0, 1, 2, 3, 4, 5], final: 1, away: 0, refused: [], dropped: 0 });
   });
 
-  it('shows each window from its first guess on', async () => {
+  it('shows each planning window from its first draft on', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
     const g = generator(server.url),
       a = ask(false, 10),
@@ -103,7 +103,7 @@ describe('generator', () => {
     expect(a.seen.final).toBe(1);
   });
 
-  it('brings the surroundings of a drag along once, and again when the server has forgotten them', async () => {
+  it('sends the surroundings of a drag once, and again when the server has dropped them', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
     const g = generator(server.url);
     const surroundings = crossingJson();
@@ -119,11 +119,11 @@ describe('generator', () => {
     };
     expect(await drag()).toEqual(['inline', 'held:1', 'held:1']);
     server.forget();
-    // What is not there any more is asked for once.
+    // Dropped surroundings are sent once.
     expect(await drag()).toEqual(['held:1', 'inline', 'held:1', 'held:1']);
   });
 
-  it('keeps one on the way and one waiting while a drag goes on', async () => {
+  it('keeps one under way and one waiting during a drag', async () => {
     server = await startStandIn({ port: 0, delay: 15 });
     const g = generator(server.url);
     const all = [];
@@ -137,7 +137,7 @@ describe('generator', () => {
     const last = all[all.length - 1].seen;
     expect(last.final).toBe(1);
     expect(all.slice(0, -1).every((a) => a.seen.final === 0)).toBe(true);
-    // Something was drawn on the way, and far fewer requests were sent than the pointer moved.
+    // Drafts were drawn, with far fewer requests than pointer moves.
     expect(all.filter((a) => a.seen.drafts.length).length).toBeGreaterThan(2);
     expect(server.log.length).toBeLessThan(25);
     expect(server.log.map((l) => l.revision)).toEqual([...server.log.map((l) => l.revision)].sort((x, y) => x - y));
@@ -169,7 +169,7 @@ describe('generator', () => {
     }
   });
 
-  it('says when nobody answers, and when the answer is no', async () => {
+  it('reports an unreachable generator, and a refusal', async () => {
     server = await startStandIn({ port: 0, away: true });
     const g = generator(server.url),
       a = ask(false, 1);
@@ -184,7 +184,7 @@ describe('generator', () => {
     expect(b.seen.refused).toEqual(['unknown-map']);
   });
 
-  it('waits for its turn when the queue is full, without calling the generator away', async () => {
+  it('waits while the queue is full, without reporting the generator as unreachable', async () => {
     server = await startStandIn({ port: 0, delay: 1, busy: 3 });
     const g = generator(server.url),
       p = ask(true, 1),
@@ -197,7 +197,7 @@ describe('generator', () => {
     expect(c.seen).toMatchObject({ final: 1, away: 0 });
   });
 
-  it('notices a generator that hangs: slow at first, then away', async () => {
+  it('notices a generator that hangs: slow at first, then unreachable', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
     let asked = 0;
     const g = generator(server.url, {
@@ -229,7 +229,7 @@ describe('generator', () => {
     expect(b.seen).toMatchObject({ final: 1, away: 0 });
   });
 
-  it('waits on for a server that is only busy, up to a limit', async () => {
+  it('keeps waiting for a server that is only busy, up to a limit', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
     const g = generator(server.url, {
         slow: 40,
@@ -262,7 +262,7 @@ describe('generator', () => {
 });
 
 describe('stream', () => {
-  it('puts lines together however they are cut', async () => {
+  it('joins lines however they are cut', async () => {
     const text = '{"event":"heartbeat"}\n\n{"event":"step","step":1,"agents":{}}\n{"event":"superseded"}';
     const bytes = new TextEncoder().encode(text);
     for (const size of [1, 3, 7, 1000]) {
@@ -279,8 +279,8 @@ describe('stream', () => {
   });
 });
 
-describe('a drag that is answered in time, and heard of late', () => {
-  /** Answers come when the test says so; the clock is the test's. */
+describe('a drag that is answered in time, with late delivery', () => {
+  /** The test decides when answers arrive, and advances the clock. */
   function scripted() {
     let now = 0;
     const asked: { body: { revision: number }; signal: AbortSignal; tell: (e: GenerateEvent) => void }[] = [];
@@ -317,7 +317,7 @@ describe('a drag that is answered in time, and heard of late', () => {
     };
   }
 
-  /** Eight questions, each heard of after so many ms, by a draft or by its answer. */
+  /** Eight questions, each with its first result after this many ms, as a draft or as its answer. */
   async function warm(s: ReturnType<typeof scripted>, ms = 8, heard: 'draft' | 'final' = 'draft') {
     for (let i = 0; i < 8; i++) {
       s.g.ask(ask(true, i).ask);
@@ -327,7 +327,7 @@ describe('a drag that is answered in time, and heard of late', () => {
     }
   }
 
-  it('asks the next question once the answer must be on its way, and still shows that', async () => {
+  it('sends the next question once the answer must be under way, and still shows that', async () => {
     const s = scripted();
     await warm(s);
     const [a, b] = [ask(true, 20), ask(true, 21)];
@@ -345,7 +345,7 @@ describe('a drag that is answered in time, and heard of late', () => {
     s.g.cancel();
   });
 
-  it('passes answers that come without drafts in the same way', async () => {
+  it('overtakes answers without drafts in the same way', async () => {
     const s = scripted();
     await warm(s, 8, 'final');
     const [a, b] = [ask(true, 20), ask(true, 21)];
@@ -357,18 +357,18 @@ describe('a drag that is answered in time, and heard of late', () => {
     expect(s.asked).toHaveLength(10);
     await s.final(8);
     expect(a.seen).toMatchObject({ drafts: [], final: 1, dropped: 0 });
-    // Something was drawn: the next may be passed again.
+    // A result was drawn: the next may be overtaken again.
     s.pass(16);
     s.g.ask(ask(true, 22).ask);
     await s.quiet();
     expect(s.asked).toHaveLength(11);
-    // A newer answer leaves the older question behind.
+    // A newer answer replaces the older question.
     await s.final(10);
     expect(s.asked[9].signal.aborted).toBe(true);
     expect(b.seen).toMatchObject({ final: 0, dropped: 1 });
   });
 
-  it('passes no second one before something was drawn', async () => {
+  it('overtakes no second one before a result was drawn', async () => {
     const s = scripted();
     await warm(s);
     for (let i = 0; i < 6; i++) {
@@ -378,13 +378,13 @@ describe('a drag that is answered in time, and heard of late', () => {
     }
     expect(s.asked).toHaveLength(10);
     await s.draft(9);
-    // The older of the two is not waited for, and the newest one is asked.
+    // The older of the two is cancelled, and the newest one is sent.
     expect(s.asked[8].signal.aborted).toBe(true);
     expect(s.asked).toHaveLength(11);
     s.g.cancel();
   });
 
-  it('waits with a question that carries its scene', async () => {
+  it('waits for a question that contains its scene', async () => {
     const s = scripted();
     await warm(s);
     const carrying = (goal: number) => ({ ...ask(true, goal).ask, scene: () => ({ scene: crossingJson() }) });
@@ -397,7 +397,7 @@ describe('a drag that is answered in time, and heard of late', () => {
     s.g.cancel();
   });
 
-  it('waits where the server is slower than the hand', async () => {
+  it('waits where the server is slower than the drag', async () => {
     const s = scripted();
     await warm(s, 40);
     s.g.ask(ask(true, 20).ask);

@@ -1,4 +1,4 @@
-// How ghosts come, go and brake.
+// Ghosts: fades and brake ticks.
 import { describe, expect, it } from 'vitest';
 import { Fades } from '../src/draw/fades';
 import { brakeTicks } from '../src/draw/ghosts';
@@ -33,7 +33,7 @@ describe('a ghost', () => {
     expect(seen(fades.next([at('2', 4)], 300, false))).toEqual([['2', 4, 1, true]]);
   });
 
-  it('is there at once for people who asked for little motion', () => {
+  it('appears at once with reduced motion', () => {
     const fades = new Fades<ReturnType<typeof at>>();
     expect(seen(fades.next([at('2', 0)], 0, true))).toEqual([['2', 0, 1, true]]);
     expect(seen(fades.next([at('2', 9)], 1, true))).toEqual([['2', 9, 1, true]]);
@@ -50,7 +50,7 @@ describe('brake ticks', () => {
   const zeros = new Float64Array(n);
   const braking: Motion = { first: 0, x, y: zeros, heading: zeros, speed, valid: [[0, n]] };
 
-  it('lie closer the slower it gets, and only along braking', () => {
+  it('are closer at lower speed, and only along braking', () => {
     const zoom = 8;
     const places = brakeTicks(braking, 0, 4, zoom).map((p) => p.x * zoom);
     const gaps = places.slice(1).map((p, i) => p - places[i]);

@@ -1,8 +1,8 @@
-// GIF: what is written is read back by a reader of our own, picture for picture, and every code is where it belongs.
+// GIF: the output is decoded by a reader in the test, frame by frame, and every code is checked.
 import { describe, expect, it } from 'vitest';
 import { GifWriter, lzw, paletteOf } from '../src/edit/tools/outward/gif';
 
-/** Unpacks codes as the specification says: an entry for each code, made of the one before and what comes next. */
+/** Decodes by the specification: an entry for each code, made of the one before and the next value. */
 function unpacked(packed: Uint8Array): number[] {
   let entries: number[][] = [];
   let [size, before]: [number, number[] | null] = [9, null];
@@ -35,7 +35,7 @@ function unpacked(packed: Uint8Array): number[] {
   throw new Error('no end');
 }
 
-/** Numbers that look drawn and are the same each time. */
+/** Pseudo-random numbers, equal in each run. */
 const noise = (n: number, of: number): Uint8Array => {
   let x = 7;
   return Uint8Array.from({ length: n }, () => (x = (x * 1103515245 + 12345) % 2147483648) % of);
@@ -54,7 +54,7 @@ describe('LZW', () => {
 });
 
 describe('a film', () => {
-  it('has a head, each picture with its time, and an end', async () => {
+  it('has a header, each frame with its duration, and a trailer', async () => {
     const [w, h] = [3, 2];
     const picture = (r: number) => new Uint8ClampedArray(Array.from({ length: w * h }, () => [r, 200, 30, 255]).flat());
     const g = new GifWriter(w, h, paletteOf(picture(120)));
@@ -69,7 +69,7 @@ describe('a film', () => {
     expect(pictures).toHaveLength(2);
   });
 
-  it('keeps the commonest colours where there are more than fit', () => {
+  it('keeps the most common colours where there are more than fit', () => {
     const many = Uint8ClampedArray.from({ length: 4 * 4096 }, (_, i) =>
       i % 4 === 3 ? 255 : ((i >> 2) * (1 + (i % 4) * 37)) % 256,
     );

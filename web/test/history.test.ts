@@ -1,4 +1,4 @@
-// Steps there and back, branches, what is kept of them, and how a scene goes on from it.
+// Undo and redo, branches, stored steps, and how a scene continues from them.
 import { describe, expect, it } from 'vitest';
 import { Journal, resume } from '../src/edit/document/journal';
 import { rename, setGoal, setSeed } from '../src/model/document/commands';
@@ -21,7 +21,7 @@ const without = (s: Scene, id: string): Scene => {
 const plainly = (s: Scene) => JSON.stringify([[...s.agents.values()].map((a) => ({ ...a, log: 0 })), s.seed, s.name]);
 
 describe('differences of two documents', () => {
-  it('lead there and back, and can be stored', () => {
+  it('lead in both directions, and can be stored', () => {
     const a = file();
     const b = setSeed(7).apply(goal(a, 12).apply(a));
     const diff = structuredClone(diffOf(a, b));
@@ -32,7 +32,7 @@ describe('differences of two documents', () => {
     expect(isEmptyDiff(diffOf(a, withAgents(a, [{ ...someone(a) }])))).toBe(true);
   });
 
-  it('bring back who was removed, in its place and with its recording', () => {
+  it('restore a removed road user, in its place and with its recording', () => {
     const a = file();
     const { id, log } = someone(a);
     const b = without(a, id);
@@ -43,7 +43,7 @@ describe('differences of two documents', () => {
     expect([...applyDiff(back, diff, 'forth').agents.keys()]).toEqual([...b.agents.keys()]);
   });
 
-  it('a state is the document without what its file says', () => {
+  it('a state is the document without the data of its file', () => {
     const a = goal(file(), 9).apply(file());
     const state = structuredClone(stateOf(a));
     expect(JSON.stringify(state)).not.toContain('"log"');
@@ -52,7 +52,7 @@ describe('differences of two documents', () => {
 });
 
 describe('history', () => {
-  it('goes on beside what was undone, and back to it', () => {
+  it('continues beside undone steps, and returns to them', () => {
     const h = new History(file());
     for (const seed of [1, 2, 3]) h.run(setSeed(seed));
     h.undo();
@@ -66,7 +66,7 @@ describe('history', () => {
     expect([h.redo()?.name, h.redo()?.name, h.redo()?.name, h.redo()]).toEqual(['Seed 1', 'Seed 2', 'Seed 3', null]);
   });
 
-  it('forgets the oldest steps in bunches, and the document before the first moves on', () => {
+  it('drops the oldest steps in batches, and the document before the first advances', () => {
     const h = new History(file(), () => 0);
     let shorter = 0;
     h.onChange = (c) => (shorter += c.shorter ? 1 : 0);
@@ -81,7 +81,7 @@ describe('history', () => {
     expect(h.scene.seed).toBe(last - h.line().length);
   });
 
-  it('forgets the branch that was left longest ago before the one that was left last', () => {
+  it('drops the branch left longest ago first', () => {
     const h = new History(file(), () => 0);
     const branch = (first: number, steps: number): void => {
       for (let i = 0; i < steps; i++) h.run(setSeed(first + i));
@@ -95,7 +95,7 @@ describe('history', () => {
     expect([left(1000), left(2000), left(3000)]).toEqual([0, 105, 395]);
   });
 
-  it('is the same after it was stored', () => {
+  it('is equal after storage', () => {
     const h = new History(file());
     h.run(goal(h.scene, 4));
     h.run(setSeed(5));
@@ -125,7 +125,7 @@ describe('a scene that is opened again', () => {
     return { store, journal, h, kept: async () => (await store.read('x'))! };
   }
 
-  it('goes on with its steps where the server has what was saved', async () => {
+  it('continues with its steps where the server has the saved version', async () => {
     const { h, kept } = await edited(true);
     const r = resume(h.scene, await kept(), true, '"1"');
     expect([r.standing, plainly(r.scene)]).toEqual(['same', plainly(h.scene)]);
@@ -152,13 +152,13 @@ describe('a scene that is opened again', () => {
     expect([r.standing, sceneKey(r.scene)]).toEqual(['ahead', sceneKey(h.scene)]);
   });
 
-  it('keeps what everybody does where one is, beside the steps', async () => {
+  it('stores the motions of the current step, beside the steps', async () => {
     const { store, journal, h, kept } = await edited(false, null);
     const generated = { seed: 5, samples: [] } as unknown as GeneratedJson;
     journal.keepAnswers(generated);
     await journal.flush();
     expect((await kept()).answers).toEqual({ step: h.head, generated });
-    // Steps written anew leave it; a scene that is forgotten does not.
+    // Rewriting the steps keeps them; forgetting the scene does not.
     await journal.retry();
     expect((await kept()).answers?.step).toBe(h.head);
     journal.keepAnswers(null);
@@ -171,7 +171,7 @@ describe('a scene that is opened again', () => {
     expect(await store.read('x')).toBeNull();
   });
 
-  it('starts afresh where what is kept has holes', async () => {
+  it('starts afresh where stored steps are missing', async () => {
     const { h, kept } = await edited(true);
     const whole = await kept();
     const lost = { ...whole, steps: whole.steps.slice(1) };
@@ -180,7 +180,7 @@ describe('a scene that is opened again', () => {
     expect(resume(h.scene, nowhere, true, '"1"').standing).toBe('fresh');
   });
 
-  it('takes what was changed elsewhere as a step, which is kept with the others', async () => {
+  it('takes a change made elsewhere as a step, which is stored with the others', async () => {
     const { journal, kept, h } = await edited(true);
     const theirs = rename('Theirs').apply(h.scene);
     const before = await kept();
@@ -198,11 +198,11 @@ describe('a scene that is opened again', () => {
     expect([last.undo()?.name, last.scene.name]).toEqual(['Changed elsewhere', h.scene.name]);
   });
 
-  it('starts afresh where nothing is kept', () => {
+  it('starts afresh where nothing is stored', () => {
     expect(resume(file(), null, true, '"1"')).toMatchObject({ standing: 'fresh', history: null });
   });
 
-  it('says when there is no room, and writes what is missing when there is again', async () => {
+  it('reports full storage, and writes what is missing when there is room again', async () => {
     const store = new PassingStepStore();
     const journal = new Journal(store);
     const h = new History(file());
@@ -220,7 +220,7 @@ describe('a scene that is opened again', () => {
     expect((await store.read('x'))!.steps.map((s) => s.name)).toEqual(['Seed 1', 'Seed 2']);
   });
 
-  it('gives room back from scenes that the server has as they are', async () => {
+  it('frees the storage of scenes that the server has unchanged', async () => {
     const { store, journal, h } = await edited(true);
     const other = new History(file());
     journal.follow(other, 'y', null, true);

@@ -2,7 +2,7 @@
 import { expect, it } from 'vitest';
 import { replayed } from '../src/edit/overlay/hovered';
 
-it('runs four times as fast as it would, rests at the end, and starts again', () => {
+it('runs at four times the speed, rests at the end, and starts again', () => {
   expect(replayed(0, 9)).toBe(0);
   expect(replayed(1, 9)).toBe(4);
   expect(replayed(2.25, 9)).toBe(9);

@@ -1,4 +1,4 @@
-// Where labels go: never over another, over what is below them only where nothing else is left.
+// Placement of labels: never over another, and over objects below only without an alternative.
 import { describe, expect, it } from 'vitest';
 import { Labels } from '../src/draw/labels';
 
@@ -10,12 +10,12 @@ const TRIES = [
 const place = (l: Labels, must = true) => l.place(100, 100, 50, 20, TRIES, must);
 
 describe('a label', () => {
-  it('keeps off what is below it while there is another place', () => {
+  it('avoids objects below it while there is another place', () => {
     const labels = new Labels(400, 400);
     labels.keepOff({ x: 110, y: 100, w: 20, h: 20 });
     expect(place(labels)).toMatchObject({ x: 40, y: 100 });
     expect(place(labels)).toMatchObject({ x: 100, y: 140 });
-    // The last place is over a road user, and better than over another label.
+    // The last place is over a road user, which is better than over another label.
     expect(place(labels)).toMatchObject({ x: 110, y: 100 });
     expect(place(labels, false)).toBeNull();
   });

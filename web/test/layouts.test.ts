@@ -1,4 +1,4 @@
-// Single connections of a map that is being made: what they become when arms change, and steps back.
+// Single connections of a map being made: the effect of changed arms, and undo.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { Layouts } from '../src/edit/tools/layouts/layouts';
 import { connectionOf, fitting, laneOf } from '../src/model/document/layouts';
@@ -47,7 +47,7 @@ describe('connections', () => {
     layouts.settle(layouts.wish.peek()!, reply([way('arm1.in1', 'arm3.out1')]), 1);
   });
 
-  it('that cannot be drawn are wished for no longer, and their step is none', () => {
+  it('that cannot be drawn are dropped, without a step', () => {
     layouts.setArm(0, { angle_deg: 5 });
     layouts.settle(layouts.wish.peek()!, reply([]), 1);
     const drawn = layouts.wish.peek()!;
@@ -59,7 +59,7 @@ describe('connections', () => {
     expect(layouts.arms.value[0].angle_deg).toBe(0);
     layouts.redo();
     layouts.settle(drawn, reply([]), 1);
-    // In a hand it stays where that is, and goes back when that lets go.
+    // During a drag it stays, and is restored on release.
     layouts.hold();
     layouts.setArm(1, { angle_deg: 10 });
     layouts.refuse('Arms need 20° between them');
@@ -68,7 +68,7 @@ describe('connections', () => {
     expect([layouts.arms.value[1].angle_deg, layouts.canRedo.value]).toEqual([90, false]);
   });
 
-  it('are there again where one goes on with a map that was put away', () => {
+  it('are restored where a closed map is reopened', () => {
     expect(layouts.close()).toBeNull();
     layouts.choose('four-arms');
     layouts.settle(layouts.wish.peek()!, reply([]), 1);
@@ -79,7 +79,7 @@ describe('connections', () => {
     expect([layouts.arms.value[0].angle_deg, layouts.canUndo.value]).toEqual([5, true]);
   });
 
-  it('are named by their lanes, and go when their lanes go', () => {
+  it('are named by their lanes, and disappear with them', () => {
     expect(connectionOf([1, 0], [2, 1])).toEqual({ from: 'arm2.in1', to: 'arm3.out2' });
     expect(laneOf('arm2.in1')).toEqual([1, 0]);
     const all = {
@@ -88,11 +88,11 @@ describe('connections', () => {
     };
     const arms = [arm(0), arm(90, 1, 2), arm(180)];
     expect(fitting(all, arms)).toEqual({ added: [all.added[1]], removed: all.removed });
-    // The first arm goes: the others move up.
+    // The first arm is removed: the others move up.
     expect(fitting(all, arms.slice(1), 0)).toEqual({ added: [connectionOf([1, 0], [0, 1])], removed: [] });
   });
 
-  it('are taken away and come back, each in one step', () => {
+  it('are removed and restored, each in one step', () => {
     const usual = { from: 'arm1.in1', to: 'arm3.out1' };
     layouts.pickWay(usual);
     expect(layouts.way.value).toEqual(usual);
@@ -110,7 +110,7 @@ describe('connections', () => {
     expect(layouts.connections.removed).toEqual([usual]);
   });
 
-  it('that were added are no more when they are taken away', () => {
+  it('that were added disappear when they are removed', () => {
     const back = connectionOf([0, 0], [0, 0]);
     layouts.addWay(back);
     expect(layouts.connections.added).toEqual([back]);
@@ -119,7 +119,7 @@ describe('connections', () => {
     expect(layouts.connections).toEqual({ added: [], removed: [] });
   });
 
-  it('follow turn lanes that are set anew, and arms that go', () => {
+  it('follow new turn lanes, and removed arms', () => {
     layouts.removeWay({ from: 'arm2.in1', to: 'arm3.out1' });
     layouts.addWay(connectionOf([1, 1], [0, 0]));
     layouts.setTurns(1, 0, [['left'], ['right']]);
@@ -129,7 +129,7 @@ describe('connections', () => {
     expect(layouts.connections.added).toEqual([connectionOf([0, 0], [0, 0])]);
   });
 
-  it('that are pulled are one step, or none', () => {
+  it('drawn by the pointer are one step, or none', () => {
     layouts.hold();
     layouts.addWay(connectionOf([0, 0], [1, 0]));
     layouts.putBack();

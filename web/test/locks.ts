@@ -1,4 +1,4 @@
-// Locks and channels that tabs of one browser share, as browsers give them.
+// Locks and channels shared by the tabs of one browser, as browsers provide them.
 
 interface Held {
   release(reason?: unknown): void;
@@ -39,7 +39,7 @@ export class Locks {
   }
 }
 
-/** Channels of tabs of one browser: each hears the others. */
+/** Channels of the tabs of one browser: each receives from the others. */
 export function channels(n: number): BroadcastChannel[] {
   const hearers: ((e: { data: unknown }) => void)[] = [];
   return Array.from({ length: n }, (_, i) => ({

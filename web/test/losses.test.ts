@@ -1,4 +1,4 @@
-// What files cannot hold, and what they are good for, in plain words.
+// Details that files cannot hold, and their uses, in plain words.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../src/model/document/commands';
@@ -33,7 +33,7 @@ describe('losses', () => {
     for (const code of CODES) expect(lossesOf(code, scene)[0].how, code).not.toBe('not in the file');
   });
 
-  it('speaks of the scene at hand, the worst first', () => {
+  it('names details of the given scene, the worst first', () => {
     const scene = crossing();
     const a = [...scene.agents.values()].find((b) => b.kind === 'car')!;
     const changed = setGoal(a, { pos: [0, 0], heading: null, speed: null, time: 9, mayCross: [], via: [] }).apply(
@@ -46,12 +46,12 @@ describe('losses', () => {
     expect(lossesOf('no-conditions', scene)[0].how).not.toMatch(/^\d/);
   });
 
-  it('keeps a code that it does not know', () => {
+  it('keeps an unknown code', () => {
     expect(lossesOf('no-street-lamps,no-map', crossing()).map((l) => l.what)).toEqual(['Road', 'Street lamps']);
     expect(lossesOf(null, crossing())).toEqual([]);
   });
 
-  it('says what stays', () => {
+  it('reports what the file still contains', () => {
     const scene = crossing();
     expect(stays(lossesOf('no-map', scene), scene)).toContain(`${scene.agents.size} road users`);
     expect(stays(lossesOf('no-map', scene), scene)).not.toContain('the road,');
@@ -60,7 +60,7 @@ describe('losses', () => {
 });
 
 describe('formats', () => {
-  it('offers what the server writes, by what it is for; one without words under its own name', () => {
+  it('offers the formats of the server by purpose; one without words under its own name', () => {
     const offered = outFormats([
       format('newest'),
       format('csv'),
@@ -74,7 +74,7 @@ describe('formats', () => {
     ]);
   });
 
-  it('are found by what is said of them, and the one that ends so is meant', () => {
+  it('are found by their words, and the one with that file ending is the best match', () => {
     const all = [
       { label: 'Recording alone', ending: '.fcd.xml', says: 'As it is written.', name: 'Floating data (XML or CSV)' },
       { label: 'Table', ending: '.csv', says: 'For Excel.', name: 'Table of motion (CSV)' },
@@ -94,7 +94,7 @@ describe('formats', () => {
     ]);
   });
 
-  it('says by kind what can be brought in', () => {
+  it('lists by kind what can be imported', () => {
     const kinds = inKinds([format('csv'), format('html', { import: false }), format('osm'), format('newest')]);
     expect(kinds.map((k) => [k.label, k.files.map((f) => f.id)])).toEqual([
       ['Trajectory tables', ['csv']],

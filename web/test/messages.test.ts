@@ -1,4 +1,4 @@
-// Sentences of the server: each code has its English and its German, and each says all of its values.
+// Sentences of the server: each code has its English and its German, and each contains all of its values.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { toldIn } from '../src/model/base/units';
@@ -20,7 +20,7 @@ const LANGUAGES = {
   german: together(german, germanFiles, germanMaps, germanProblems),
 } as Record<string, Record<string, string | ((values: Record<string, string>) => string)>>;
 
-/** The values that a sentence asks for. */
+/** The values in a sentence. */
 function asked(sentence: string | ((values: Record<string, string>) => string)): string[] {
   if (typeof sentence === 'string') return [];
   const names = new Set<string>();
@@ -36,7 +36,7 @@ describe('sentences of the server', () => {
     expect(differing.map((kind) => kind.code)).toEqual([]);
   });
 
-  it('come with lengths and speeds in the units of the page', () => {
+  it('have lengths and speeds in the units of the page', () => {
     const far = { time_s: 4, goal_m: 61, start_mps: 13.9, kind: 'vehicle', most_m: 48.2 };
     const text = () => messageText({ code: 'goal-too-far', values: far });
     expect(text()).toBe(
@@ -51,7 +51,7 @@ describe('sentences of the server', () => {
     expect(walking).toBe('Cannot accelerate that much in 2.0 s from 1.4 m/s.');
   });
 
-  it('say since when they hold, and name arms and lists in the words of the page', () => {
+  it('give the time from which they hold, and name arms and lists in the words of the page', () => {
     const values = { since_s: 9, kind: 'cyclist' };
     expect(messageText({ code: 'goal-turn-too-tight', values })).toBe(
       'From 9.0 s on: Too tight a turn for this cyclist.',

@@ -72,7 +72,7 @@ describe('numbers', () => {
     for (const bad of ['', 'fast', '3 s', '1+', '2 m/s m', '1..2']) expect(parseTyped(bad, 'length')).toBeNull();
   });
 
-  it('never throws and never gives what is not a number', () => {
+  it('never throws and never returns NaN', () => {
     fc.assert(
       fc.property(fc.string(), (s) => {
         const v = parseTyped(s, 'length');
@@ -91,7 +91,7 @@ describe('numbers', () => {
 describe('feet', () => {
   afterEach(() => void toldIn('km/h'));
 
-  it('come with miles an hour, and go with them', () => {
+  it('come with miles per hour, and go with them', () => {
     expect([metres(30.48), metres(1.5, 1), lengthUnit()]).toEqual(['30 m', '1.5 m', 'm']);
     toldIn('mph');
     expect([metres(30.48), metres(1.5, 1), metres(3.1), lengthUnit()]).toEqual(['100 ft', '4.9 ft', '10 ft', 'ft']);
@@ -113,7 +113,7 @@ describe('feet', () => {
     expect(parseTyped('12', 'place')).toBe(12);
   });
 
-  it('come back as they were typed, within their bounds', () => {
+  it('are read back as typed, within their bounds', () => {
     toldIn('mph');
     fc.assert(
       fc.property(fc.integer({ min: 1, max: 10_000 }), (tenths) => {
@@ -129,7 +129,7 @@ describe('feet', () => {
 });
 
 describe('longer scenes', () => {
-  it('go straight on where nobody says more, and stand where somebody stood', () => {
+  it('continue straight without an answer, and stand where a road user stood', () => {
     const m = motionFrom({
       x_m: [0, 1, 2],
       y_m: [0, 0, 0],
@@ -147,7 +147,7 @@ describe('longer scenes', () => {
     expect(endPose(straightOn(still, 90))).toEqual({ x: 5, y: 1, heading: 1, speed: 0 });
   });
 
-  it('play everybody to the end: who was worked out as told, the rest straight on', () => {
+  it('play all motions to the end: generated ones as answered, the rest straight on', () => {
     const scene = setLength(crossing(), 20).apply(crossing());
     const a = car(scene);
     const json = {
@@ -166,7 +166,7 @@ describe('longer scenes', () => {
     expect(motionOf(scene, set, a)).toBe(futures.modes[0].motion);
     for (const other of scene.agents.values())
       if (lastStep(other.log) > 80) expect(poseAt(motionOf(scene, set, other), 20), other.id).not.toBeNull();
-    // Who was seen to go away before the recording ended stays away.
+    // A road user that left before the end of the recording stays away.
     const gone = { ...car(scene), log: { ...car(scene).log, valid: [[0, 60] as const] } };
     const left = withAgents(scene, [gone]);
     expect(poseAt(motionOf(left, emptyMotion(''), gone), 5)).not.toBeNull();
@@ -177,7 +177,7 @@ describe('longer scenes', () => {
     expect(motionOf(nine, set, nine.agents.get('2')!)).toBe(nine.agents.get('2')!.log);
   });
 
-  it('are kept with the scene and asked for again', () => {
+  it('are stored with the scene and sent in requests', () => {
     const scene = setReplan(6).apply(setLength(crossing(), 15).apply(crossing()));
     const back = readScene(writeScene(crossingJson(), scene, null));
     expect([back.length, back.replan, back.duration]).toEqual([15, 6, 15]);
@@ -201,14 +201,14 @@ describe('longer scenes', () => {
 });
 
 describe('scene', () => {
-  it('reads names, kinds, parked and what was asked', () => {
+  it('reads names, kinds, parked and conditions', () => {
     const s = crossing();
     expect(car(s).name).toBe('Car 1');
     expect([...s.agents.values()].filter((a) => a.parked)).toHaveLength(8);
     expect([...s.agents.values()].filter((a) => a.kind === 'bus')).toHaveLength(1);
     // A queue at a red light stands still for the whole scene and is not parked.
     expect(s.agents.get('7')!.parked).toBe(false);
-    // Nor is somebody of that queue who is only seen later.
+    // Nor is a road user of that queue that is first recorded later.
     const json = crossingJson();
     const later = json.agents.find((a) => a.id === '7')!;
     later.track.valid = [[30, later.track.x_m.length]];
@@ -235,7 +235,7 @@ describe('scene', () => {
     expect(touched(again.agents.get('2')!)).toBe(false);
   });
 
-  it('keeps futures and picks beside the scene, and drops those that are out of date', () => {
+  it('stores futures and picks with the scene, and drops stale ones', () => {
     const json = crossingJson(),
       s = readScene(json);
     const picked = choose(car(s), 2, 'C').apply(setGoal(car(s), { ...freeGoal(), pos: [4, 30] }).apply(s));
@@ -260,12 +260,12 @@ describe('scene', () => {
     expect(readGenerated({ ...written, generated: { ...written.generated, stale: true } }, again)).toBeNull();
   });
 
-  it('says what is wrong with other documents', () => {
+  it('reports faults of other documents', () => {
     expect(() => readScene({} as never)).toThrow(SceneError);
     expect(() => readScene({ ...crossingJson(), version: 7 })).toThrow(/newer version/);
   });
 
-  it('interpolates tracks and knows their gaps', () => {
+  it('interpolates tracks with their gaps', () => {
     const m = motionFrom({
       first_step: 2,
       valid: [
@@ -306,7 +306,7 @@ describe('letters of futures', () => {
       keep,
     );
 
-  it('stay with their idea while probabilities change places', () => {
+  it('stay with their idea while probabilities change', () => {
     const before = read([3, 0, null, 5, 1, 2], 0);
     const after = read([0, 3, 5, 2, null, 1], 0, { like: before, always: false });
     expect(after.modes.map((m) => m.anchor)).toEqual([3, 0, null, 5, 1, 2]);
@@ -318,14 +318,14 @@ describe('letters of futures', () => {
     expect(after.modes[after.chosen].anchor).toBe(0);
   });
 
-  it('follow the probabilities again when other ideas come, but not within a drag', () => {
+  it('follow the probabilities again when other ideas arrive, but not within a drag', () => {
     const before = of(3, 0, 4, 5, 1, 2),
       sent = of(0, null, 3, 5, 2, 1);
     expect(placesLike(before, sent, false)).toEqual([0, 1, 2, 3, 4, 5]);
     expect(placesLike(before, sent, true).map((i) => sent[i].anchor)).toEqual([3, 0, null, 5, 1, 2]);
   });
 
-  it('are those of the list where nobody names ideas, and lose none', () => {
+  it('are those of the list without ideas, and lose none', () => {
     expect(placesLike([{}, {}, {}], [{}, {}, {}], true)).toEqual([0, 1, 2]);
     const list = fc.array(fc.option(fc.integer({ min: 0, max: 5 })), { maxLength: 6 });
     fc.assert(
@@ -344,7 +344,7 @@ describe('letters of futures', () => {
 });
 
 describe('others held still', () => {
-  it('are joined by nobody from outside', () => {
+  it('get no late arrivals', () => {
     const json = crossingJson();
     const late = {
       ...json.agents[1],
@@ -369,7 +369,7 @@ describe('lanes and reach', () => {
   const s = crossing();
   const road = (l: { kind: string }) => l.kind === 'road';
 
-  it('finds the way through the crossing', () => {
+  it('finds the route through the crossing', () => {
     const from = nearestLanes(s.map, -60, -1.75, 0, 2, road)[0],
       to = nearestLanes(s.map, 1.75, 40, Math.PI / 2, 2, road)[0];
     const r = findRoute(s.map, from, to)!;
@@ -378,7 +378,7 @@ describe('lanes and reach', () => {
     expect(r.length).toBeLessThan(105);
   });
 
-  it('bounds what can be reached', () => {
+  it('bounds what is reachable', () => {
     const l = limitsOf({ type: 'vehicle', subtype: 'car' });
     fc.assert(
       fc.property(fc.double({ min: 0, max: 38, noNaN: true }), fc.double({ min: 0.5, max: 9, noNaN: true }), (v, t) => {
@@ -388,7 +388,7 @@ describe('lanes and reach', () => {
     );
   });
 
-  it('never calls a goal too far that the hard limits allow', () => {
+  it('never calls a goal unreachable that the hard limits allow', () => {
     const a = car(s);
     const kinds = fc.constantFrom(
       ...(['car', 'truck', 'bus', 'trailer', 'motorcycle', null] as const).map((subtype) => ({
@@ -408,7 +408,7 @@ describe('lanes and reach', () => {
         (who, speed, time, bearing, share) => {
           const start = { ...startPose(a)!, speed };
           const { accel_mps2: accel, speed_mps: top } = limitsOf(who);
-          // The furthest anybody gets: full acceleration up to top speed, and on at that.
+          // The furthest possible place: full acceleration up to top speed, then constant.
           const rise = Math.min(time, Math.max(0, top - speed) / accel);
           const furthest = speed * time + (accel * rise * rise) / 2 + accel * rise * (time - rise);
           const d = share * furthest;
@@ -431,7 +431,7 @@ describe('lanes and reach', () => {
     expect(topSpeed({ type: 'vehicle', subtype: 'car' })).toBe(40);
   });
 
-  it('says why not and what would do', () => {
+  it('gives the reason and a remedy', () => {
     const a = { ...car(s), goal: { ...freeGoal(4), pos: [1.75, 90] as const, heading: Math.PI / 2 } };
     const r = localReach(s.map, a, startPose(a)!, a.goal, 'km/h')!;
     expect(r.kind).toBe('far');
@@ -479,7 +479,7 @@ describe('futures', () => {
     expect(f.modes[0].name).toMatch(/left/);
   });
 
-  it('tell who changed, in a sentence', () => {
+  it('report each reaction in a sentence', () => {
     const before = emptyMotion('a');
     const late = readFutures(
       { chosen: 0, modes: [giveWay(json.agents[1], 2.2)] },
@@ -530,7 +530,7 @@ describe('futures', () => {
     expect(said('km/h')[2]).toMatch(/^\d+ km\/h$/);
     expect(said('mph').join()).not.toMatch(/km\/h/);
     expect(said('mph')[2]).toMatch(/^\d+ mph$/);
-    // As soon as one of the two does something of its own, it counts.
+    // As soon as one of the two does not replay, the event counts.
     const own = readEvents(s, { ...set, driving: new Set(['1']) });
     expect(own.map((e) => e.inLog)).toEqual([true, false]);
   });

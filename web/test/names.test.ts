@@ -1,4 +1,4 @@
-// Names of futures, on lists as the generator answers them: one of each example scene.
+// Names of futures, on lists of generator answers: one for each example scene.
 /* eslint-disable max-len -- an answer is one line */
 import { describe, expect, it } from 'vitest';
 import type { FaultKind, Manoeuvre, RelationKind } from '../src/model/document/scene-json';
@@ -109,7 +109,7 @@ const paced = (...speeds: number[]): Motion => {
   );
 };
 
-describe('what a name says of speed', () => {
+describe('the speed words of a name', () => {
   const givingWay = (motion: Motion): Nameable => {
     const about: FutureFacts = {
       faults: [],
@@ -119,15 +119,15 @@ describe('what a name says of speed', () => {
     return { motion, about };
   };
 
-  it('is that one waits only where it comes to rest for another, or nearly', () => {
+  it('report waiting only for a stop for another road user, or nearly one', () => {
     const named = (...speeds: number[]) => nameAll([givingWay(paced(...speeds))], who)[0].name;
     expect(named(8, 6, 3, 0.5, 0, 0, 2, 4, 6, 8)).toBe('Waits for Car 3');
     expect(named(8, 7, 5, 4, 4, 5, 6, 7, 8, 8)).toBe('Slows for Car 3');
-    // What it stands for after that is something else.
+    // A later stop has another cause.
     expect(named(8, 7, 5, 4, 4, 5, 3, 1, 0, 0)).toBe('Slows for Car 3');
   });
 
-  it('is no softer braking where nothing brakes', () => {
+  it('report no softer braking without braking', () => {
     const about: FutureFacts = { faults: [], manoeuvre: 'straight', relations: [] };
     const list = [paced(8, 8, 5, 4, 6, 9, 9, 9, 9, 9), paced(8, 8, 8, 8, 8, 7.8, 7.6, 7.5, 7.4, 7.4)];
     const names = nameAll(
@@ -138,8 +138,8 @@ describe('what a name says of speed', () => {
   });
 });
 
-describe('names of what a generator answers', () => {
-  it('are made of whom they concern, else of what is done and how', () => {
+describe("names of a generator's answer", () => {
+  it('contain the other road user, else the manoeuvre and its manner', () => {
     expect(namesOf('arterial')).toEqual([
       'Straight on',
       'Behind Car 23',
@@ -199,7 +199,7 @@ describe('names of what a generator answers', () => {
       if (/slower$/.test(words[i])) expect(end).toBeLessThan(-1);
       if (words[i] === 'earlier') expect(half).toBeGreaterThan(0.5);
       if (words[i] === 'later') expect(half).toBeLessThan(-0.5);
-      // `Faster` lies between those that are a bit and much faster.
+      // `Faster` is between a bit faster and much faster.
       for (const [less, more] of [
         ['a bit faster', 'faster'],
         ['faster', 'much faster'],
@@ -213,7 +213,7 @@ describe('names of what a generator answers', () => {
   });
 });
 
-describe('names of what can hardly be told apart', () => {
+describe('names of nearly equal futures', () => {
   const drives = (speed: number, more: Partial<Record<'at' | 'side', number>> = {}): Nameable => {
     const states = Array.from({ length: 9 }, (_, k) => [
       Math.min(speed * (k + 1), more.at ?? Infinity),
@@ -240,7 +240,7 @@ describe('names of what can hardly be told apart', () => {
     ]);
   });
 
-  it('say a small difference that is so before a likeness, and never a chain of them', () => {
+  it('prefer a small true difference to a likeness, and never form chains', () => {
     expect(names(drives(9), drives(8.97), drives(9.06, { side: 0.3 }), drives(9))).toEqual([
       'Straight on',
       'Straight on, like A',
@@ -253,7 +253,7 @@ describe('names of what can hardly be told apart', () => {
     for (const name of alike.slice(1)) expect(name).toMatch(/like A$/);
   });
 
-  it('do not call it by the road or a stop where it is not so', () => {
+  it('do not mention the road or a stop where that is false', () => {
     const rolls = drives(0.4, { at: 20 });
     const about = (kind: FaultKind | null, manoeuvre: Manoeuvre = 'straight'): FutureFacts => ({
       faults: kind ? [{ kind, time: 1, until: 2, at: [0, 0], extent: 1, with: null, edge: null }] : [],
@@ -269,7 +269,7 @@ describe('names of what can hardly be told apart', () => {
     expect(names({ ...drives(9, { at: 30 }), about: about(null, 'lane_left') }, drives(9))[0]).toBe('Stops');
   });
 
-  it('tell who stops where, and who creeps from who stands', () => {
+  it('distinguish places of stops, and creeping from standing', () => {
     expect(names(drives(9, { at: 40 }), drives(9, { at: 30 }), drives(9))).toEqual([
       'Stops',
       'Stops, sooner',
@@ -278,7 +278,7 @@ describe('names of what can hardly be told apart', () => {
     expect(names(drives(0), drives(0.1), drives(9))).toEqual(['Stands still', 'Rolls forward', 'Straight on']);
   });
 
-  it('have a scale as long as there are levels of pace to be seen', () => {
+  it('have a scale with one word for each visible level of pace', () => {
     expect(names(drives(8), drives(9), drives(10), drives(11), drives(7), drives(5))).toEqual([
       'Straight on',
       'Straight, a bit faster',
@@ -289,7 +289,7 @@ describe('names of what can hardly be told apart', () => {
     ]);
   });
 
-  it('are given beside names that stay', () => {
+  it('are assigned beside names that stay', () => {
     const shown = [{ name: 'Straight on', basis: 'Straight on' }, null, null];
     const list = nameRest([drives(9), drives(5), drives(5, { at: 20 })], who, shown);
     expect(list.map((n) => n.name)).toEqual(['Straight on', 'Straight on, slower', 'Stops']);

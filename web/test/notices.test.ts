@@ -1,9 +1,9 @@
-// What is said beside the picture: a refusal is seen and heard, and takes nobody's way out away.
+// Notices beside the picture: a refusal is shown and spoken, and leaves a remedy of another notice in place.
 import { describe, expect, it } from 'vitest';
 import { Notices } from '../src/edit/session/notices';
 
 describe('a refusal', () => {
-  it('is heard and seen', () => {
+  it('is spoken and shown', () => {
     const notices = new Notices();
     notices.refuse('Select a road user first');
     expect(notices.spoken.value.text).toBe('Select a road user first');
@@ -12,7 +12,7 @@ describe('a refusal', () => {
     expect(notices.toast.value?.text).toBe('Nothing to undo');
   });
 
-  it('leaves a way out that is shown where it is', () => {
+  it('leaves a shown remedy in place', () => {
     const notices = new Notices();
     notices.show({ text: 'Car 2 is gone', undo: true });
     notices.refuse('Nothing to do again');

@@ -1,4 +1,4 @@
-// What goes out and comes in: packed scenes, links, the lines of broken files, and what is left of them.
+// Export and import: packed scenes, links, the lines of broken files, and their remaining parts.
 import fc from 'fast-check';
 import { readFileSync, readdirSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
@@ -31,7 +31,7 @@ const at = { time: 4.6, camera: { cx: 1, cy: 2, z: 8 } };
 const ALL = { futures: true, words: true, start: true };
 
 describe('a packed scene', () => {
-  it('is what it was, to the last bit, whatever its numbers', () => {
+  it('equals the original to the last bit, whatever its numbers', () => {
     const number = fc.oneof(
       fc.double({ noNaN: true, noDefaultInfinity: true }),
       fc.integer().map((n) => n / 1000),
@@ -65,7 +65,7 @@ describe('a packed scene', () => {
 });
 
 describe('a link', () => {
-  it('holds every demo whole, and opens as it was made', async () => {
+  it('contains every demo whole, and opens as it was made', async () => {
     for (const scene of demoScenes()) {
       const { hash, bytes } = await writeLink({ scene, at });
       expect(isShareLink(hash)).toBe(true);
@@ -77,7 +77,7 @@ describe('a link', () => {
     }
   });
 
-  it('that is cut, foreign or endless is refused in words', async () => {
+  it('that is truncated, foreign or endless is refused in words', async () => {
     const { hash } = await writeLink({ scene: crossingJson(), at: null });
     for (const bad of [hash.slice(0, -40), `${hash.slice(0, 200)}A${hash.slice(201)}`, '#s1=', '#s1=%%%', '#s1=AAAA'])
       await expect(readLink(bad)).rejects.toThrow(LinkError);
@@ -86,7 +86,7 @@ describe('a link', () => {
     await expect(readLink(larger.hash)).rejects.toThrow(/limits of a scene/);
   });
 
-  it('leaves out what is switched off', () => {
+  it('omits what is switched off', () => {
     const scene: SceneJson = {
       ...crossingJson(),
       meta: { notes: 'secret', tags: ['a'] },
@@ -121,7 +121,7 @@ describe('a place in a text of JSON', () => {
     expect(linesAround(text, 4, 1)).toEqual({ from: 3, lines: text.split('\n').slice(2, 5) });
   });
 
-  it('is one of the text, whatever that is', () => {
+  it('is inside the text, whatever that is', () => {
     fc.assert(
       fc.property(fc.string(), fc.string(), (any, pointer) => {
         const offset = offsetOf(any, `/${pointer}`);
@@ -158,7 +158,7 @@ describe('a broken scene', () => {
     agents: [{ id: '7' }, { id: '8' }] as never,
   };
 
-  it('is named by its part, and taken without it and all that leads there', () => {
+  it('is named by its part, and imported without it and all references to it', () => {
     expect(partAt(scene, '/map/lanes/1/points_m')?.name).toBe('lane “E2”');
     expect(partAt(scene, '/agents/0/track/x_m/3')?.name).toBe('road user “7”');
     expect(partAt(scene, '/time/steps')).toBeNull();
@@ -175,7 +175,7 @@ describe('a broken scene', () => {
     expect(withoutBroken(scene, problem('/agents/9'))).toBeNull();
   });
 
-  it('with too many road users is taken with as many as there may be', () => {
+  it('with too many road users is imported with as many as allowed', () => {
     const p: Problem = { code: 'too-many-agents', title: '' };
     const agents = Array.from({ length: 257 }, (_, i) => ({ ...scene.agents[0], id: String(i) }));
     const mended = withoutBroken({ ...scene, agents }, p);
@@ -183,7 +183,7 @@ describe('a broken scene', () => {
     expect(mended?.scene.agents.map((a) => a.id)).toEqual(agents.slice(0, 256).map((a) => a.id));
   });
 
-  it('that is none at all is known by its first bytes', async () => {
+  it('that is none at all is recognised by its first bytes', async () => {
     expect(await foreignKind(new Blob(['%PDF-1.7']))).toEqual({ kind: 'a PDF', surely: true });
     // Some hold a network and a recording.
     const zip = new Blob([new Uint8Array([0x50, 0x4b, 3, 4])]);
@@ -193,15 +193,15 @@ describe('a broken scene', () => {
   });
 });
 
-describe('scenes to begin with', () => {
-  it('have nobody in them, with a road or without one', () => {
+describe('initial scenes', () => {
+  it('have no road users, with a road or without one', () => {
     const road = readScene({ ...withoutRoadUsers(crossingJson()), id: 'x' });
     expect([road.agents.size, road.map.lanes.size]).toEqual([0, readScene(crossingJson()).map.lanes.size]);
     const plain = readScene({ ...emptyScene(), id: 'y' });
     expect([plain.agents.size, plain.map.lanes.size, plain.duration]).toEqual([0, 0, 9]);
   });
 
-  it('open where things move', () => {
+  it('open where most movement is', () => {
     for (const json of demoScenes()) {
       const s = readScene(json);
       const [cx, cy] = openingCentre(s, 80, 44);
@@ -213,7 +213,7 @@ describe('scenes to begin with', () => {
 });
 
 describe('events as a table', () => {
-  it('are rows in the order of time, in which no name is a formula', () => {
+  it('are rows in order of time, in which no name is a formula', () => {
     const scene = crossing();
     const [one, other, third] = scene.agents.values();
     const near = { a: one.id, b: third.id, time: 3.2, distance: 0.6, ttc: null, inLog: true };
@@ -232,14 +232,14 @@ describe('events as a table', () => {
 });
 
 describe('the palette', () => {
-  it('asks for all words, and likes beginnings best', () => {
+  it('requires all words, and prefers matches at the start', () => {
     expect(fit('Delete scene', ['scene', 'del'])).toBeGreaterThan(0);
     expect(fit('Delete scene', ['scene', 'x'])).toBe(0);
     expect(fit('Scenes', ['sc'])).toBeGreaterThan(fit('Delete scene', ['sc']));
     expect(fit('Delete scene', ['sc'])).toBeGreaterThan(fit('Obscene', ['sc']));
   });
 
-  it('says days as people do', () => {
+  it('formats days in everyday words', () => {
     const now = new Date(2026, 10, 23, 12);
     expect(dayAndTime(new Date(2026, 10, 23, 0, 5).toISOString(), now)).toMatch(/^today /);
     expect(dayAndTime(new Date(2026, 10, 22, 23, 55).toISOString(), now)).toMatch(/^yesterday /);

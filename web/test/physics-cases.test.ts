@@ -1,4 +1,4 @@
-// Cases that the server's engine works out too (models/scene/tests/page_cases.rs): the page says the same.
+// Cases shared with the server's engine (models/scene/tests/page_cases.rs): the page gives the same results.
 import { describe, expect, it } from 'vitest';
 import cases from '../../assets/cases/physics.json';
 import { limitsOf, THRESHOLDS } from '../src/model/base/domain';

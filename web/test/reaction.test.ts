@@ -1,4 +1,4 @@
-// Who changes, by how much, and in which words.
+// Reactions: road users, sizes, and words.
 import { describe, expect, it } from 'vitest';
 import { emptyMotion, type Future, type MotionSet } from '../src/model/document/futures';
 import type { ReactionJson } from '../src/model/document/scene-json';
@@ -60,7 +60,7 @@ describe('a change', () => {
     expect(late[0].size).toBeLessThan(0.5);
   });
 
-  it('stands where the generator says that one waits, for whom it says', () => {
+  it('has the place and the cause given by the generator', () => {
     const [c] = changes(
       along((t) => (t < 3 ? 10 - 3 * t : 1)),
       { kind: 'waits', cause: '1', delay_s: 2, time_s: 3, x_m: 16.5, y_m: 0.5, speed_mps: 0.2 },
@@ -73,7 +73,7 @@ describe('a change', () => {
     });
   });
 
-  it('is explained by its shape where nobody says why', () => {
+  it('is explained by its shape without a given reason', () => {
     const waits = along((t) => (t < 2 ? 10 - 5 * t : t < 5 ? 0 : 5));
     expect(changes(waits)[0]).toMatchObject({ reaction: { kind: 'waits', cause: { id: '1' } } });
     expect(changes(waits)[0].at).toBeCloseTo(1.9, 1);
@@ -82,7 +82,7 @@ describe('a change', () => {
     expect(changes(along(() => 14))[0].words).toBe('speeds up for Car 1');
   });
 
-  it('names nobody when nobody was asked anything', () => {
+  it('names no cause without conditions', () => {
     const all = findChanges(scene, following({ '2': steady }), following({ '2': asked }), new Set());
     expect(all.map((c) => [c.words, c.reaction])).toEqual([['replanned', null]]);
   });
@@ -111,7 +111,7 @@ describe('words', () => {
     expect(said({ kind: 'keeps_clear' })).toBe('keeps clear of Car 7');
   });
 
-  it('tell one ahead on the same way from one that crosses', () => {
+  it('distinguish a cause ahead on the same path from a crossing one', () => {
     expect(
       answersAhead(
         steady,

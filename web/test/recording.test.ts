@@ -1,4 +1,4 @@
-// What is recorded on the page is what is played elsewhere.
+// Playback repeats exactly what the page recorded.
 import fc from 'fast-check';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { Easel, type Canvases, type Picture } from '../src/draw/recording/easel';
@@ -15,7 +15,7 @@ class FakePath {
   closePath = () => this.calls.push(['closePath']);
 }
 
-/** Notes every call and every property that is set. */
+/** Records every call and every property assignment. */
 function listener(): { g: Canvas2D; calls: Call[] } {
   const calls: Call[] = [];
   const g = new Proxy(
@@ -98,7 +98,7 @@ describe('recordings', () => {
     );
   });
 
-  it('tell shapes, sprites and texts once', () => {
+  it('send shapes, sprites and texts once', () => {
     const words = new Vocabulary();
     const recording = new Recording(words);
     const shape = new Shape();
@@ -150,7 +150,7 @@ describe('recordings', () => {
     expect(second.calls.slice(0, 3)).toEqual(first.calls.slice(0, 3));
   });
 
-  it('begin afresh where too much has been told', () => {
+  it('start again where the vocabulary is too large', () => {
     const words = new Vocabulary();
     const recording = new Recording(words);
     const player = new Player();
@@ -187,20 +187,20 @@ describe('the easel', () => {
       recording.fillText(text, 0, 0);
       return recording.take();
     };
-    /** Layers with a text on each of them, by which it is known. */
+    /** Layers with a text on each of them, as identification. */
     const take = (texts: Partial<Record<keyof Picture['layers'], string>>, shift = IN_PLACE) => {
       const layers = Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, write(text)]));
       const news = words.news();
       painter.take({ size, layers, news, shift, loupe: null });
       return news;
     };
-    /** What is seen, lowest first: texts, and canvases by what was written on them. */
+    /** The visible content, lowest first: texts, and canvases by the texts on them. */
     const seen = (calls: Call[]): string[] =>
       calls.flatMap(([name, what]) => {
         if (name === 'fillText') return [what as string];
         if (name !== 'drawImage') return [];
         const below = (what as FakeCanvas).heard.calls;
-        // What was painted over by something as large is not seen.
+        // Content covered by something as large is invisible.
         return seen(below.slice(below.findLastIndex(([n]) => n === 'drawImage')).filter(Boolean));
       });
     const paint = () => {
@@ -211,7 +211,7 @@ describe('the easel', () => {
     return { take, paint, write, picture };
   }
 
-  it('puts back no more than what the overlay covered', () => {
+  it('restores only what the overlay covered', () => {
     const { take, paint, picture } = easel();
     take({ map: 'map', agents: 'cars', overlay: 'flag' });
     paint();
@@ -241,7 +241,7 @@ describe('the easel', () => {
     expect(paint()).toEqual([]);
   });
 
-  it('paints what is newest of pictures that came together', () => {
+  it('paints the newest of pictures that arrive together', () => {
     const { take, paint } = easel();
     take({ map: 'map', agents: 'cars', overlay: 'flag' });
     take({ agents: 'cars 2' });
@@ -249,7 +249,7 @@ describe('the easel', () => {
     expect(paint()).toEqual(['map', 'cars 2', 'flag 2']);
   });
 
-  it('still shows layers of before when texts are told afresh', () => {
+  it('still shows older layers when texts are sent again', () => {
     const { take, paint, write } = easel();
     take({ map: 'map', agents: 'cars', overlay: 'flag' });
     for (let i = 0; i < 4500; i++) write(`text ${i}`);

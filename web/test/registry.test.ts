@@ -1,4 +1,4 @@
-// Every button has an action, no key is used twice, no text is missing, and the layers only look down.
+// Every button has an action, no key is used twice, no text is missing, and layers import only downwards.
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { ACTIONS, actionForKey } from '../src/actions/registry';
@@ -25,7 +25,7 @@ describe('action registry', () => {
     }
   });
 
-  it('is found by other words as well, each for an action that there is', () => {
+  it('is found by synonyms too, each for an existing action', () => {
     const ids = new Set(ACTIONS.map((a) => a.id));
     for (const texts of [PALETTE.alsoCalled, GERMAN.alsoCalled])
       expect(Object.keys(texts).filter((id) => !ids.has(id))).toEqual([]);
@@ -42,12 +42,12 @@ describe('action registry', () => {
         expect(!!actionForKey(k, { dragging })?.whileDragging).toBe(dragging);
       }
     }
-    // Of what is on offer now and then one may follow another on a key: the first that is offered has it.
+    // Actions offered only at times may share a key: the first offered one gets it.
     const offered = keys((a) => !!a.onOffer);
     for (const k of offered) expect(actionForKey(k, { offers: () => true })?.keys).toContain(k);
   });
 
-  it('gives a key to what is on offer, and else to what it does otherwise', () => {
+  it('gives a key to an offered action, and otherwise to its usual one', () => {
     const way = (id: string) => ({ offers: (a: Action) => a.id === id });
     expect(actionForKey('Enter', way('by-road'))?.id).toBe('by-road');
     expect(actionForKey('Enter', { ...way('by-road'), dragging: true })?.id).toBe('by-road');

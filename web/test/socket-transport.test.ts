@@ -1,4 +1,4 @@
-// The open connection to the generator, behind a socket that a test holds both ends of.
+// The persistent connection to the generator, over a socket whose ends are both in the test.
 import { expect, it, vi } from 'vitest';
 import { Client } from '../src/net/client';
 import { SocketTransport } from '../src/net/socket-transport';
@@ -18,7 +18,7 @@ class FakeSocket {
     this.readyState = 1;
     this.onopen?.();
   }
-  /** What the server tells: a head, then lines. */
+  /** Sends a message of the server: a head, then lines. */
   tell(head: object, ...lines: object[]): void {
     this.onmessage?.({ data: [head, ...lines].map((line) => `${JSON.stringify(line)}\n`).join('') });
   }
@@ -28,7 +28,7 @@ class FakeSocket {
   }
 }
 
-/** The smallest there are. */
+/** The smallest possible events. */
 const ACCEPTED = { event: 'accepted' };
 const DRAFT = { event: 'initial', agents: {} };
 const FINAL = { event: 'final', samples: [] };
@@ -54,7 +54,7 @@ async function read(pieces: AsyncIterable<readonly { event: string }[]>): Promis
   return all;
 }
 
-it('asks over the connection once it is open, and before by requests', async () => {
+it('sends over the connection once it is open, and before that by requests', async () => {
   const { line, sockets, requests } = stage();
   expect(await read((await line.ask(BODY, never)).pieces)).toEqual([['final']]);
   expect(requests).toHaveBeenCalledTimes(1);
@@ -71,7 +71,7 @@ it('asks over the connection once it is open, and before by requests', async () 
   expect(sockets.length).toBe(1);
 });
 
-it('keeps questions apart, and gives up the one that nobody waits for', async () => {
+it('keeps questions apart, and cancels an abandoned one', async () => {
   const { line, sockets } = stage();
   const [socket] = sockets;
   socket.open();
@@ -81,7 +81,7 @@ it('keeps questions apart, and gives up the one that nobody waits for', async ()
   abort.abort();
   await expect(first).rejects.toMatchObject({ name: 'AbortError' });
   expect(socket.sent.at(-1)).toEqual({ end: 1 });
-  // What was on its way already is dropped.
+  // Pieces already under way are dropped.
   socket.tell({ ask: 1, status: 200, last: true }, FINAL);
   socket.tell({ ask: 2, status: 200 }, ACCEPTED);
   const answer = await second;
@@ -92,7 +92,7 @@ it('keeps questions apart, and gives up the one that nobody waits for', async ()
   expect(socket.sent.at(-1)).toEqual({ end: 2 });
 });
 
-it('a refusal is told with its words and when to come back', async () => {
+it('a refusal has its words and the time of a retry', async () => {
   const { line, sockets } = stage();
   sockets[0].open();
   const asking = line.ask(BODY, never);
@@ -102,7 +102,7 @@ it('a refusal is told with its words and when to come back', async () => {
   expect(await read(pieces)).toEqual([]);
 });
 
-it('an answer that breaks off fails with the words of its problem', async () => {
+it('an answer that stops early fails with the words of its problem', async () => {
   const { line, sockets } = stage();
   sockets[0].open();
   const asking = line.ask(BODY, never);
@@ -112,7 +112,7 @@ it('an answer that breaks off fails with the words of its problem', async () => 
   await expect(read(pieces)).rejects.toThrow('The server failed.');
 });
 
-it('what a lost connection took along is asked by a request; half an answer is a failure', async () => {
+it('questions of a lost connection are sent as requests; half an answer is a failure', async () => {
   const { line, sockets, requests } = stage();
   sockets[0].open();
   const unheard = line.ask(BODY, never);
@@ -125,7 +125,7 @@ it('what a lost connection took along is asked by a request; half an answer is a
   await expect(read(pieces)).rejects.toThrow('lost');
 });
 
-it('a connection that says what cannot be read is given up', async () => {
+it('a connection with unreadable messages is closed', async () => {
   const { line, sockets, requests } = stage();
   sockets[0].open();
   const asking = line.ask(BODY, never);
@@ -134,7 +134,7 @@ it('a connection that says what cannot be read is given up', async () => {
   expect(requests).toHaveBeenCalledTimes(1);
 });
 
-it('tries again after a while, each time after twice as long', async () => {
+it('reconnects after a delay, which doubles each time', async () => {
   const { line, sockets, requests, later } = stage();
   const ask = async (): Promise<void> => void (await read((await line.ask(BODY, never)).pieces));
   sockets[0].close();
@@ -152,7 +152,7 @@ it('tries again after a while, each time after twice as long', async () => {
   expect(sockets.length).toBe(3);
   sockets[2].open();
   expect(requests).toHaveBeenCalledTimes(4);
-  // One that was had is tried again soon.
+  // After a successful one the delay is short again.
   sockets[2].close();
   later(2000);
   await ask();
@@ -162,7 +162,7 @@ it('tries again after a while, each time after twice as long', async () => {
   expect(sockets.length).toBe(5);
 });
 
-it('long questions, and more than a few at once, go as requests', async () => {
+it('long questions, and more than a few at once, are sent as requests', async () => {
   const { line, sockets, requests } = stage();
   sockets[0].open();
   await line.ask(JSON.stringify({ scene: 'x'.repeat(200_000) }), never);

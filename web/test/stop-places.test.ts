@@ -1,4 +1,4 @@
-// Where one stops on a way, and what lanes are called at a junction.
+// Stop places on a path, and names of lanes at a junction.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { armWords } from '../src/model/words/arm-names';
@@ -32,8 +32,8 @@ const lit = lanes.filter(
     scene.signals.some((g) => g.lane === l.id || l.next.includes(g.lane)),
 );
 
-describe('places where one stops', () => {
-  it('are the stop lines of a way, just before the end of the lane', () => {
+describe('stop places', () => {
+  it('are the stop lines of a path, just before the end of the lane', () => {
     expect(lit.length).toBeGreaterThan(0);
     for (const lane of lit) {
       const all = stopPlaces(scene, car(scene), wayOver(lane));
@@ -42,7 +42,7 @@ describe('places where one stops', () => {
     }
   });
 
-  it('are 2 m behind somebody who stands in the way', () => {
+  it('are 2 m behind a road user that stands in the way', () => {
     const [lane] = lit;
     const p = pointAt(lane.line, lane.line.length - 20);
     const me = car(scene);
@@ -55,11 +55,11 @@ describe('places where one stops', () => {
 });
 
 describe('lanes at the only junction', () => {
-  it('are called by their arm, and by where alone they lead', () => {
+  it('are named by their arm, and by their direction where there is only one', () => {
     for (const lane of lit) {
       const words = armWords(scene.map, lane)!;
       const end = pointAt(lane.line, lane.line.length);
-      // The lane leads to the middle: its arm lies on the other side.
+      // The lane leads to the centre: its arm is on the other side.
       const back = ['W', 'SW', 'S', 'SE', 'E', 'NE', 'N', 'NW'][
         ((Math.round((end.heading * 4) / Math.PI) % 8) + 8) % 8
       ];
@@ -73,7 +73,7 @@ describe('lanes at the only junction', () => {
     expect(armWords(scene.map, out)).toMatch(/^[NESW]+ arm, outbound lane$/);
   });
 
-  it('are outbound where they lead away from a roundabout, also where that leads to another junction', () => {
+  it('are outbound where they lead away from a roundabout, also towards another junction', () => {
     const { map } = readScene(example('demo-roundabout'));
     const away = [...map.lanes.values()].filter((l) => {
       const [start, end] = [pointAt(l.line, 0), pointAt(l.line, l.line.length)];
@@ -82,7 +82,7 @@ describe('lanes at the only junction', () => {
     const words = away.flatMap((l) => armWords(map, l) ?? []);
     expect(words.length).toBeGreaterThan(2);
     expect(words.filter((w) => !/outbound lane$|bus lane$/.test(w))).toEqual([]);
-    // Who drives in may leave by any arm, and a part of the ring is on none.
+    // A vehicle that enters may leave by any arm, and a part of the ring is on none.
     const all = [...map.lanes.values()].filter((l) => !l.inside).map((l) => armWords(map, l));
     expect(all.filter((w) => w && /turn lane$|^(NE|NW|SE|SW)/.test(w))).toEqual([]);
     expect(all.filter((w) => w?.endsWith('inbound lane')).length).toBeGreaterThan(3);

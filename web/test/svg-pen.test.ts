@@ -1,10 +1,10 @@
-// What painters draw, as SVG.
+// The painters' drawings as SVG.
 import { describe, expect, it } from 'vitest';
 import { Shape } from '../src/draw/pen';
 import { SvgPen } from '../src/draw/svg-pen';
 
 describe('a pen for SVG', () => {
-  it('writes lines and areas where a canvas would have them', () => {
+  it('writes lines and areas like a canvas', () => {
     const pen = new SvgPen();
     pen.setTransform(2, 0, 0, -2, 100, 50);
     pen.strokeStyle = '#123';
@@ -19,7 +19,7 @@ describe('a pen for SVG', () => {
     expect(pen.take()).toContain('stroke-dasharray="2 4"');
   });
 
-  it('keeps and brings back its state, and turns', () => {
+  it('saves and restores its state, and turns', () => {
     const pen = new SvgPen();
     pen.save();
     pen.translate(10, 0);
@@ -32,7 +32,7 @@ describe('a pen for SVG', () => {
     expect(pen.take()).toContain('<path d="M0 0L1 0L1 1L0 1Z" fill="#000"/>');
   });
 
-  it('draws shapes with holes, and what is stamped often once', () => {
+  it('draws shapes with holes, and repeated stamps once', () => {
     const pen = new SvgPen();
     const shape = new Shape();
     const square = (a: number, b: number) => [[a, a], [b, a], [b, b]] as const; // prettier-ignore
@@ -54,7 +54,7 @@ describe('a pen for SVG', () => {
     expect(file).toContain('<title>A &amp; B</title>');
   });
 
-  it('writes texts that cannot break out', () => {
+  it('escapes texts', () => {
     const pen = new SvgPen();
     pen.font = '600 11px "Inter Variable", system-ui';
     pen.textAlign = 'center';

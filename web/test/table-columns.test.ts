@@ -1,4 +1,4 @@
-// What the columns of others' tables are taken for, and how that is told to the server.
+// Guessed meanings of foreign tables' columns, and their form for the server.
 import { expect, it } from 'vitest';
 import { complete, guessed, toldColumns } from '../src/edit/tools/outward/table-columns';
 
@@ -7,7 +7,7 @@ const named = (columns: string[]) =>
     Object.entries(guessed(columns)).flatMap(([field, { column }]) => (column ? [[field, column]] : [])),
   );
 
-it('guesses by names that are common, each column once', () => {
+it('guesses by common names, each column once', () => {
   expect(named(['frame', 'trackId', 'xCenter', 'yCenter', 'heading', 'width', 'length', 'class', 'lane'])).toEqual({
     agent_id: 'trackId',
     time_s: 'frame',
@@ -32,7 +32,7 @@ it('guesses by names that are common, each column once', () => {
   });
 });
 
-it('takes units from the ends of names', () => {
+it('reads units from the ends of names', () => {
   const told = toldColumns(guessed(['track_id', 'timestamp_ms', 'x', 'y', 'psi_rad']));
   expect(told).toEqual({
     agent_id: { column: 'track_id' },
@@ -47,13 +47,13 @@ it('takes units from the ends of names', () => {
   });
 });
 
-it('tells steps under their own name, and what is left out not at all', () => {
+it('sends steps under their own name, and omits unassigned columns', () => {
   const answers = guessed(['id', 'frame', 'x', 'y']);
   const steps = { ...answers, time_s: { column: 'frame', unit: 4 } };
   expect(Object.keys(toldColumns(steps)).sort()).toEqual(['agent_id', 'step', 'x_m', 'y_m']);
 });
 
-it('is complete once it is known who, when and where', () => {
+it('is complete once id, time and position are assigned', () => {
   const answers = guessed(['id', 'frame', 'x', 'north']);
   expect(complete(answers)).toBe(false);
   expect(complete({ ...answers, y_m: { column: 'north', unit: 0 } })).toBe(true);

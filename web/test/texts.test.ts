@@ -1,4 +1,4 @@
-// Tables of texts: all have their German, which says the same values; how numbers are told, and who gets what language.
+// Tables of texts: all have their German, with the same values; plural forms, and the choice of the language.
 import { describe, expect, it } from 'vitest';
 import { readFileSync } from 'node:fs';
 import { german, refused, taps } from '../src/texts/german';
@@ -23,7 +23,7 @@ const textsOf = (words: Words, path: string): [string, Word][] =>
 const english = new Map([...areas].flatMap(([area, words]) => textsOf(words, area)));
 const own = new Map(Object.entries(german).flatMap(([area, words]) => textsOf(words, area)));
 
-/** Which of the values given to a text it says. */
+/** The given values that appear in a text. */
 const said = (w: Word, value: (i: number) => unknown): string => {
   if (typeof w === 'string') return '';
   const values = Array.from({ length: w.length }, (_, i) => value(i));
@@ -38,7 +38,7 @@ describe('texts', () => {
     expect([...own.keys()].filter((key) => !english.has(key))).toEqual([]);
   });
 
-  it('say the same values in German', () => {
+  it('contain the same values in German', () => {
     const differ: string[] = [];
     for (const [key, w] of english) {
       const mine = own.get(key)!;
@@ -49,7 +49,7 @@ describe('texts', () => {
     expect(differ).toEqual([]);
   });
 
-  it('speak of taps where fingers are the hand', () => {
+  it('speak of taps on a touch device', () => {
     const spoken = (all: Record<string, Words>, as: typeof taps) =>
       Object.entries(all).flatMap(([area, words]) => textsOf(tapping(words, as), area));
     const left = [...spoken(Object.fromEntries(areas), ENGLISH), ...spoken(german, taps)].filter(
@@ -64,7 +64,7 @@ describe('texts', () => {
     });
   });
 
-  it('say every refusal of the server in German', () => {
+  it('cover every refusal of the server in German', () => {
     const document = JSON.parse(readFileSync('../assets/openapi.json', 'utf8')) as {
       components: { schemas: { Problem: { properties: { code: { enum: string[] } } } } };
     };
@@ -73,7 +73,7 @@ describe('texts', () => {
     expect(Object.keys(refused).sort()).toEqual([...codes].sort());
   });
 
-  it('takes the language of the browser where it is there, and any that is chosen', () => {
+  it("takes the browser's language where available, and any chosen one", () => {
     expect(LANGUAGE).toBe('en');
     expect(languageFor(null, ['de-AT', 'en'])).toBe('de');
     expect(languageFor(null, ['fr', 'en-GB'])).toBe('en');
@@ -81,13 +81,13 @@ describe('texts', () => {
     expect(languageFor('xx', [])).toBe('en');
   });
 
-  it('says numbers in the forms of the language', () => {
+  it('uses the plural forms of the language', () => {
     const cars = (n: number) => plural(n, { one: `${n} car`, other: `${n} cars` });
     expect([0, 1, 2].map(cars)).toEqual(['0 cars', '1 car', '2 cars']);
     expect(inSentence('Near miss')).toBe('near miss');
   });
 
-  it('marks every text of a table, also those with values in them', () => {
+  it('marks every text of a table, also those with values', () => {
     const plain = { plain: 'Undo', nested: { of: (n: number) => `${n} of 6` } };
     expect(table('test', plain)).toBe(plain);
     const out = marked('test', plain) as unknown as typeof plain;

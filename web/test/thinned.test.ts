@@ -13,7 +13,7 @@ const kept = (points: readonly Vec[], tolerance = 0.05): Vec[] => {
   return out;
 };
 
-/** How far a point lies from a line of several pieces. */
+/** Distance of a point from a polyline. */
 const off = (line: readonly Vec[], [x, y]: Vec): number =>
   Math.min(
     ...line.slice(1).map(([bx, by], i) => {
@@ -25,19 +25,19 @@ const off = (line: readonly Vec[], [x, y]: Vec): number =>
   );
 
 describe('a line in few points', () => {
-  it('keeps the ends alone where it is straight', () => {
+  it('keeps only the ends where it is straight', () => {
     const straight = Array.from({ length: 90 }, (_, i): Vec => [i * 3.7, 100 - i * 1.3]);
     expect(kept(straight)).toEqual([straight[0], straight[89]]);
   });
 
-  it('misses no point by more than was allowed', () => {
+  it('misses no point by more than the tolerance', () => {
     const curve = Array.from({ length: 90 }, (_, i): Vec => [300 * Math.cos(i / 75), 200 * Math.sin(i / 54)]);
     const few = kept(curve);
     expect(few.length).toBeLessThan(60);
     for (const p of curve) expect(off(few, p)).toBeLessThanOrEqual(0.0501);
   });
 
-  it('keeps where it turns back, and a single point', () => {
+  it('keeps points where it turns back, and a single point', () => {
     const there: Vec[] = [
       [0, 0],
       [5, 0],
@@ -53,7 +53,7 @@ describe('a line in few points', () => {
     expect(kept([[4, 2]])).toEqual([[4, 2]]);
   });
 
-  it('stands still in one place', () => {
+  it('handles a line in one place', () => {
     expect(kept(Array.from({ length: 20 }, (): Vec => [3, 3]))).toHaveLength(2);
   });
 });

@@ -1,4 +1,4 @@
-// Tabs take turns at a scene.
+// Locks of tabs at a scene.
 import { describe, expect, it, vi } from 'vitest';
 import { SceneTurns, type TurnEvents } from '../src/net/scene-lock';
 import { channels, Locks } from './locks';
@@ -34,7 +34,7 @@ describe('two tabs at one scene', () => {
     await vi.waitFor(() => expect(a.said).toEqual(['leaving', 'lost', 'got']));
   });
 
-  it('the second gets it when the first has left it for another', async () => {
+  it('the second gets it when the first has switched to another scene', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
     await b.turns.goTo('s');
@@ -45,7 +45,7 @@ describe('two tabs at one scene', () => {
     expect(a.said).toEqual([]);
   });
 
-  it('the first has it still when it comes back before it has left it', async () => {
+  it('the first still has it when it returns before leaving', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
     await b.turns.goTo('s');
@@ -55,7 +55,7 @@ describe('two tabs at one scene', () => {
     expect([a.said, b.said, a.turns.holds, b.turns.holds]).toEqual([[], [], true, false]);
   });
 
-  it('only those who look at it hear of changes', async () => {
+  it('only tabs that show it are notified of changes', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
     await b.turns.goTo('s');
@@ -64,7 +64,7 @@ describe('two tabs at one scene', () => {
     expect([a.said, b.said]).toEqual([[], ['changed']]);
   });
 
-  it('a holder that hangs is passed over', async () => {
+  it('a hung holder loses it', async () => {
     vi.useFakeTimers();
     try {
       const [a, b] = tabs();
@@ -80,7 +80,7 @@ describe('two tabs at one scene', () => {
     }
   });
 
-  it('without locks everybody has a turn', async () => {
+  it('without locks every tab has a turn', async () => {
     const turns = new SceneTurns({} as TurnEvents, null, null);
     expect(await turns.goTo('s')).toBe(true);
   });

@@ -1,4 +1,4 @@
-// Variants: they come back exactly, kept ones are never written over, names and moments tell them apart.
+// Variants: they are restored exactly, kept ones are never overwritten, names and moments distinguish them.
 import { describe, expect, it } from 'vitest';
 import { choose, patchScene, setGoal } from '../src/model/document/commands';
 import type { TrafficEvent } from '../src/model/words/event-words';
@@ -44,7 +44,7 @@ const asked = (s: Scene): Scene => {
 };
 
 describe('variants in the document', () => {
-  it('stand for the very document that they were made from, whatever was done since', () => {
+  it('stand for exactly the document that they were made from, whatever was changed since', () => {
     const start = crossing();
     const there = asked(withSeed(start, 7));
     const state = stateOfVariant(there, car(there).id);
@@ -55,7 +55,7 @@ describe('variants in the document', () => {
     ).toBe(sceneKey(there));
   });
 
-  it('leave those that are kept or starred, and number the new ones on', () => {
+  it('leave kept and starred ones, and number new ones upwards', () => {
     let s = run(crossing(), 1, 2, 3);
     s = patchVariant(s, 2, { kept: true }, '').apply(s);
     s = patchVariant(s, 3, { starred: true, called: 'Mine' }, '').apply(s);
@@ -73,7 +73,7 @@ describe('variants in the document', () => {
     expect(run(s, 1, 2).variants).toHaveLength(MOST_VARIANTS);
   });
 
-  it('come back from a file', () => {
+  it('are read back from a file', () => {
     const raw = crossingJson();
     let s = run(asked(readScene(raw)), 5, 6);
     s = patchVariant(s, 1, { kept: true, called: 'Wide' }, '').apply(s);
@@ -97,7 +97,7 @@ describe('variants in the document', () => {
     expect(s.variants.length).toBeLessThanOrEqual(1);
   });
 
-  it('keeps one of two with the same number, and no more than there may be', () => {
+  it('keep one of two with the same number, up to the limit', () => {
     const raw = crossingJson() as SceneJson & { x_editor?: unknown };
     const one = (id: number) => ({ id, seed: 1, roster: '', diversity: 99 });
     raw.x_editor = { variants: [one(1), one(1), ...Array.from({ length: 90 }, (_, i) => one(i + 1))] } as never;
@@ -136,7 +136,7 @@ function setOf(s: Scene, ways: Readonly<Record<string, Motion>>): MotionSet {
   return { ...emptyMotion(sceneKey(s)), futures, driving: new Set(futures.keys()) };
 }
 
-describe('what tells variants apart', () => {
+describe('the difference of variants', () => {
   const s = crossing();
   const a = car(s);
   const card = (id: number, m: Motion) => ({ id, state: states(s, id)[0], scene: s, set: setOf(s, { [a.id]: m }) });
@@ -155,7 +155,7 @@ describe('what tells variants apart', () => {
     expect(eventful[1]).toBe(`${a.name} hits ${walker(s).name}`);
   });
 
-  it('is the number that was asked, where each has another', () => {
+  it('is the number of the condition, where each has another', () => {
     const asks = (id: number, over: Over, value: number) => {
       const scene = withValue(s, a.id, over, value);
       return { id, scene, state: stateOfVariant(scene, a.id), set: null };
@@ -170,7 +170,7 @@ describe('what tells variants apart', () => {
       return { id: i + 1, scene, state: stateOfVariant(scene, a.id), set: null };
     });
     expect(named(timed)).toEqual(['Arrives after 4 s', 'Arrives after 4.5 s']);
-    // Of two with the same number the number tells nothing.
+    // Equal numbers distinguish nothing.
     expect(named([asks(1, 'goal', 5), asks(2, 'goal', 5), asks(3, 'goal', 7)])).toEqual([
       'Variant 1',
       'Variant 2',
@@ -178,7 +178,7 @@ describe('what tells variants apart', () => {
     ]);
   });
 
-  it('is said with the moment at which they part', () => {
+  it('is listed with the moment of divergence', () => {
     const side = (label: string, m: Motion) => ({ label, scene: s, set: setOf(s, { [a.id]: m }), events: [] });
     const p = comparisonOf(side('1', on), side('4', stops));
     expect(p.parted.map((x) => x.agent.id)).toEqual([a.id]);
@@ -189,7 +189,7 @@ describe('what tells variants apart', () => {
     expect(p.moments[0].time).toBeLessThan(2.2);
     expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });
     expect(comparisonOf(side('1', on), side('2', on)).moments).toEqual([]);
-    // Of more than can be told the worst of both sides are, whichever side they are on.
+    // If there are too many, the worst of both sides are listed, whichever side they are on.
     const happens = (kind: TrafficEvent['kind'], time: number) =>
       ({
         kind,
@@ -215,16 +215,16 @@ describe('what tells variants apart', () => {
 describe('a range of a number', () => {
   const sweep = (from: number, to: number, step: number): Sweep => ({ over: 'start', from, to, step });
 
-  it('goes up and down, with both ends, and stops before what a step would pass', () => {
+  it('goes up and down, with both ends, and stops before a step beyond', () => {
     expect(valuesOf(sweep(30, 60, 5))).toEqual([30, 35, 40, 45, 50, 55, 60]);
     expect(valuesOf(sweep(6, 3, 1))).toEqual([6, 5, 4, 3]);
     expect(valuesOf(sweep(0, 1, 0.3))).toEqual([0, 0.3, 0.6, 0.9]);
     expect(valuesOf(sweep(2, 2, 1))).toEqual([2]);
-    // Steps of 5 km/h are no round numbers of m/s.
+    // Steps of 5 km/h are not round numbers of m/s.
     expect(valuesOf(sweep(30 / 3.6, 60 / 3.6, 5 / 3.6))).toHaveLength(7);
   });
 
-  it('begins around what is asked now, within what can be asked', () => {
+  it('begins around the present value, within the limits', () => {
     const s = crossing();
     const a = car(s);
     for (const over of ['start', 'goal', 'time'] as const) {
@@ -236,7 +236,7 @@ describe('a range of a number', () => {
     }
   });
 
-  it('asks for each value, and lets no old pick stand', () => {
+  it('sets each value, and drops an old pick', () => {
     const s = asked(crossing());
     expect(car(s).chosen).toBe(1);
     for (const [over, of] of [

@@ -1,4 +1,4 @@
-// What is said of futures: marks, words, names, letters, places on the picture, events.
+// Facts about futures: marks, words, names, letters, places on the picture, events.
 import { describe, expect, it } from 'vitest';
 import type { FaultJson, ModeJson, RelationJson } from '../src/model/document/scene-json';
 import { FAULT_KINDS, markOf, readAbout } from '../src/model/document/future-facts';
@@ -92,7 +92,7 @@ describe('verdicts', () => {
     ]);
   });
 
-  it('are never good in the headline while something is wrong with the one shown', () => {
+  it('are never good in the headline while the shown one has a fault', () => {
     for (const kind of FAULT_KINDS)
       for (const goal of [8, null]) {
         const bad = mode({ faults: [fault(kind, { with: '2', extent: 3 })] });
@@ -103,7 +103,7 @@ describe('verdicts', () => {
       }
   });
 
-  it('are summed up by the worst of the one shown, and by who does what', () => {
+  it('are summed up by the worst of the shown one, and by letter', () => {
     expect(headline(six(), 0, 8, who)).toEqual({
       mark: 'rule',
       title: 'Reached, over the median at 3.2 s',
@@ -119,7 +119,7 @@ describe('verdicts', () => {
     expect(headline(six(), 5, 8, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
   });
 
-  it('are green only where nothing is wrong', () => {
+  it('are green only without faults', () => {
     const good = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight' })]);
     expect(headline(good, 0, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two', words: '' });
     const stops = futures([
@@ -131,19 +131,19 @@ describe('verdicts', () => {
       title: 'Reached in A, B',
       words: 'C stops short.',
     });
-    // Nothing is said of futures that nobody has judged.
+    // Unjudged futures have no headline.
     expect(headline(futures([mode()]), 0, 8, who)).toBeNull();
     expect(headline(good, 0, null, who)).toBeNull();
   });
 
-  it('say nothing of a goal that lies after what is worked out', () => {
+  it('ignore a goal after the planned time', () => {
     const good = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight' })]);
     expect(headline(good, 0, 14, who)).toBeNull();
     const bad = futures([mode({ faults: [fault('over_median')] })]);
     expect(headline(bad, 0, 14, who)!.title).toBe('Over the median at 3.2 s');
   });
 
-  it('say "only" where all six break the rule', () => {
+  it('use "only" where all six break the rule', () => {
     const all = futures([1, 2, 3].map(() => mode({ faults: [fault('over_median')] })));
     expect(headline(all, 0, 8, who)).toMatchObject({
       title: 'Not reachable without crossing the median (3.2 s)',
@@ -160,7 +160,7 @@ describe('verdicts', () => {
     expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. No other road user is affected.');
   });
 
-  it('are kept with the scene', () => {
+  it('are stored with the scene', () => {
     const f = six(true);
     const raw = writeScene(crossingJson(), scene, generatedJson(scene, [['1', f]]));
     const back = readGenerated(raw, readScene(raw))!.futures.get('1')!;
@@ -182,7 +182,7 @@ describe('places', () => {
     const f = futures([at(0), at(6), at(12), at(40)]);
     const places = faultPlaces(f, [0, 1, 2, 3], 1);
     expect(places.map((p) => p.futures)).toEqual([[0, 1, 2], [3]]);
-    // Place and figure are of the shown one, as the panel tells them; without it of the worst.
+    // Place and figure are the shown future's, as in the panel; without it those of the worst.
     expect(places[0].fault).toMatchObject({ at: [start.x + 6, start.y], extent: expect.closeTo(0.6) });
     const [others] = faultPlaces(f, [0, 1, 2], 3);
     expect(others.fault).toMatchObject({ at: [start.x + 12, start.y], extent: expect.closeTo(1.2) });
@@ -208,7 +208,7 @@ describe('places', () => {
 describe('names', () => {
   const names = (...modes: ModeJson[]) => futures(modes).modes.map((m) => m.name);
 
-  it('say whom they concern, else what is done', () => {
+  it('contain the other road user, else the manoeuvre', () => {
     expect(six().modes.map((m) => m.name)).toEqual([
       'Before Car 2',
       'After Car 2',
@@ -226,7 +226,7 @@ describe('names', () => {
     ).toEqual(['Behind Bus 4', 'To the left lane', 'Stops']);
   });
 
-  it('leave out what all have in common', () => {
+  it('omit what all have in common', () => {
     const before = relation('before', '2');
     expect(
       names(
@@ -236,7 +236,7 @@ describe('names', () => {
     ).toEqual(['Before Car 3', 'After Car 3']);
   });
 
-  it('prefer somebody whom some are before and others after', () => {
+  it('prefer a road user that some pass before and others after', () => {
     const [met] = names(
       mode({ relations: [relation('follows', '6'), relation('before', '3')] }),
       mode({ relations: [relation('after', '3')] }),
@@ -256,7 +256,7 @@ describe('names', () => {
     );
     expect(new Set(list).size).toBe(6);
     expect(list[0]).toBe('Slows for Pedestrian 17');
-    // Where the difference has no room beside the other's name, something else is said.
+    // If the difference does not fit beside the other's name, another property is used.
     expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on, more left']);
     for (const n of list) {
       expect(n.length).toBeLessThanOrEqual(24);
@@ -264,7 +264,7 @@ describe('names', () => {
     }
   });
 
-  it('tell a lane change before a turn', () => {
+  it('distinguish a lane change before a turn', () => {
     const m = mode({ manoeuvre: 'left' });
     // Over to the next lane, then round the corner.
     m.x_m.forEach((_, i) => {
@@ -275,7 +275,7 @@ describe('names', () => {
   });
 });
 
-describe('names under a moving hand', () => {
+describe('names during a drag', () => {
   const list = (kind: RelationJson['kind']) =>
     futures([
       mode({ anchor: 0, manoeuvre: 'left', relations: [relation(kind, '2')] }),
@@ -288,13 +288,13 @@ describe('names under a moving hand', () => {
     const next = (f: Futures, now: number) => (shown = frozen.keep(shown, f, naming, now)).modes.map((m) => m.name);
     expect(next(list('after'), 1000)).toEqual(['Before Car 2', 'Straight on']);
     expect(next(list('before'), 1100)[0]).toBe('Before Car 2');
-    // It came and went: the time begins anew.
+    // It came and went: the time starts again.
     expect(next(list('after'), 1300)[0]).toBe('Before Car 2');
     expect(next(list('after'), 1600)[0]).toBe('Before Car 2');
     expect(next(list('after'), 1700)[0]).toBe('After Car 2');
   });
 
-  it('go with the idea, and new ideas are told apart from those that stay', () => {
+  it('move with the idea, and new ideas differ from those that stay', () => {
     const frozen = new FrozenNames();
     const shown = futures([mode({ anchor: 4, manoeuvre: 'straight' }), mode({ anchor: 5, manoeuvre: 'left' })]);
     const next = futures([
@@ -325,7 +325,7 @@ describe('verdicts of drafts', () => {
       ['straight', []],
       ['straight', ['over_median']],
     ]);
-    // What is judged itself is taken as it is.
+    // Already judged drafts stay unchanged.
     expect(keepVerdicts(kept, judgedOnes)).toBe(judgedOnes);
   });
 
@@ -351,7 +351,7 @@ describe('letters and shares', () => {
     expect(of()).toEqual([]);
   });
 
-  it('say why another is shown than the one before', () => {
+  it('report why another is shown than the one before', () => {
     const f = six(true);
     expect([whyNot(f, 0, 2, nameOf), whyNot(f, 1, 2, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
     expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
@@ -371,7 +371,7 @@ describe('events', () => {
   });
   const score = { collisions: [], nearMisses: [], minTtc: null, offroadShare: null };
 
-  it('are all that is wrong with what is followed, with time and extent', () => {
+  it('are all faults of followed futures, with time and extent', () => {
     const events = readEvents(scene, set());
     expect(events.map((e) => [e.kind, e.label, e.title, e.words])).toEqual([
       ['rule', 'Over the median 3.2 s', 'Car 1', 'Over the median, 0.6 m'],
@@ -384,7 +384,7 @@ describe('events', () => {
     ]);
   });
 
-  it('say the same once, whoever says it', () => {
+  it('report an event once, whatever its source', () => {
     const events = readEvents(
       scene,
       set({
@@ -401,13 +401,13 @@ describe('events', () => {
       }),
     );
     expect(events.map((e) => e.what)).toEqual(['harsh_braking', 'over_median', 'collision']);
-    // Twice within a second is once, as hard as the harder.
+    // Twice within a second is one event, as hard as the harder.
     expect(events[0].words).toContain('6.5 m/s²');
     expect([events[0].time, events[0].until]).toEqual([2, 3.9]);
     expect(events.map((e) => e.inLog)).toEqual([true, false, false]);
   });
 
-  it('of those that were asked are what their verdict says, and of others what the score says', () => {
+  it('of conditioned road users come from their verdict, and of others from the score', () => {
     const asked = withAgents(scene, [{ ...car(scene), chosen: 0 }]);
     const stretches = [
       { what: 'harsh_steering' as const, agent: '1', time: 7, until: 7.4, extent: 4 },
@@ -422,7 +422,7 @@ describe('events', () => {
     expect(own.map((e) => e.what).sort()).toEqual(about!.faults.map((f) => f.kind).sort());
   });
 
-  it('of a future that is kept are judged by whom it meets now', () => {
+  it('of a kept future are judged by the current collisions', () => {
     const [hit] = six(true).modes;
     expect(withMeetingsOf({ ...score, collisions: [{ a: '2', b: '1', time: 5.5 }] }, '1', hit)).toBe(hit);
     const spared = withMeetingsOf(score, '1', hit);
@@ -437,7 +437,7 @@ describe('events', () => {
     expect(withMeetingsOf({ ...score, nearMisses: log }, '1', spared)).toBe(spared);
   });
 
-  it('of futures that stay as they are are judged anew when somebody else comes into their way', () => {
+  it('of unchanged futures are judged again when another road user comes into their way', () => {
     const own = car(scene);
     const f = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight', stopAt: 2 })]);
     expect(headline(f, 0, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two' });
@@ -449,13 +449,13 @@ describe('events', () => {
     expect(met.modes[1]).toBe(f.modes[1]);
     expect(headline(met, 0, 8, who)!.title).toMatch(/^Reached, hits Car 2 at 3\.\d s$/);
     expect(headline(met, 1, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
-    // Gone again, nothing is left of it; one that did not change is not looked at; nobody meets itself.
+    // Removed again, no fault remains; an unchanged one is skipped; no road user meets itself.
     expect(metAnew(own, met, there(400)).modes[0].about!.faults).toEqual([]);
     expect(metAnew(own, met, [])).toBe(met);
     expect(metAnew(own, f, [{ agent: own, motion: f.modes[0].motion }])).toBe(f);
   });
 
-  it('of the log are marked and not counted', () => {
+  it('of the recording are marked and not counted', () => {
     const near = { a: '11', b: '14', time: 3.2, distance: 0.6, ttc: null };
     const driving = new Set(['11', '14']);
     const events = (inLog?: boolean) =>
@@ -468,7 +468,7 @@ describe('events', () => {
 });
 
 describe('close in time', () => {
-  it('is said of those that do not just replay their log', () => {
+  it('is reported for road users that do not only replay the recording', () => {
     const petOf = new Map([
       ['1', 0.3],
       ['2', 0.1],
@@ -479,7 +479,7 @@ describe('close in time', () => {
     expect([least('1', '3'), least('3'), least(), least('1', '2')]).toEqual([0.3, null, null, 0.1]);
   });
 
-  it('has of a near miss the time that the score knows', () => {
+  it("has the score's time for a near miss", () => {
     const s = crossing();
     const [one, other] = s.agents.values();
     const met = mode({ faults: [{ ...fault('near_miss'), with: other.id }] });
@@ -502,7 +502,7 @@ describe('close in time', () => {
 });
 
 describe('signs on the timeline', () => {
-  it('stand at their times, with words where there is room', () => {
+  it('are at their times, with words where there is room', () => {
     const at = [100, 110, 160, 300, 880].map((x, i) => ({ at: x, w: 80, rank: i === 1 ? 0 : 1 }));
     const placed = placeSigns(at, 50, 900);
     expect(placed.map((p) => [p.x, p.items])).toEqual([

@@ -27,8 +27,8 @@ const EAST = motionFrom({
 
 const car = () => [...crossing().agents.values()].find((a) => a.kind === 'car' && !a.parked)!;
 
-describe('places on the way', () => {
-  it('says when a motion passes each, and how near', () => {
+describe('via points', () => {
+  it('have a passing time and distance on a motion', () => {
     const all = [via([20, 0.5]), via([60, 3]), via([40, 0], 1, 4), via([70, 0], 1, 4)];
     const seen = passed(all.slice(0, 2), EAST);
     expect(seen.map((p) => p.ok)).toEqual([true, false]);
@@ -37,14 +37,14 @@ describe('places on the way', () => {
     expect(passed(all.slice(2), EAST).map((p) => p.ok)).toEqual([true, false]);
   });
 
-  it('keeps a new one in the order of the path', () => {
+  it('keep a new one in the order of the path', () => {
     const all = [via([20, 0]), via([60, 0])];
     expect([5, 40, 80].map((x) => placeIn(all, EAST, [x, 0]))).toEqual([0, 1, 2]);
     expect(withNew(all, 1, via([40, 0])).map((v) => v.pos[0])).toEqual([20, 40, 60]);
     expect(withVia(all, 0, null).map((v) => v.pos[0])).toEqual([60]);
   });
 
-  it('frees times that are not in order any more, and leaves the rest as they are', () => {
+  it('lose times that are out of order, and keep the rest', () => {
     const all = [via([1, 0], 1, 3), via([2, 0], 1, 5)];
     expect(inOrder(all, 9)).toBe(all);
     expect(inOrder(all, 4).map((v) => v.time)).toEqual([3, null]);
@@ -57,7 +57,7 @@ describe('places on the way', () => {
     expect(goal.via.map((v) => v.time)).toEqual([3, null]);
   });
 
-  it('comes back from a file, whatever stands in it', () => {
+  it('are read back from a file, whatever it contains', () => {
     fc.assert(
       fc.property(
         fc.array(
@@ -80,7 +80,7 @@ describe('places on the way', () => {
     expect(heldTolerance(12)).toBe(5);
   });
 
-  it('is asked of the generator, moves and is mirrored with the goal, and stays when the goal is cleared', () => {
+  it('are sent to the generator, move and are mirrored with the goal, and stay when the goal is cleared', () => {
     const scene = crossing();
     const a = car();
     const led = setVias(a, [via([3, 4], 2)], 'led')

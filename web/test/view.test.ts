@@ -1,4 +1,4 @@
-// World to screen and back, however the picture is turned; what is found under the pointer; a picture on its way.
+// World to screen and back, however the picture is turned; the object under the pointer; an animated picture.
 import fc from 'fast-check';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { deg, rad, wrapAngle, type Vec } from '../src/model/base/geometry';
@@ -32,7 +32,7 @@ const near = (a: readonly number[], b: readonly number[], by = 1e-6): void => {
 };
 
 describe('a view', () => {
-  it('moves just as far as brings a rectangle out from under what covers it', () => {
+  it('moves just far enough to bring a rectangle out from under a cover', () => {
     const side = fc.double({ min: 1, max: 600, noNaN: true });
     fc.assert(
       fc.property(view, pixel, pixel, side, side, (v, x, y, wide, high) => {
@@ -49,7 +49,7 @@ describe('a view', () => {
     );
   });
 
-  it('leads from the world to the screen and back', () => {
+  it('converts from the world to the screen and back', () => {
     fc.assert(
       fc.property(view, coordinate, coordinate, (v, x, y) => {
         near(v.from(...v.to(x, y)), [x, y]);
@@ -100,7 +100,7 @@ describe('a view', () => {
     );
   });
 
-  it('knows what of the world is on screen', () => {
+  it('knows which parts of the world are on screen', () => {
     fc.assert(
       fc.property(view, pixel, pixel, (v, x, y) => {
         const [wx, wy] = v.from(x, y);
@@ -124,7 +124,7 @@ describe('a view', () => {
     );
   });
 
-  it('has exact quarter turns, and is as it was with none', () => {
+  it('has exact quarter turns, and is unchanged with none', () => {
     const v = new View();
     v.turn = rad(90);
     expect(v.along(0.1, 0)).toEqual([0, -0.1]);
@@ -133,7 +133,7 @@ describe('a view', () => {
     expect([v.x(3, 7), v.y(3, 7)]).toEqual([400 + 3 * v.z, 300 - 7 * v.z]);
   });
 
-  it('moves no further past a part of the world than it looks', () => {
+  it('moves no further past a part of the world than now', () => {
     fc.assert(
       fc.property(view, angle, pixel, pixel, (v, turn, dx, dy) => {
         Object.assign(v, { cx: 0, cy: 0, z: 4, turn });
@@ -190,7 +190,7 @@ describe('a turned picture under the pointer', () => {
     p.editor.select('1');
     for (const touch of [false, true]) {
       p.view.turn = 0;
-      // Flags stand upright however the picture is turned.
+      // Flags are upright however the picture is turned.
       const body = (h: ReturnType<typeof hitTest>) => h.kind !== 'grip' || h.grip.part === 'start';
       const north = found(touch);
       p.view.turn = 0.7;
@@ -200,7 +200,7 @@ describe('a turned picture under the pointer', () => {
     }
   });
 
-  it('takes boxes and handles where they are seen', () => {
+  it('takes boxes and handles where they appear', () => {
     for (const turn of [-2.4, -0.5, 0, 0.9, 3]) {
       p.view.turn = turn;
       p.editor.selectAll([]);
@@ -215,7 +215,7 @@ describe('a turned picture under the pointer', () => {
     }
   });
 
-  it('takes hold of the flag of one that is locked, to say so, and of none of its handles', () => {
+  it('takes the flag of a locked road user, to explain the lock, and none of its handles', () => {
     const here = () => p.editor.scene.peek()!.agents.get('1')!;
     const { x, y, heading } = startPose(here())!;
     const pos: Vec = [x + 30 * Math.cos(heading), y + 30 * Math.sin(heading)];
@@ -230,7 +230,7 @@ describe('a turned picture under the pointer', () => {
     for (const at of [knob, tip]) expect(hitTest(context(false), ...at).kind).not.toBe('grip');
   });
 
-  it('drags what it holds with the pointer', () => {
+  it('drags the object with the pointer', () => {
     p.view.turn = rad(140);
     p.editor.select('1');
     const s = startPose(p.editor.agent.peek()!)!;
@@ -244,7 +244,7 @@ describe('a turned picture under the pointer', () => {
     near(p.view.to(moved.x, moved.y), [to.x, to.y], 1e-6);
   });
 
-  it('pans with the hand', () => {
+  it('pans with the pointer', () => {
     p.view.turn = 1.1;
     const at = p.view.from(300, 300);
     p.down({ x: 300, y: 300 }, { button: 1 });
@@ -252,7 +252,7 @@ describe('a turned picture under the pointer', () => {
     near(p.view.to(...at), [340, 280]);
   });
 
-  it('takes those in a frame that is upright on the screen', () => {
+  it('takes road users in a marquee that is upright on the screen', () => {
     p.view.turn = rad(30);
     const seen = [...p.editor.scene.peek()!.agents.values()].map((a) => ({
       a,
@@ -286,7 +286,7 @@ describe('two fingers', () => {
     return deg(p.view.turn);
   };
 
-  it('turn the picture with them about what is between them', () => {
+  it('turn the picture with them about the point between them', () => {
     const p = new Pointer();
     const at = p.view.from(middle.x, middle.y);
     expect(turnedBy(p, 4, 10, 30, 60)).toBeGreaterThan(50);
@@ -294,18 +294,18 @@ describe('two fingers', () => {
     expect(turnedBy(p, -4, -10, -60)).toBeLessThan(10);
   });
 
-  it('do not turn it where they are only not quite straight', () => {
+  it('do not turn it for a slightly crooked pinch', () => {
     expect(turnedBy(new Pointer(), 3, 6, 7, -5)).toBe(0);
   });
 
-  it('stick to north', () => {
+  it('snap to north', () => {
     const p = new Pointer();
     expect(turnedBy(p, 10, 40, 8, 4)).toBe(0);
   });
 });
 
-describe('a picture on its way', () => {
-  it('turns about what stays, and is where it should be at the end', async () => {
+describe('an animated picture', () => {
+  it('turns about a fixed point, and ends at its target', async () => {
     vi.stubGlobal('matchMedia', () => ({ matches: false }));
     const now = vi.spyOn(performance, 'now').mockReturnValue(0);
     const { Glide } = await import('../src/draw/glide');
@@ -322,7 +322,7 @@ describe('a picture on its way', () => {
       near(v.to(...at), [120, 500], 1e-6);
     }
     expect([glide.going, Math.round(deg(v.turn))]).toEqual([false, -170]);
-    // Past half a turn it is nearer the other way round.
+    // Past half a turn the other direction is shorter.
     glide.by((end) => end.turnAt(120, 500, rad(170)));
     now.mockReturnValue(230);
     glide.frame();
@@ -333,7 +333,7 @@ describe('a picture on its way', () => {
 });
 
 describe('a link', () => {
-  it('carries how the picture is turned; one without says north', async () => {
+  it('contains the turn of the picture; one without means north up', async () => {
     const scene = { agents: [] } as never;
     const sent = async (camera: { cx: number; cy: number; z: number; turn?: number }) =>
       (await readLink((await writeLink({ scene, at: { time: 1, camera } })).hash)).at;

@@ -1,4 +1,4 @@
-// The line in a worker: the worker's own code behind a worker made of timers, asking the stand-in.
+// The connection in a worker: the worker's own code behind a worker made of timers, with the stand-in server.
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { Client } from '../src/net/client';
 import { WorkerTransport } from '../src/net/worker-transport';
@@ -14,7 +14,7 @@ const BODY = JSON.stringify({
   stream_modes: 'all',
 });
 
-/** What the worker sees as its global object. */
+/** The global object of the worker. */
 const inside: {
   onmessage?: (e: { data: ToWorker }) => void;
   postMessage?: (m: FromWorker) => void;
@@ -51,9 +51,9 @@ beforeEach(async () => {
   vi.stubGlobal('Worker', FakeWorker);
   inside.location = { href: server.url };
   vi.stubGlobal('self', inside);
-  // The stand-in answers requests alone.
+  // The stand-in answers only requests.
   vi.stubGlobal('WebSocket', undefined);
-  // The worker asks the server that its script came from.
+  // The worker uses the server that its script came from.
   vi.stubGlobal('fetch', (path: string, init?: RequestInit) => {
     asked(init?.signal);
     return real(new URL(path, server.url), init);
@@ -67,7 +67,7 @@ afterEach(async () => {
   await server.close();
 });
 
-it('gives the events in the order in which they came, and starts one worker', async () => {
+it('gives the events in the order of arrival, and starts one worker', async () => {
   const line = new WorkerTransport(new Client());
   const answer = await line.ask(BODY, new AbortController().signal);
   expect(answer).toMatchObject({ status: 200, problem: null });
@@ -91,7 +91,7 @@ it('two questions at once do not mix', async () => {
   expect(a).toBeGreaterThanOrEqual(7);
 });
 
-it('a question that is given up ends in the worker, too', async () => {
+it('a cancelled question ends in the worker, too', async () => {
   const line = new WorkerTransport(new Client());
   const abort = new AbortController();
   const answer = await line.ask(BODY, abort.signal);
@@ -102,14 +102,14 @@ it('a question that is given up ends in the worker, too', async () => {
   await vi.waitFor(() => expect(asked.mock.lastCall![0]!.aborted).toBe(true));
 });
 
-it('who stops reading ends the work, too', async () => {
+it('leaving the loop early ends the work, too', async () => {
   const line = new WorkerTransport(new Client());
   const answer = await line.ask(BODY, new AbortController().signal);
   for await (const e of answer.events) if (e.event === 'initial') break;
   await vi.waitFor(() => expect(asked.mock.lastCall![0]!.aborted).toBe(true));
 });
 
-it('a refusal comes with its words, and nobody there is a failure', async () => {
+it('a refusal has its words, and a missing server is a failure', async () => {
   const line = new WorkerTransport(new Client());
   const refused = await line.ask('{"scene_id":"nowhere"}', new AbortController().signal);
   expect(refused.status).toBeGreaterThanOrEqual(400);
@@ -119,7 +119,7 @@ it('a refusal comes with its words, and nobody there is a failure', async () => 
   server = await startStandIn({ port: 0, delay: 1 });
 });
 
-it('without its worker the page asks by itself', async () => {
+it('without its worker the page sends requests itself', async () => {
   const line = new WorkerTransport(new Client());
   const answering = line.ask(BODY, new AbortController().signal);
   made[0].onerror!({ preventDefault: () => undefined });

@@ -1,4 +1,4 @@
-// Writes src/model/base/api.ts, the API's types, from assets/openapi.json; --check only says whether they agree.
+// Writes src/model/base/api.ts, the API's types, from assets/openapi.json; --check only compares them.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import openapi, { astToString } from 'openapi-typescript';
@@ -9,7 +9,7 @@ const head =
   '// Made from assets/openapi.json by `npm run api`; not to be edited. model/document/scene-json.ts and\n' +
   '// net/types.ts name what the editor uses.\n';
 
-// A member with a default may be left out of a request.
+// A member with a default may be omitted in a request.
 const types = head + astToString(await openapi(document, { defaultNonNullable: false, silent: true }));
 if (!process.argv.includes('--check')) writeFileSync(target, types);
 else if (readFileSync(target, 'utf8') !== types) {

@@ -1,14 +1,14 @@
-// Rings of imports in src, and folders of many files. `npm run rings` prints the counts and fails where a number is not
-// the one below: a smaller count lowers its number here, a larger one is refused. Imports of types count, for a file is
-// not read without them; a dynamic import() does not: a part that loads later is no part of what asks for it.
+// Rings of imports in src, and folders of many files. `npm run rings` prints the counts and fails where a number
+// differs from the one below: a smaller count lowers its number here, a larger one is refused. Imports of types count,
+// since a file is not read without them; a dynamic import() does not, since the importing file works without it.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 
-/** Files in rings, by room; `across` for a ring through several rooms. Rooms without a number hold none. */
+/** Files in rings, by room; `across` for a ring through several rooms. Rooms without a number have none. */
 const RINGS = {};
-/** The most files that a folder holds, and the folders that hold more. */
+/** The most files in a folder, and the folders with more. */
 const MOST_FILES = 25;
 const LARGER = {};
 

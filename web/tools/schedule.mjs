@@ -1,4 +1,4 @@
-// Runs schedules of the page: `npm run schedule -- [--runs N] [--seed S]`. With a seed alone that one runs again.
+// Runs schedules of the page: `npm run schedule -- [--runs N] [--seed S]`. With only a seed that one is repeated.
 import { spawnSync } from 'node:child_process';
 import { parseArgs } from 'node:util';
 

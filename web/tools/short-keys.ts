@@ -1,12 +1,12 @@
-// Tables of texts (src/texts) have keys that say what they are for. In the build a letter or two does: a script has
-// hundreds of them, each twice. Only tables by the name of TEXTS are so treated.
+// Tables of texts (src/texts) have descriptive keys. In the build a letter or two is enough: a script has hundreds of
+// them, each twice. Only tables with the name TEXTS are shortened.
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import type { Plugin } from 'vite';
 
-/** A key at the start of its line, in a table as the formatter leaves it. */
+/** A key at the start of its line, in a table formatted by Prettier. */
 const KEY = /^ {2}(\w+):/gm;
-/** A table by its path: the room and the name of it, in English or in German. */
+/** A table by its path: its room and its name, in English or in German. */
 const TABLE = /\/src\/texts\/(?:german\/)?([\w-]+\/[\w-]+)(?:\.ts)?$/;
 const IMPORT = /import (?:type )?\{ TEXTS(?: as (\w+))? \} from '([^']+)';/g;
 
@@ -16,7 +16,7 @@ const short = (i: number): string =>
 
 export function shortKeys(): Plugin {
   const known = new Map<string, ReadonlyMap<string, string>>();
-  /** Key of an area: what stands for it. */
+  /** Short keys of an area. */
   const keysOf = (area: string): ReadonlyMap<string, string> => {
     let keys = known.get(area);
     if (!keys) {

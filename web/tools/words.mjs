@@ -1,28 +1,28 @@
-// Words that a person can see stand in src/texts: `npm run words` lists those that do not, and fails if there are any.
-// What looks like words and is none (keys, classes, names of states, tags) is known by its form or by where it stands.
+// Displayed words are in src/texts: `npm run words` lists those elsewhere, and fails if there are any. Literals that
+// only look like words (keys, classes, names of states, tags) are recognised by form or by position.
 import { readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 
 const src = fileURLToPath(new URL('../src', import.meta.url));
 
-/** Attributes that a person sees or hears. */
+/** Attributes that are displayed or read aloud. */
 const SPOKEN = /^(label|title|placeholder|alt|aria-label|aria-description|aria-valuetext|aria-roledescription)$/;
-/** Attributes that nobody sees. */
+/** Attributes that are not displayed. */
 const UNSEEN =
   /^(class|className|d|id|style|viewBox|fill|stroke|type|role|key|data-.*|href|for|rel|name|icon|part|transform|points|tabIndex|accept|inputMode|aria-(?!label|desc|value).*)$/;
-/** Calls whose arguments are for the program. */
-/** Files in which nothing is said to a person. */
+/** Calls with arguments for the program. */
+/** Files without displayed text. */
 const SILENT =
   /^(texts|draw|net)\/|^app\/(parts\/icons|focus)|^actions\/keys|^edit\/tools\/outward\/gif|^model\/base\/api/;
 
 const UNSEEN_CALLS =
   /(^|\.)(querySelector|querySelectorAll|closest|matches|addEventListener|removeEventListener|getAttribute|setAttribute|removeAttribute|toggleAttribute|createElement|createElementNS|getContext|matchMedia|setProperty|getPropertyValue|includes|startsWith|endsWith|indexOf|split|replace|has|get|set|delete|keep|recall|forget|test|match|join|toggle|contains|add|remove|dispatchEvent|Error|TypeError|URL|fetch|request|RegExp|css|Path2D|Worker|FontFace|Event|CustomEvent|append)$/;
-/** Words of the program, not of people: keys, formats, media types, names of fields. */
+/** Words of the program, not of users: keys, formats, media types, names of fields. */
 const CODE =
   /^(?:[a-z0-9]+(?:[-_.:/][a-z0-9*]+)+|[a-z]+|[a-z]+[A-Z0-9][A-Za-z0-9]*|[A-Z]|[A-Z0-9_]+|Arrow\w+|Escape|Enter|Home|End|PageUp|PageDown|Tab|Backspace|Delete|Shift|Ctrl|Alt|Meta|Control|Space|Left|Right|Up|Down|F\d+|(?:Ctrl|Shift|Alt)\+.*|[#.][\w-]+|(?:Esc|Del)|--[\w-]+|&\w+;|translate\(.*|.*: ?x(?:px|%)|[MLHVCZ][\d\s.,a-zA-Z-]*\d.*|https?:.*|var\(.*|(?:image|video)\/.*|\/[a-z_/]+|application\/.*|text\/.*|\d.*px.*)$/;
 
-/** Units, and names that are the same everywhere. */
+/** Units, and names that are equal everywhere. */
 const UNITS = /^(?:px|km\/h|m\/s|m\/s²|mph|KB|MB|ft|DragTraffic|GIF|PNG|SVG|WebM|%PDF|#?[0-9a-fA-F]{3,8}|rgba?\(.*\))$/;
 
 const letters = /\p{L}{2}/u;
@@ -34,7 +34,7 @@ function parentCall(node) {
   return (ts.isCallExpression(n) || ts.isNewExpression(n)) && n.expression !== node ? n : null;
 }
 
-/** Does this literal reach a person? */
+/** Is this literal displayed? */
 function seen(node, text) {
   const p = node.parent;
   if (!isWords(text.replaceAll('\u0000', ' '))) return false;
@@ -46,7 +46,7 @@ function seen(node, text) {
   if (ts.isImportTypeNode(p) || (ts.isCallExpression(p) && p.expression.kind === ts.SyntaxKind.ImportKeyword))
     return false;
   if (ts.isPropertyAssignment(p) && p.name === node) return false;
-  // Names of states, and marks in files: nobody reads them.
+  // Names of states, and marks in files: not displayed.
   if (ts.isPropertyDeclaration(p) && p.name.getText() === 'name') return false;
   if (ts.isVariableDeclaration(p) && /^(MARK|STYLE)$/.test(p.name.getText())) return false;
   if (ts.isElementAccessExpression(p) || ts.isCaseClause(p)) return false;

@@ -1,10 +1,10 @@
-// By keys alone; in the dark; on a smaller screen.
+// By keys only; with the dark theme; on a smaller screen.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** What lies around and over the picture. Pairs of these must not cover each other. */
+/** Elements around and over the picture. No two of these may overlap. */
 const PANELS = [
   'header.top',
   'aside.insp',
@@ -22,7 +22,7 @@ const PANELS = [
 ];
 
 journeys('access', (stage) => {
-  it('sets a goal by keys alone', { timeout: 60_000 }, async () => {
+  it('sets a goal by keys only', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('Tab');
@@ -63,7 +63,7 @@ journeys('access', (stage) => {
     assert.ok(spoken.length > 5, spoken);
   });
 
-  it('leaves the focus on the road user while answers come', { timeout: 30_000 }, async () => {
+  it('leaves the focus on the road user while answers arrive', { timeout: 30_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('Tab');
@@ -111,7 +111,7 @@ journeys('access', (stage) => {
   }
 });
 
-/** Every panel lies within the window and none covers another. */
+/** Every panel is within the window and none covers another. */
 async function places(e, when) {
   await e.page.evaluate(() =>
     Promise.allSettled(

@@ -1,4 +1,4 @@
-// A case is looked for: named in words, found by trying, shown at its moment, taken as one step.
+// The search for a case: started by words, found by trying, shown at its moment, taken as one step.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -7,25 +7,25 @@ import { journeys } from '../support/journey.js';
 const found = (e) =>
   e.page.locator('.case').evaluateAll((all) => all.map((el) => el.querySelector('.words b').textContent));
 
-/** What the panel says of how far it is, as two numbers. */
+/** Progress in the panel, as two numbers. */
 async function tried(e) {
   const words = await e.text('.seeking [role="status"]');
   const [, done, of] = /(\d+) of (\d+) tried/.exec(words);
   return [Number(done), Number(of)];
 }
 
-/** Is there anything to take back? */
+/** Is there a step to undo? */
 const undoes = async (e) =>
   (await e.page.locator('header [data-action="undo"]').getAttribute('aria-disabled')) === null;
 
-/** The other car that is nearest to a road user's way. */
+/** The other car nearest to a road user's path. */
 async function another(e, car) {
   const others = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.id !== car.id && u.speed > 2);
   return others[0];
 }
 
 journeys('looking for a case', (stage) => {
-  it('finds by a sentence, shows what was found, and takes it as one step', { timeout: 120_000 }, async () => {
+  it('searches by a sentence, shows the results, and takes one as one step', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('b');
@@ -37,7 +37,7 @@ journeys('looking for a case', (stage) => {
     await e.page.getByText(`Find hard braking of ${car.name} without a collision`).click();
     await e.page.waitForSelector('.seeking');
     await e.page.waitForFunction(() => /about|found/.test(document.querySelector('.seeking')?.textContent ?? ''));
-    // Another thing is looked for: a gap so wide that it is found soon.
+    // Another target: a gap so wide that it is found soon.
     await e.page.getByRole('button', { name: 'Close the search' }).click();
     await e.page.locator(`[data-agent="${car.id}"]`).evaluate((el) => el.click());
     await e.page
@@ -58,7 +58,7 @@ journeys('looking for a case', (stage) => {
       assert.match(await e.text('.seeking'), /Closest: /);
       await e.page.getByRole('button', { name: 'Use the closest' }).click();
     } else {
-      // It may end by itself at any moment.
+      // It may end at any moment.
       await e.page.evaluate(() => document.querySelector('[data-action="case-stop"]')?.click());
       const [done, of] = await tried(e);
       assert.ok(done <= of);

@@ -1,5 +1,5 @@
-// A recorded record is corrected: a car that waits gets a goal, others give way, the log stands behind it, undo goes
-// half way back; and everybody plans anew every three seconds.
+// Corrects a recorded scene: a waiting car gets a goal, others give way, the recording is shown behind, undo goes half
+// way back; and all replan every three seconds.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { distance } from '../support/editor.js';
@@ -8,13 +8,13 @@ import { along } from '../support/maps.js';
 
 const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
 
-/** An example as a record of the Waymo motion data set, so that nothing recorded is needed here. */
+/** An example as a record of the Waymo motion data set, so that no recorded file is needed. */
 async function record(e) {
   const url = new URL('/v1/scenes/demo-crossing/export?format=womd&mode=log', e.page.url());
   return (await e.page.request.get(url.href)).body();
 }
 
-/** The way along the lanes from a place in a direction. */
+/** The path along the lanes from a place in a direction. */
 function lanesFrom(map, start) {
   const road = map.lanes.filter((l) => !['bike_lane', 'sidewalk', 'parking'].includes(l.type));
   const heading = ([ax, ay], [bx, by]) => Math.atan2(by - ay, bx - ax);
@@ -38,7 +38,7 @@ function lanesFrom(map, start) {
   return line;
 }
 
-/** Somebody who waits in a lane with 100 m of road ahead, and the place there. */
+/** A waiting car in a lane with 100 m of road ahead, and the place there. */
 async function waitingCar(e, map) {
   const tried = [];
   for (const u of (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed === 0)) {
@@ -54,7 +54,7 @@ async function waitingCar(e, map) {
 }
 
 journeys('correcting a log', (stage) => {
-  it('a waiting car goes, others give way, and the log stands behind it', { timeout: 120_000 }, async () => {
+  it('a waiting car goes, others give way, and the recording is shown behind', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.drop('crossing.tfrecord', await record(e));
@@ -75,14 +75,14 @@ journeys('correcting a log', (stage) => {
     assert.equal(answer.body.react, true);
     assert.ok(Math.abs(answer.body.conditions[car.id].goal.speed_mps - 20) < 0.1);
     const { samples, scores } = answer.event('final');
-    // Whoever gives way is named with what it does, in the panel as in the answer.
+    // Each road user that gives way is listed with its reaction, in the panel as in the answer.
     const others = Object.keys(samples[0].agents).filter((id) => id !== car.id);
     const named = await e.page.locator('.insp').innerText();
     for (const id of others.slice(0, 3)) {
       const who = (await e.roadUsers()).find((u) => u.id === id);
       if (samples[0].agents[id].reaction) assert.match(named, new RegExp(who.name), `${who.name} answers`);
     }
-    // The headline says what the chosen one does: good only where nothing is wrong with it.
+    // The headline is about the chosen one: good only without faults.
     const { modes, chosen } = samples[0].agents[car.id];
     const hint = e.page.locator('.hint').first();
     const bad = (modes[chosen].faults ?? []).length > 0;
@@ -91,7 +91,7 @@ journeys('correcting a log', (stage) => {
     if (hits) assert.match(await hint.getAttribute('class'), /collision/);
     await e.picture('log-corrected');
 
-    // The log behind it: the car stood there.
+    // The recording behind it: the car stood there.
     await leave(e);
     await e.key('o');
     for (let i = 0; i < 50; i++) await e.key('.');
@@ -102,7 +102,7 @@ journeys('correcting a log', (stage) => {
     await e.key('o');
     await e.key('Home');
 
-    // Half of it undone, and done again.
+    // Half of it undone, and redone.
     const done = await e.inspector();
     for (let i = 0; i < 2; i++) {
       await e.key('Control+z');
@@ -117,7 +117,7 @@ journeys('correcting a log', (stage) => {
     assert.deepEqual(await e.inspector(), done);
   });
 
-  it('everybody plans anew every three seconds, over twelve', { timeout: 120_000 }, async () => {
+  it('all replan every three seconds, over twelve', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const again = e.page.getByRole('group', { name: 'Planning window of all road users' });

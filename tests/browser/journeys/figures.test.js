@@ -1,4 +1,4 @@
-// Measures, not verdicts: how soon the hand sees an answer. Printed and kept in out/figures.json.
+// Measures, not verdicts: the delay from drag to answer. Printed and stored in out/figures.json.
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
@@ -10,7 +10,7 @@ import { out } from '../support/where.js';
 
 const MOVES = 60;
 const RELEASES = 5;
-/** The first of an answer that can be seen. */
+/** The first visible event of an answer. */
 const seen = (answer) => answer.events().find((e) => ['initial', 'step', 'final'].includes(e.event));
 
 journeys('figures', (stage) => {
@@ -47,7 +47,7 @@ journeys('figures', (stage) => {
       if (i) await e.drag(flag(0.4 - 0.05 * (i - 1)), flag(0.4 - 0.05 * i), { moves: 4 });
       const trace = await traced(stage.browser, e.page, () => e.release());
       const [released] = trace.releases;
-      // What was foreseen of exactly this pose was there before.
+      // The preview of exactly this pose arrived before.
       const last = e.wire.asked.findLast((a) => a.body.react === true).event('final').at * 1000;
       const answer = Math.max(last, released);
       releases.push({ answered: answer - released, shown: trace.shownAfter(answer) - released });

@@ -1,4 +1,4 @@
-// What comes from outside: a recorded file, and a generator that goes away.
+// Outside influences: a recorded file, and an unreachable generator.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
@@ -44,45 +44,49 @@ journeys('files and outages', (stage) => {
     },
   );
 
-  it('keeps working while the generator is away and catches up when it is back', { timeout: 60_000 }, async () => {
-    const e = await stage.open();
-    await e.begin();
-    const car = await carOnTheMove(e);
-    await e.page.mouse.click(...car.from);
-    await e.page.waitForSelector('.fu');
-    await e.settled();
-    await stage.program.kill();
-    const to = [car.to[0] + (car.from[0] - car.to[0]) * 0.3 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.3 - 26];
-    await e.drag([car.to[0] + 9, car.to[1] - 26], to);
-    await e.page.waitForSelector('.banner');
-    assert.match(await e.text('.banner'), /The generator is not answering\. Nothing is lost\./);
-    const during = await e.goal();
-    await e.page.mouse.move(to[0] + (car.from[0] - car.to[0]) * 0.15, to[1] + (car.from[1] - car.to[1]) * 0.15, {
-      steps: 6,
-    });
-    await e.until(() => /sketch/.test(document.querySelector('aside.insp').textContent));
-    await e.frames(2);
-    assert.notDeepEqual(await e.goal(), during, 'the flag still follows the hand');
-    await e.page.mouse.up();
-    await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));
-    await e.picture('generator-away');
-    // Whoever is selected now has a plain sketch, and G sets its goal there.
-    const pick = (id) => e.page.locator(`[data-agent="${id}"]`).evaluate((el) => el.click());
-    const other = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.id !== car.id && u.speed > 2.5);
-    await pick(other.id);
-    await e.page.evaluate(() => document.activeElement?.blur());
-    await e.key('g');
-    await e.until(() => /2 changes are waiting/.test(document.querySelector('.banner').textContent));
-    await pick(car.id);
-    await stage.program.run();
-    await e.page.waitForSelector('.banner', { state: 'detached' });
-    await e.until(() =>
-      /The generator is back\. 2 changes computed/.test(document.querySelector('.toast')?.textContent ?? ''),
-    );
-    await e.settled();
-    const last = e.wire.last();
-    assert.equal(last.body.react, true);
-    assert.ok(last.event('final').samples[0].agents[car.id]);
-    assert.match(await e.text('.hint'), /^(Reached|Only)/);
-  });
+  it(
+    'keeps working while the generator is unreachable, and catches up when it is back',
+    { timeout: 60_000 },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      const car = await carOnTheMove(e);
+      await e.page.mouse.click(...car.from);
+      await e.page.waitForSelector('.fu');
+      await e.settled();
+      await stage.program.kill();
+      const to = [car.to[0] + (car.from[0] - car.to[0]) * 0.3 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.3 - 26];
+      await e.drag([car.to[0] + 9, car.to[1] - 26], to);
+      await e.page.waitForSelector('.banner');
+      assert.match(await e.text('.banner'), /The generator is not answering\. Nothing is lost\./);
+      const during = await e.goal();
+      await e.page.mouse.move(to[0] + (car.from[0] - car.to[0]) * 0.15, to[1] + (car.from[1] - car.to[1]) * 0.15, {
+        steps: 6,
+      });
+      await e.until(() => /sketch/.test(document.querySelector('aside.insp').textContent));
+      await e.frames(2);
+      assert.notDeepEqual(await e.goal(), during, 'the flag still follows the hand');
+      await e.page.mouse.up();
+      await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));
+      await e.picture('generator-away');
+      // A newly selected road user has a plain sketch, and G sets its goal there.
+      const pick = (id) => e.page.locator(`[data-agent="${id}"]`).evaluate((el) => el.click());
+      const other = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.id !== car.id && u.speed > 2.5);
+      await pick(other.id);
+      await e.page.evaluate(() => document.activeElement?.blur());
+      await e.key('g');
+      await e.until(() => /2 changes are waiting/.test(document.querySelector('.banner').textContent));
+      await pick(car.id);
+      await stage.program.run();
+      await e.page.waitForSelector('.banner', { state: 'detached' });
+      await e.until(() =>
+        /The generator is back\. 2 changes computed/.test(document.querySelector('.toast')?.textContent ?? ''),
+      );
+      await e.settled();
+      const last = e.wire.last();
+      assert.equal(last.body.react, true);
+      assert.ok(last.event('final').samples[0].agents[car.id]);
+      assert.match(await e.text('.hint'), /^(Reached|Only)/);
+    },
+  );
 });

@@ -1,10 +1,10 @@
-// A map filled with traffic: seen before it is added, in an area drawn by hand; the good ones stay when others come.
+// A map filled with traffic: previewed before it is added, in a drawn area; pinned ones stay when others change.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { journeys } from '../support/journey.js';
 import { emptyScene } from '../support/maps.js';
 
-/** Who would come: `{ kind, x, y, pinned, later }`, as the list for screen readers says. */
+/** The preview: `{ kind, x, y, pinned, later }`, from the list for screen readers. */
 const preview = (e) =>
   e.page.locator('[data-preview]').evaluateAll((all) =>
     all.map((b) => {
@@ -38,7 +38,7 @@ const ARM = [
   [12, 12],
 ];
 
-/** Draws round an area with the mouse held down. */
+/** Draws an outline with the mouse held down. */
 async function draw(e, area) {
   const { mouse } = e.page;
   await mouse.move(...(await e.at(...area[0])));
@@ -69,7 +69,7 @@ const start = async (e) => {
   await e.settled();
 };
 
-/** Where everybody stands, by their ids. */
+/** Positions of all road users, by id. */
 async function places(e) {
   const { agents } = await stored(e);
   return new Map(
@@ -80,7 +80,7 @@ async function places(e) {
   );
 }
 
-/** The scene that is open, as the server has it. */
+/** The open scene, as the server has it. */
 async function stored(e) {
   await e.until(() => document.querySelector('.title small').textContent === 'Saved');
   const { scenes } = await e.get('/v1/scenes');
@@ -96,7 +96,7 @@ async function ownCopy(e) {
 }
 
 journeys('filling', (stage) => {
-  it('shows who would come to an area drawn by hand, and adds them as one step', { timeout: 90_000 }, async () => {
+  it('previews road users in a drawn area, and adds them as one step', { timeout: 90_000 }, async () => {
     const e = await begin(stage);
     const before = await count(e);
     await start(e);
@@ -119,7 +119,7 @@ journeys('filling', (stage) => {
     assert.equal(await count(e), before, 'nobody is added before Enter');
     assert.match(await e.text('.status'), /nothing added yet/);
     await e.picture('filling');
-    // Only those on foot and on bicycles.
+    // Only pedestrians and cyclists.
     for (const kind of ['Cars', 'Trucks, buses', 'Motorcycles']) await slide(e, kind, 0);
     const soft = await preview(e);
     assert.ok(soft.length > 0 && soft.every((p) => ['cyclist', 'pedestrian'].includes(p.kind)), JSON.stringify(soft));
@@ -167,7 +167,7 @@ journeys('filling', (stage) => {
       );
       assert.ok(same.length < first.length, 'the others stand elsewhere');
       assert.equal(second.length, first.length, 'as many as before');
-      // Let go of, with the first seed typed in, it is the first draw again.
+      // Unpinned, with the first seed typed in, it is the first draw again.
       await e.page.mouse.click(...(await e.at(good.x, good.y)));
       const field = e.page.locator('[aria-label="Seed for filling"]');
       await field.fill(seed);
@@ -190,7 +190,7 @@ journeys('filling', (stage) => {
     },
   );
 
-  it('makes room where that is wanted, but for those who are locked', { timeout: 90_000 }, async () => {
+  it('replaces road users on request, except locked ones', { timeout: 90_000 }, async () => {
     const e = await begin(stage);
     await ownCopy(e);
     const was = await places(e);
@@ -219,7 +219,7 @@ journeys('filling', (stage) => {
     assert.deepEqual(await ids(), present);
   });
 
-  it('fills a map with nobody on it, corner by corner and as a whole', { timeout: 90_000 }, async () => {
+  it('fills an empty map, corner by corner and as a whole', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const { bytes } = await emptyScene(e);
@@ -269,7 +269,7 @@ journeys('filling', (stage) => {
       });
       const { arms } = await said.json();
       assert.equal(await e.page.locator('.filling .arms input').count(), arms.length);
-      // The knob of an arm without traffic lies 34 px inside the map's edge; 55 px outward is half of what it takes.
+      // The knob of an arm without traffic is 34 px inside the map's edge; 55 px outward is half of its capacity.
       const arm = arms.find((a) => a.id === 'east');
       const [x, y] = await e.at(arm.x_m, arm.y_m);
       const [ox, oy] = [-Math.cos(arm.heading_rad), Math.sin(arm.heading_rad)];
@@ -288,7 +288,7 @@ journeys('filling', (stage) => {
       await e.picture('arms');
       await e.page.locator('.filling [data-action="fill-add"]').click();
       await e.settled();
-      // The list has those who are there: the others come in while the scene plays.
+      // The list has only present road users: the others arrive during playback.
       assert.ok(shown.some((p) => p.later));
       assert.equal(await count(e), shown.filter((p) => !p.later).length);
       await e.key('Control+z');

@@ -1,4 +1,4 @@
-// The first minute once more, in Firefox: what is drawn by a worker, dragged and streamed there is the same program.
+// The first minute again, in Firefox: painting by a worker, dragging and streaming work the same.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -9,7 +9,7 @@ import { Pixels } from '../support/pixels.js';
 journeys(
   'the first minute in Firefox',
   (stage) => {
-    it('is looked at, clicked, dragged, played and undone', { timeout: 90_000 }, async () => {
+    it('is viewed, clicked, dragged, played and undone', { timeout: 90_000 }, async () => {
       const e = await stage.open();
       assert.equal(await e.page.inputValue('.title input'), 'Rosa & 5th');
       await e.begin();
@@ -19,7 +19,7 @@ journeys(
       await e.settled();
       assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
       const before = await e.goal();
-      // The canvases are painted by a worker: what the page's elements say does not show that.
+      // A worker paints the canvases: the page's elements do not show the result.
       const pixels = await Pixels.open(stage.browser);
       const still = await e.picture('firefox-selected');
       const flag = await e.at(car.end.x, car.end.y);

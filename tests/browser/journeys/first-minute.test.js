@@ -1,4 +1,4 @@
-// The first minute: look, click a car, drag its goal, let go.
+// The first minute: look, click a car, drag its goal, release.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -6,7 +6,7 @@ import { distance } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 import { Wire } from '../support/wire.js';
 
-/** Scripts, style, font, the scene and the small pictures of all examples, as they travel. */
+/** Scripts, style, font, the scene and the thumbnails of all examples, as transferred. */
 const MOST_BYTES_AT_FIRST = 400_000;
 
 journeys('the first minute', (stage) => {
@@ -26,7 +26,7 @@ journeys('the first minute', (stage) => {
     await e.until(() => document.querySelector('.tm').textContent.startsWith('0.0'));
     await e.settled();
     await e.picture('first-view');
-    // All of it, small pictures too, before anything is done.
+    // All of it, thumbnails too, before any action.
     const pictures = () => document.querySelectorAll('.scn canvas[data-done]').length >= 5;
     await e.until(pictures);
     assert.ok(e.wire.bytes < MOST_BYTES_AT_FIRST, `${e.wire.bytes} bytes were loaded`);
@@ -66,14 +66,14 @@ journeys('the first minute', (stage) => {
     );
     const sum = rows.reduce((s, r) => s + r.share, 0);
     assert.ok(Math.abs(sum - 100) <= 3, `shares add up to ${sum} %`);
-    // What was worked out once is not asked for again.
+    // A known answer is not requested again.
     const asked = e.wire.asked.findLast((a) => a.body.agents?.includes(car.id));
     const modes = asked.event('final').samples[0].agents[car.id].modes;
     assert.ok(Math.abs(modes.reduce((s, m) => s + m.probability, 0) - 1) < 1e-6);
     await e.picture('selected');
   });
 
-  it('steers a goal flag: futures follow the hand, and so do the others', { timeout: 60_000 }, async () => {
+  it('steers a goal flag: futures follow the drag, and the others react', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -104,15 +104,15 @@ journeys('the first minute', (stage) => {
       `rising revisions: ${revisions}`,
     );
     assert.ok(Wire.crowd(previews) <= 3, 'at most one on the way beside the two it passes');
-    // What the others would do is asked on a line of its own, and last about where the flag is now.
+    // Reactions are requested on a connection of their own, the last one for the present place of the flag.
     assert.ok(foreseen.length && Wire.crowd(foreseen) <= 2, 'at most one on the way beside the one it replaces');
     assert.ok(foreseen.every((a) => a.body.client !== previews[0].body.client));
     assert.deepEqual(foreseen.at(-1).body.conditions, previews.at(-1).body.conditions);
     const wouldChange = await e.page.locator('.foreseen .ch').allInnerTexts();
-    // The line is not read sixty times a second, but follows.
+    // The status line is not updated sixty times a second, but follows.
     const heard = (await said()).filter((words) => /(?:First guess|Refining|Six futures).* ms/.test(words));
     assert.ok(new Set(heard).size > 2, heard.join('; '));
-    // Of first guess and steps as many as a screen can show before the answer: none where that comes at once.
+    // As many drafts as a screen can show before the answer: none where that comes at once.
     for (const names of previews.map((a) => a.events().map((v) => `${v.event} ${v.step ?? ''}`.trim()))) {
       const drawn = names.filter((name) => /initial|step/.test(name));
       assert.deepEqual(drawn, [...new Set(drawn)].sort(), 'no step comes twice or late');

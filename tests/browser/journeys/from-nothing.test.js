@@ -1,11 +1,11 @@
-// A map with nobody on it becomes a scene: placing, goals, what happens, and all of it kept.
+// An empty map becomes a scene: placing, goals, events, all of it saved.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { distance } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 import { along, boxOf, emptyScene, lanesBeside } from '../support/maps.js';
 
-/** The crossing of the examples with nobody on it, opened from a file as one's own scene. */
+/** The example crossing without road users, opened from a file as an own scene. */
 async function openEmpty(e) {
   await e.begin();
   const { json, bytes } = await emptyScene(e);
@@ -18,7 +18,7 @@ async function openEmpty(e) {
 
 const saved = (e) => e.until(() => document.querySelector('.title small').textContent === 'Saved');
 
-/** The scene that is open, as the server has it. */
+/** The open scene, as the server has it. */
 async function stored(e) {
   const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
   const { scenes } = await get('/v1/scenes');
@@ -26,7 +26,7 @@ async function stored(e) {
   return get(`/v1/scenes/${scenes.find((s) => s.name === name && !s.readonly).id}`);
 }
 
-/** The cursor leaves the field that it is in: keys are the picture's again. */
+/** Removes the focus from a field: keys go to the picture again. */
 const leaveField = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
 
 const clickAt = async (e, x, y) => {
@@ -37,7 +37,7 @@ const clickAt = async (e, x, y) => {
 };
 
 journeys('from nothing', (stage) => {
-  it('a cut-in: two cars, a goal in the other lane, and all of it kept', { timeout: 120_000 }, async () => {
+  it('a cut-in: two cars, a goal in the other lane, all of it saved', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     const { a, b } = lanesBeside(await openEmpty(e));
     assert.match(await e.text('.nobody'), /No road users yet/);
@@ -49,7 +49,7 @@ journeys('from nothing', (stage) => {
     const [first] = await e.roadUsers();
     assert.equal(first.kind, 'Car');
     await e.picture('placed');
-    // A little ahead in the lane beside, and still in hand: several in a row.
+    // A little ahead in the adjacent lane, with the same tool: several in a row.
     await clickAt(e, ...along(b, 16));
     const [, second] = await e.roadUsers();
     await e.key('Escape');
@@ -61,7 +61,7 @@ journeys('from nothing', (stage) => {
     const box = e.page.locator('[data-agent]');
     assert.equal(await box.count(), 2);
 
-    // The one ahead comes over into the lane of the faster one.
+    // The one ahead changes into the lane of the faster one.
     await e.choose(second.id);
     const ahead = await e.pose('Start');
     assert.ok(Math.abs(distance(behind, ahead) - Math.hypot(8, 3.4)) < 3, `${distance(behind, ahead)} m apart`);
@@ -71,7 +71,7 @@ journeys('from nothing', (stage) => {
     await e.type('goal-time', '5');
     const answer = e.wire.last().event('final');
     assert.ok(answer.samples[0].agents[second.id], 'the one with the goal is worked out');
-    // Good is said of the future that is shown alone, and only where nothing is wrong with it.
+    // The headline is good only for the shown future, and only without faults.
     const { modes, chosen } = answer.samples[0].agents[second.id];
     const said = e.page.locator('.hint').first();
     const wrong = (modes[chosen].faults ?? []).map((f) => f.kind);
@@ -87,7 +87,7 @@ journeys('from nothing', (stage) => {
     const words = await e.text('.status');
     assert.ok(events > 0 || /futures|near|collision|rule/i.test(words), words);
 
-    // One that collides, picked, is a collision in the headline too, unless the other gives way to it.
+    // A picked future with a collision has it in the headline too, unless the other one gives way.
     const collides = e.page.locator('.fu:has(.mk.collision)').first();
     if (await collides.count()) {
       await collides.click();
@@ -99,7 +99,7 @@ journeys('from nothing', (stage) => {
       await e.settled();
     }
 
-    // Its pennant stays when somebody else is selected, and leads back to it.
+    // Its pennant stays when another road user is selected, and leads back to it.
     await leaveField(e);
     await e.key('z');
     await e.settled();
@@ -111,7 +111,7 @@ journeys('from nothing', (stage) => {
     await e.settled();
     assert.equal(await e.text('.ih h2'), second.name);
 
-    // Played, both move from the first moment.
+    // In playback both move from the first moment.
     await leaveField(e);
     await e.key('Space');
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 1);
@@ -135,10 +135,10 @@ journeys('from nothing', (stage) => {
     assert.deepEqual(await e.inspector(), before);
   });
 
-  it('a crowd at a crosswalk, and a cyclist who passes through it', { timeout: 120_000 }, async () => {
+  it('a crowd at a crosswalk, and a cyclist that passes through it', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     const { map } = await openEmpty(e);
-    // The crosswalk on the right-hand side: it lies clear of all panels.
+    // The crosswalk on the right-hand side, clear of all panels.
     const walk = map.crosswalks.map((c) => boxOf(c.polygon_m)).sort((p, q) => q.x0 - p.x0)[0];
     await e.key('6');
     await e.page.getByRole('radio', { name: 'Over an area' }).click();
@@ -192,7 +192,7 @@ journeys('from nothing', (stage) => {
     await e.type('goal-pos', gy.toFixed(1), 1);
 
     await leaveField(e);
-    // Everybody at once: who comes closest to whom, and when.
+    // All at once: the closest two, and when.
     await e.key('Control+a');
     await e.settled();
     assert.match(await e.text('.ih'), /21 road users/);

@@ -1,16 +1,16 @@
-// Goals that cannot be, values typed and handles turned, and the way back.
+// Unreachable goals, typed values and turned handles, and undo.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove, cyclistOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
 import { distance, turn } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
-/** Pixels from the rear of a box to the knob that turns it, and from its nose to where the speed arrow begins. */
+/** Pixels from the rear of a box to its turning knob, and from its nose to the start of the speed arrow. */
 const STALK = 24,
   GAP = 5;
 const SHORTEST_RIDER_PX = 17;
 
-/** Half way along the future of somebody that the generator shows, in metres. */
+/** Half way along a road user's shown future, in metres. */
 async function middleOf(e, { id }) {
   const answer = e.wire.asked.findLast((a) => a.event('final')?.samples[0].agents[id]).event('final');
   const { chosen, modes } = answer.samples[0].agents[id];
@@ -19,7 +19,7 @@ async function middleOf(e, { id }) {
 }
 
 journeys('goals and values', (stage) => {
-  it('says why a goal is out of reach and mends it with one click, in German too', { timeout: 90_000 }, async () => {
+  it('explains an unreachable goal and fixes it with one click, in German too', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -48,8 +48,8 @@ journeys('goals and values', (stage) => {
       await e.settled();
       const hints = (await e.page.locator('.hint').allInnerTexts()).join(' | ');
       assert.doesNotMatch(hints, /Too far|Out of reach/, `${way.replace(/\s+/g, ' ')} mends it`);
-      // The first whole answer is to the click: what lies under the pointer afterwards is tried, too. Somebody may
-      // stand in the way of who comes sooner; its own motion no longer does.
+      // The first complete answer is to the click: the button under the pointer afterwards is tried too. Another road
+      // user may block an earlier arrival; its own motion no longer does.
       const answer = e.wire.since(mark).flatMap((a) => a.event('final') ?? [])[0];
       const { status, limiting } = answer.resolved[car.id].reach;
       assert.ok(status !== 'unreachable' || limiting === 'traffic', `${way}: ${limiting}`);
@@ -94,7 +94,7 @@ journeys('goals and values', (stage) => {
       assert.ok(answered().passed, JSON.stringify(answered()));
       assert.match(await e.text('.toast'), new RegExp(`Via point of ${car.name} added`));
 
-      // To the side by hand: the futures follow.
+      // Dragged to the side: the futures follow.
       const at = await e.at(asked().x_m, asked().y_m);
       const heading = car.start.heading;
       const side = await e.at(asked().x_m - 1.2 * Math.sin(heading), asked().y_m + 1.2 * Math.cos(heading));
@@ -188,13 +188,13 @@ journeys('goals and values', (stage) => {
   });
 });
 
-/** The identifier of the one scene that is the visitor's own. */
+/** Id of the visitor's only own scene. */
 async function own(e) {
   const list = await (await e.page.request.get(new URL('/v1/scenes', e.page.url()).href)).json();
   return list.scenes.find((s) => !s.readonly).id;
 }
 
-/** What the server keeps of what the user decided, once saving is done. */
+/** The user's conditions on the server, once saving is done. */
 async function stored(e, id) {
   await e.until(() => document.querySelector('.title small').textContent === 'Saved');
   const scene = await (await e.page.request.get(new URL(`/v1/scenes/${id}`, e.page.url()).href)).json();
@@ -203,7 +203,7 @@ async function stored(e, id) {
   );
 }
 
-/** Undoes or redoes until there is nothing left; the number of steps. */
+/** Undoes or redoes until none is left; returns the number of steps. */
 async function all(e, action, key) {
   const off = () => e.page.locator(`header [data-action="${action}"]`).getAttribute('aria-disabled');
   let n = 0;

@@ -1,4 +1,4 @@
-// What was done stands in a list: a click goes there, what is left by it stays as a branch, and the view comes along.
+// The history is a list: a click goes to a step, abandoned steps stay as a branch, and the view follows.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -7,7 +7,7 @@ import { journeys } from '../support/journey.js';
 const time = (e) => e.value('goal-time');
 
 journeys('history', (stage) => {
-  it('goes to any step and keeps what was left', { timeout: 60_000 }, async () => {
+  it('goes to any step and keeps the abandoned ones', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -39,7 +39,7 @@ journeys('history', (stage) => {
     assert.equal(await e.page.locator('.past .named b').innerText(), 'In a hurry');
   });
 
-  it('brings the view back with undo, and shows the way back from nowhere', { timeout: 60_000 }, async () => {
+  it('restores the view with undo, and offers a way back to the scene', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -48,7 +48,7 @@ journeys('history', (stage) => {
     await e.settled();
     const before = await e.view();
     await e.drag([car.to[0] + 9, car.to[1] - 26], [before.box.x + 4, before.box.y + 300], { moves: 4 });
-    // At the edge the picture moves on by itself.
+    // At the edge the picture scrolls.
     await e.until(
       ([x, z]) => Math.abs(Number(document.querySelector('main.stage').dataset.view.split(' ')[0]) - x) * z > 30,
       [before.cx, before.zoom],

@@ -1,11 +1,11 @@
-// What the editor makes of a scene in which somebody runs into somebody.
+// The editor at a scene with a collision.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carBehindAnother } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
 journeys('judging', (stage) => {
-  it('marks a collision on the timeline, lists it and leads to it', { timeout: 60_000 }, async () => {
+  it('marks a collision on the timeline, lists it and goes to it', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const { car, obstacle } = await carBehindAnother(e);
@@ -29,7 +29,7 @@ journeys('judging', (stage) => {
     assert.match(await e.text('aside.insp'), /Collision at \d\.\d s[\s\S]*Remedies/);
     await e.settled();
     await e.picture('events');
-    // What counts is the scene's own: harder to be hard, and as usual again.
+    // Thresholds belong to the scene: a higher one for hard braking, then the usual one again.
     const harsh = e.page.locator('[data-field="threshold-harsh-brake-mps2"]');
     assert.equal(await harsh.inputValue(), '4.0');
     const mark = e.wire.asked.length;

@@ -1,4 +1,4 @@
-// Nothing that was made is lost: a tab that is killed, two tabs at one scene, a full disk, two versions of a scene.
+// No work is lost: a killed tab, two tabs at one scene, a full disk, two versions of a scene.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -14,20 +14,20 @@ const undo = async (e) => {
 /** Waits until the inspector shows this goal time. */
 const shows = (e, time) => e.until((t) => document.querySelector('[data-field="goal-time"]')?.value === t, time);
 
-/** What the panel says of the selected one, and its six futures. */
+/** The panel's text on the selected one, and its six futures. */
 const said = async (e) => [
   (await e.value('goal-pos', 0)) + (await e.text('.insp .hint')),
   ...(await e.page.locator('.fu').allInnerTexts()),
 ];
 
 journeys('keeping', (stage) => {
-  it('shows after a killed tab the very futures that the hand had left', { timeout: 60_000 }, async () => {
+  it('shows exactly the same futures after a killed tab', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
     await e.choose(car.id);
     const flag = (share) => [0, 1].map((i) => car.to[i] + (car.from[i] - car.to[i]) * share + [9, -26][i]);
-    // Many moves: each question of a drag goes on from what the one before has shown.
+    // Many moves: each question of a drag continues from the futures shown before.
     await e.drag(flag(0), flag(0.4), { moves: 30 });
     await e.release();
     await e.settled();
@@ -93,7 +93,7 @@ journeys('keeping', (stage) => {
     await shows(b, '8.0');
     await b.type('goal-time', '5.0');
     await shows(b, '8.0');
-    // What one tab does the other shows.
+    // Changes of one tab appear in the other.
     await a.page.bringToFront();
     await a.type('goal-time', '7.0');
     await b.page.bringToFront();
@@ -106,7 +106,7 @@ journeys('keeping', (stage) => {
     await a.page.bringToFront();
     await shows(a, '6.0');
     assert.match(await a.text('.banner'), READ_ONLY);
-    // The tab that is left gets it when the other goes.
+    // The remaining tab gets the scene when the other closes.
     await b.page.close();
     await a.page.waitForSelector('.banner', { state: 'detached' });
     await undo(a);
@@ -115,7 +115,7 @@ journeys('keeping', (stage) => {
     await shows(a, '8.0');
   });
 
-  it('says when there is no room, and keeps all when there is again', { timeout: 60_000 }, async () => {
+  it('reports full storage, and saves everything when there is room again', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -170,7 +170,7 @@ journeys('keeping', (stage) => {
       assert.equal(await e.page.inputValue('.title input'), 'Mine');
       await e.until(() => /^Saved$/.test(document.querySelector('.title small').textContent));
       assert.equal((await e.get(`/v1/scenes/${own.id}`)).name, 'Mine');
-      // Deleted it can be brought back as it was.
+      // A deleted scene can be restored unchanged.
       const { id } = own;
       const listed = async () => (await e.get('/v1/scenes')).scenes.some((s) => s.id === id);
       const before = await e.get(`/v1/scenes/${id}`);

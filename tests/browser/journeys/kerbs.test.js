@@ -1,11 +1,11 @@
-// A goal on the other side of a median: the flag is held back, and there are ways out.
+// A goal on the other side of a median: the flag is held back, and there are remedies.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carBesideMedian } from '../support/casting.js';
 import { distance } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
-/** The furthest that a flag lags behind, and what rounding of shown values may add, pixels. */
+/** Longest lag of a flag, and the rounding of shown values, pixels. */
 const LAG_PX = 24,
   ROUNDING_PX = 2;
 
@@ -26,7 +26,7 @@ journeys('kerbs', (stage) => {
 
     await e.drag(await flag(car.end), await flag(across));
     await e.until(() => document.querySelector('.helpbar')?.textContent.includes('while a kerb is in the way'));
-    // The panel says where the flag is a moment later than the picture.
+    // The panel shows the flag's place a moment later than the picture.
     await e.settled();
     assert.ok(Math.abs((await behind()) - LAG_PX) < ROUNDING_PX, `${await behind()} px behind the hand`);
     await e.picture('kerb-held');
@@ -64,7 +64,7 @@ journeys('kerbs', (stage) => {
     }
     await e.picture('by-road');
 
-    // Leave is offered where the answer names the edges that are gone over, and only there.
+    // Permission is offered only where the answer names the crossed edges.
     const { modes, chosen } = answer.samples[0].agents[car.id];
     const edges = [...new Set(modes[chosen].faults.flatMap((f) => f.edge ?? []))];
     const leave = e.page.getByRole('button', { name: /^Allow crossing this/ });
@@ -79,7 +79,7 @@ journeys('kerbs', (stage) => {
     await leave.waitFor();
   });
 
-  it('takes the way by the road in the middle of a drag, as one step', { timeout: 60_000 }, async () => {
+  it('takes the way by the road during a drag, as one step', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const { car, across } = await carBesideMedian(e);

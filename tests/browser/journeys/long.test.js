@@ -1,4 +1,4 @@
-// More than 9 s: planned window after window, shown and played as one.
+// More than 9 s: planned window by window, shown and played as one.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -7,7 +7,7 @@ import { journeys } from '../support/journey.js';
 const chosenOf = (futures) => futures.modes[futures.chosen];
 
 journeys('long', (stage) => {
-  it('works out 20 s, plans anew each 6 s, and plays them to the end', { timeout: 120_000 }, async () => {
+  it('plans 20 s, replans every 6 s, and plays them to the end', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.page
@@ -23,7 +23,7 @@ journeys('long', (stage) => {
     const final = e.wire.last().event('final');
     assert.equal(final.windows, 4);
     for (const [id, futures] of Object.entries(final.samples[0].agents)) {
-      // Who comes in later begins later; all go on to the end.
+      // Late arrivals start later; all continue to the end.
       const { first_step: first, x_m: x } = chosenOf(futures);
       assert.equal(first + x.length, 201, id);
     }
@@ -32,7 +32,7 @@ journeys('long', (stage) => {
     const car = await carOnTheMove(e);
     await e.choose(car.id);
     await e.picture('long-selected');
-    // A goal late in the scene is met there.
+    // A goal late in the scene is reached there.
     await e.key('g');
     await e.settled();
     await e.type('goal-time', '16');
@@ -53,7 +53,7 @@ journeys('long', (stage) => {
     await e.key('Space');
     await e.until(() => document.querySelector('.tm').textContent.startsWith('20.0 s'));
 
-    // Another future is picked: it is kept as it was shown, and goes on by itself after its 9 s.
+    // Another future is picked: its shown part is kept, and continued past 9 s.
     await e.key('Home');
     await e.key('Shift+g');
     await e.settled();

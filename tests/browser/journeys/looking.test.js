@@ -1,15 +1,15 @@
-// What a look is enough for: futures that play under the pointer, ways out that are tried, layers that are remembered.
+// Viewing: futures that play under the pointer, tried remedies, stored layers.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** The picture without the panels, as it is painted. */
+/** The painted picture without the panels. */
 const picture = async (e) =>
   (await e.page.locator('main.stage').screenshot({ animations: 'disabled' })).toString('base64');
 const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
 
-/** The same without what stands along its lower edge and tells of the scene. */
+/** The same without the elements along its lower edge. */
 const painting = async (e) => {
   const { x, y, width, height } = await e.page.locator('main.stage').boundingBox();
   const clip = { x, y, width, height: height - 64 };
@@ -33,7 +33,7 @@ journeys('looking', (stage) => {
     const row = e.page.locator('.fu[data-future="B"]');
     await row.hover();
     const seen = new Set();
-    // It runs by itself: nothing is asked, the playhead stays, and the picture is another each time.
+    // It runs without requests; the playhead stays, and each picture differs.
     const asked = e.wire.asked.length;
     while (seen.size < 3) {
       seen.add(await picture(e));
@@ -68,7 +68,7 @@ journeys('looking', (stage) => {
     assert.equal(await painting(e), before);
   });
 
-  it('shows where it ends, and nothing that moves, to those who like it calm', { timeout: 60_000 }, async () => {
+  it('shows its end, without movement, with reduced motion', { timeout: 60_000 }, async () => {
     const { e } = await selected(stage, { reducedMotion: 'reduce' });
     const before = await picture(e);
     await e.page.locator('.fu[data-future="B"]').hover();
@@ -79,7 +79,7 @@ journeys('looking', (stage) => {
     assert.equal(await picture(e), shown);
   });
 
-  it('tries a way out while the pointer is on it, and makes it as one step', { timeout: 90_000 }, async () => {
+  it('tries a remedy while the pointer is on it, and takes it as one step', { timeout: 90_000 }, async () => {
     const { e, car } = await selected(stage, { reducedMotion: 'reduce' });
     await e.key('g');
     await e.settled();
@@ -117,10 +117,10 @@ journeys('looking', (stage) => {
     assert.deepEqual(await e.goal(), goal, 'one step back');
   });
 
-  it('shows limits, reach and conflict zones, and remembers what is shown', { timeout: 60_000 }, async () => {
+  it('shows limits, reach and conflict zones, and stores the shown layers', { timeout: 60_000 }, async () => {
     const { e } = await selected(stage, { reducedMotion: 'reduce' });
     const pressed = (name) => e.page.locator(`.menu [data-action="layer-${name}"]`).getAttribute('aria-pressed');
-    // Who turns in the crossing has its way crossed by others.
+    // The path of a turning car is crossed by others.
     const turning = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.speed > 2 && /turning left/.test(u.words));
     await e.choose(turning.id);
     await leave(e);
@@ -148,7 +148,7 @@ journeys('looking', (stage) => {
       'true',
       'false',
     ]);
-    // Several are switched without the menu being opened again; Esc closes it.
+    // Several are switched while the menu stays open; Esc closes it.
     await e.page.locator('.menu [data-action="layer-signals"]').click();
     await e.page.locator('.menu [data-action="layer-reach"]').click();
     assert.deepEqual([await pressed('signals'), await pressed('reach')], ['true', 'false']);

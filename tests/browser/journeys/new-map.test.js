@@ -1,4 +1,4 @@
-// A map from a template: chosen, bent to one's liking, used, filled, and driven on.
+// A map from a template: chosen, edited, used, filled, and driven on.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { journeys } from '../support/journey.js';
@@ -6,7 +6,7 @@ import { knobOfArm } from '../support/maps.js';
 
 const making = (e) => e.page.evaluate(() => document.querySelector('.stage').getAttribute('aria-busy') === 'false');
 
-/** The map that was asked for last is on the picture. */
+/** The last requested map is on the picture. */
 async function drawn(e) {
   await e.frames(2);
   await e.until(() => /lanes? · \d+ crosswalks? · \d+ ms/.test(document.querySelector('.status')?.textContent ?? ''));
@@ -39,7 +39,7 @@ journeys('new map', (stage) => {
     assert.ok((await checks(e)).includes('Every lane leads somewhere'));
     await e.picture('new-map');
 
-    // The arm to the north is turned by its knob, and sticks at nothing on the way.
+    // The arm to the north is turned by its knob, without snapping on the way.
     await e.key(']');
     assert.equal(await angle(e), 92);
     const knob = await knobOfArm(e, 1);
@@ -54,7 +54,7 @@ journeys('new map', (stage) => {
     await drawn(e);
     assert.equal(await angle(e), 71);
 
-    // A way is pulled from its stop line to the exit in the east, and taken away; undone, it is back.
+    // A way is drawn from its stop line to the exit in the east, and removed; undo restores it.
     const { arms } = await e.page.evaluate(async () => {
       const body = { template: 'four-arms', parameters: {} };
       const ask = async () =>
@@ -95,7 +95,7 @@ journeys('new map', (stage) => {
     await drawn(e);
     assert.equal(await rows.count(), ways + 1);
 
-    // Too near to the one in the east: refused in words, and the arm goes back to where a map could be drawn.
+    // Too near to the one in the east: refused in words, and the arm returns to its last drawable place.
     await e.type('layout-arms.angle_deg', '10');
     await e.until(() => /Arms need 20° between them/.test(document.querySelector('.checks').textContent));
     assert.equal(await angle(e), 71);
@@ -105,7 +105,7 @@ journeys('new map', (stage) => {
     await e.type('layout-arms.angle_deg', '71');
     await drawn(e);
 
-    // Esc lets go of the field, of the way that is picked, and of the map; a press brings that back.
+    // Esc leaves the field, then the selected way, then the map; a button reopens it.
     for (let presses = 0; presses < 3; presses++) await e.key('Escape');
     await e.page.waitForSelector('.templates', { state: 'detached' });
     await e.page.getByRole('button', { name: 'Keep editing' }).click();
@@ -113,7 +113,7 @@ journeys('new map', (stage) => {
     assert.equal(await e.page.locator('.ways li').count(), ways + 1);
     assert.equal(await angle(e), 71);
 
-    // So does a scene that is opened in between.
+    // So does another scene opened in between.
     await e.key('Control+k');
     await e.page.keyboard.type('School street');
     await e.page.keyboard.press('Enter');
@@ -139,7 +139,7 @@ journeys('new map', (stage) => {
     assert.ok(scene.map.lanes.some((lane) => lane.id === 'arm2.in1-arm1.out2'));
     assert.ok(scene.signals.length > 8);
 
-    // Filled, and somebody is taken by the hand.
+    // Filled, and one car is dragged.
     await e.key('d');
     await e.page.waitForSelector('.filling');
     await e.settled();
@@ -157,7 +157,7 @@ journeys('new map', (stage) => {
     assert.ok(before && (await e.page.locator('.fu[data-future]').count()) >= 1, 'it has futures');
     await e.picture('new-map-driven');
 
-    // The map can be changed later; the scene that it was made for stays.
+    // The map can be edited later; the scene it was made for stays.
     await e.key('Escape');
     await e.key('Control+k');
     await e.page.keyboard.type('Change the map');

@@ -1,10 +1,10 @@
-// Another of the six is picked: who meets it answers it, and nobody else does anything new.
+// Another of the six is picked: road users that meet it react, and no others change.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carBehindAnother } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** How everybody but `id` drives in the scene that a question is about; whom they meet may change with `id`. */
+/** Motions of all except `id` in the scene of a question; those they meet may change with `id`. */
 const driving = ({ body }, id) =>
   new Map(
     Object.entries(body.scene?.generated?.samples[0].agents ?? {})
@@ -13,7 +13,7 @@ const driving = ({ body }, id) =>
   );
 
 journeys('picking', (stage) => {
-  it('asks for the picked future alone, and changes those that answer it', { timeout: 90_000 }, async () => {
+  it('requests only the picked future, and changes road users that react to it', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const { car, obstacle } = await carBehindAnother(e);
@@ -38,7 +38,7 @@ journeys('picking', (stage) => {
       }
       const answer = Object.entries(asked.event('final').samples[0].agents).filter(([id]) => id !== car.id);
       for (const [id, f] of answer) assert.ok(f.reaction?.cause, `${id} says whom it answers`);
-      // Who answered the one before and has nothing to answer now is said, too.
+      // A road user that no longer reacts is listed too.
       const changes = await e.page.locator('.ch').allInnerTexts();
       const listed = changes.filter((words) => !words.includes('no longer reacts'));
       assert.ok(listed.length <= answer.length, 'who is listed has answered');
@@ -46,7 +46,7 @@ journeys('picking', (stage) => {
       sent = now;
       answered = answer.map(([id]) => id);
     }
-    // What is pinned stays while others are drawn, and is taken again with the goal that it was made for.
+    // A pinned future stays when others are drawn, and is taken again with its goal.
     const code = await e.text('.btn.code');
     assert.match(code, /^[0-9A-Z]{6}$/);
     const goal = await e.goal();

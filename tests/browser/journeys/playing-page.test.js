@@ -27,7 +27,7 @@ describe('a page that plays', { skip: missing() }, () => {
     rmSync(folder, { recursive: true, force: true });
   });
 
-  it('plays, halts and is scrubbed by keys, and asks nobody for anything', { timeout: 60_000 }, async () => {
+  it('plays, pauses and is scrubbed by keys, without any request', { timeout: 60_000 }, async () => {
     const page = await browser.newPage();
     const asked = [];
     const errors = [];

@@ -1,4 +1,4 @@
-// By a screen reader: the accessibility tree, keys, and what is said aloud. Nothing is seen, and no pointer moves.
+// With a screen reader: the accessibility tree, keys, and spoken messages. No picture, no pointer.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -42,7 +42,7 @@ journeys('by a screen reader', (stage) => {
     const e = await stage.open();
     await e.begin();
     const { hears } = await ear(e);
-    /** What the inspector says of it, as a pattern. */
+    /** The inspector's verdict, as a pattern. */
     const verdict = async () => {
       const words = await e.text('.hint b, .hint button.to');
       return new RegExp(words.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
@@ -53,7 +53,7 @@ journeys('by a screen reader', (stage) => {
     await hears(new RegExp(`${car.name} selected|Six futures`));
     await e.settled();
     await hears(/Six futures\. Most likely: .+, \d+ percent/);
-    // The goal where the likeliest future ends, and a little further.
+    // The goal at the end of the likeliest future, and a little further.
     await e.key('g');
     await e.settled();
     const slider = e.page.getByRole('slider', { name: 'Goal position', exact: true });
@@ -80,7 +80,7 @@ journeys('by a screen reader', (stage) => {
     assert.ok(distance(await e.goal(), moved) > 0.5, 'the goal is back');
   });
 
-  it('Tab goes round the whole page and is held nowhere', { timeout: 60_000 }, async () => {
+  it('Tab goes round the whole page without a trap', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.page.locator('[data-menu="file"]').focus();
@@ -129,7 +129,7 @@ journeys('by a screen reader', (stage) => {
       (await e.roadUsers()).map((u) => u.id),
       [car.id],
     );
-    // Closed, it leaves nobody out.
+    // Closed, it contains all road users.
     await e.key('w');
     await e.until((n) => document.querySelectorAll('[data-agent]').length === n, everybody.length);
   });

@@ -1,11 +1,11 @@
-// Rounds: futures of one car are kept and rejected, drawn anew by that, and one of them is taken.
+// Rounds: futures of one car are kept and rejected, drawn again from that, and one of them is taken.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** What the cards say: `{ letter, name, facts, verdict, why }`. */
+/** Contents of the cards: `{ letter, name, facts, verdict, why }`. */
 const cards = (e) =>
   e.page.locator('.rcard').evaluateAll((all) =>
     all.map((el) => ({
@@ -31,7 +31,7 @@ async function next(e) {
   await e.settled();
 }
 
-/** Keeps the two calmest and rejects the three that are driven hardest; gives back the letter of the worst. */
+/** Keeps the two calmest and rejects the three that are driven hardest; returns the letter of the worst. */
 async function judge(e) {
   const { cards: like } = e.wire.last().event('final').feedback;
   const order = like.map((c, i) => ({ i, v: c.features.harshness_mps2 })).sort((a, b) => a.v - b.v);
@@ -48,7 +48,7 @@ async function judge(e) {
 }
 
 journeys('rounds', (stage) => {
-  it('draws what one likes, round after round, and takes one of them', { timeout: 120_000 }, async () => {
+  it('draws by preference, round after round, and takes one of them', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('Control+s');
@@ -75,7 +75,7 @@ journeys('rounds', (stage) => {
     assert.equal(judged.find((c) => c.letter === worst).why, 'too harsh');
     assert.match(await e.text('.counts'), /2 kept\s*3 rejected\s*1 open/);
     await e.picture('rounds-judged');
-    // The next six rest on it, none of them is one that was judged, and what was learned is said.
+    // The next six are based on it, none of them was judged before, and the learned preferences are listed.
     await next(e);
     assert.equal(await round(e), 'Round 2');
     const sent = e.wire.last().body.feedback.answers;
@@ -92,7 +92,7 @@ journeys('rounds', (stage) => {
     assert.ok(wishes.includes('Smoother'), `${wishes}`);
     assert.match(await e.text('[data-wish="Smoother"] p'), /kept [\d.]+, rejected [\d.]+ m\/s²/);
     await e.picture('rounds-second');
-    // One step back shows the first six again, with what was said of them.
+    // Undo shows the first six again, with their verdicts.
     await e.key('Control+z');
     await e.settled();
     assert.equal(await round(e), 'Round 1');
@@ -100,7 +100,7 @@ journeys('rounds', (stage) => {
     await e.key('Control+Shift+z');
     await e.settled();
     assert.deepEqual(await drawn(e), second);
-    // A wish is forgotten, another is said: both are plain steps.
+    // A preference is forgotten, another is added: both are plain steps.
     await e.page.getByRole('button', { name: 'Remove: Smoother' }).first().click();
     assert.ok(!(await learnt(e)).includes('Smoother'));
     await e.key('Control+z');
@@ -110,7 +110,7 @@ journeys('rounds', (stage) => {
     await e.key('2');
     await e.key('k');
     await e.settled();
-    // Nobody has answered any of it; a card that is taken is answered like any future that is picked.
+    // No road user has reacted to the cards; a taken card gets reactions like any picked future.
     const mark = e.wire.asked.length;
     const [, taken] = await cards(e);
     await e.page.locator('[data-take="B"]').click();
@@ -122,14 +122,14 @@ journeys('rounds', (stage) => {
     assert.equal(await row.getAttribute('data-future'), 'B');
     assert.equal(await row.locator('.nm').innerText(), taken.name);
     await e.picture('rounds-taken');
-    // Taken back, the usual six are there as they were.
+    // Undone, the usual six are as before.
     await e.key('Control+z');
     await e.settled();
     assert.deepEqual(await e.page.locator('.fu .nm').allInnerTexts(), usual);
     await e.key('Control+Shift+z');
     await e.settled();
     assert.equal(await row.locator('.nm').innerText(), taken.name);
-    // Saved and opened again, what was said is still there and counts.
+    // Saved and opened again, the feedback is still there and counts.
     await e.until(() => document.querySelector('.title small').textContent === 'Saved');
     const { scenes } = await e.get('/v1/scenes');
     const own = await e.get(`/v1/scenes/${scenes.find((s) => !s.readonly).id}`);
@@ -160,7 +160,7 @@ journeys('rounds', (stage) => {
     assert.ok(await e.shows('.fu'), 'the road user is still selected');
   });
 
-  it('closes when something else is asked of the scene, and keeps what was said', { timeout: 60_000 }, async () => {
+  it('closes after another change of the scene, and keeps the feedback', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -178,7 +178,7 @@ journeys('rounds', (stage) => {
     await e.key('Escape');
     await open(e);
     assert.deepEqual(await cards(e), said, 'the same question has the same cards');
-    // The same key once more opens a card again.
+    // The same key again clears the verdict.
     await e.key('k');
     assert.equal((await cards(e))[0].verdict, null);
     await e.key('Control+z');
@@ -190,7 +190,7 @@ journeys('rounds', (stage) => {
     assert.equal(e.wire.last().body.feedback.answers.length, 2);
   });
 
-  it('ends with the kept ones as variants, each with what the others do about it', { timeout: 90_000 }, async () => {
+  it("ends with the kept ones as variants, each with the others' reactions", { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -258,7 +258,7 @@ journeys('rounds', (stage) => {
         ['keep', 'reject'],
       );
       assert.ok(Object.keys(sent[0].places).length > 1, 'everybody is in it');
-      // One of them becomes what everybody does, at once: nobody has to be asked.
+      // One of them becomes the motion of all, at once: without a request.
       const drawn = e.wire.last().event('final').samples[2].agents;
       const mark = e.wire.asked.length;
       await e.page.locator('[data-take="C"]').click();

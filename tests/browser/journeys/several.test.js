@@ -1,4 +1,4 @@
-// Many at once: taking, moving, copying from tab to tab, removing, menus.
+// Several at once: selecting, moving, copying between tabs, removing, menus.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
@@ -10,7 +10,7 @@ const pressed = (e) =>
   e.page.locator('[data-agent][aria-pressed="true"]').evaluateAll((all) => all.map((b) => b.dataset.agent));
 
 journeys('several at once', (stage) => {
-  it('takes with a marquee, moves, nudges and removes as one step each', { timeout: 90_000 }, async () => {
+  it('selects with a marquee, moves, nudges and removes as one step each', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('b');
@@ -25,7 +25,7 @@ journeys('several at once', (stage) => {
     const taken = await pressed(e);
     assert.ok(taken.includes(car.id), `${taken}`);
     if (taken.length === 1) {
-      // Nobody else was near: the next of the list is added.
+      // No other was near: the next of the list is added.
       const other = all.find((u) => u.id !== car.id && u.kind === 'Car');
       await e.page
         .locator(`[data-agent="${other.id}"]`)
@@ -64,7 +64,7 @@ journeys('several at once', (stage) => {
     );
   });
 
-  it('mirrors two of them: left is right, and twice is not at all', { timeout: 60_000 }, async () => {
+  it('mirrors two of them: twice restores them', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('b');
@@ -99,7 +99,7 @@ journeys('several at once', (stage) => {
     );
   });
 
-  it('copies from tab to tab, and pastes under the pointer', { timeout: 90_000 }, async () => {
+  it('copies between tabs, and pastes under the pointer', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     const context = e.page.context();
     await context.grantPermissions(['clipboard-read', 'clipboard-write']);
@@ -111,7 +111,7 @@ journeys('several at once', (stage) => {
     await e.until(() => /copied/.test(document.querySelector('.toast')?.textContent ?? ''));
     const before = (await e.roadUsers()).length;
 
-    // Another scene: of this one the second tab is there to look at only.
+    // Another scene: this one is read-only in the second tab.
     const other = new Editor();
     other.page = await context.newPage();
     other.cdp = await context.newCDPSession(other.page);
@@ -136,7 +136,7 @@ journeys('several at once', (stage) => {
     await e.settled();
     assert.equal((await e.roadUsers()).length, before);
 
-    // Who came into an example is there again after a reload, as all other changes are.
+    // A road user added to an example is there again after a reload, like all other changes.
     await e.key('Control+z');
     await e.settled();
     const cast = await names(e);
@@ -147,7 +147,7 @@ journeys('several at once', (stage) => {
     assert.deepEqual(await names(e), cast);
   });
 
-  it('moves the picture with Space held, and plays with Space alone', { timeout: 60_000 }, async () => {
+  it('moves the picture with Space held, and plays with a tap of Space', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const before = await e.view();
@@ -166,7 +166,7 @@ journeys('several at once', (stage) => {
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.3);
   });
 
-  it('opens menus with the right button and with keys, and does what they say', { timeout: 90_000 }, async () => {
+  it('opens menus with the right button and with keys, and runs their entries', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const walker = await pedestrianOnTheMove(e);
@@ -191,7 +191,7 @@ journeys('several at once', (stage) => {
     await e.key('Control+l');
     await e.settled();
 
-    // By keys alone: another kind, which the generator takes for what it now is.
+    // By keys only: another kind, whose expert the generator uses.
     await e.key('Shift+F10');
     await menu.waitFor();
     await e.key('t');

@@ -1,4 +1,4 @@
-// A scene goes out as a link and as files, and comes in from both.
+// A scene is exported as a link and as files, and imported from both.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
@@ -7,7 +7,7 @@ import { journeys } from '../support/journey.js';
 import { brokenScene } from '../support/maps.js';
 
 journeys('sharing', (stage) => {
-  it('opens a link in another browser, to look at and to copy', { timeout: 90_000 }, async () => {
+  it('opens a link in another browser, read-only and to copy', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
@@ -36,7 +36,7 @@ journeys('sharing', (stage) => {
     assert.equal(new URL(other.page.url()).hash, '');
   });
 
-  it('says when a link is not whole', { timeout: 60_000 }, async () => {
+  it('reports a truncated link', { timeout: 60_000 }, async () => {
     const e = await stage.visit(`${stage.program.url}/#s1=q1ZKzs8tKEotLgYA`);
     await e.until(() => /The link could not be opened/.test(document.querySelector('.banner')?.textContent));
     assert.match(await e.text('.banner'), /It may have been cut off/);
@@ -44,7 +44,7 @@ journeys('sharing', (stage) => {
     await e.page.waitForSelector('.banner', { state: 'detached' });
   });
 
-  it('saves files with what they lose said before, and reads its own again', { timeout: 90_000 }, async () => {
+  it('saves files after listing their losses, and reads its own again', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const save = async (kind) => {
@@ -65,7 +65,7 @@ journeys('sharing', (stage) => {
     assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
     const drawing = (await save('svg')).bytes.toString();
     assert.match(drawing, /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
-    // How long a metre is, when it is, and where north is.
+    // Scale, time and north.
     for (const said of [/>\d+ m<\/text>/, />\d+\.\d s<\/text>/, />N<\/text>/]) assert.match(drawing, said);
     const moving = (await save('gif')).bytes;
     assert.equal(moving.subarray(0, 6).toString(), 'GIF89a');
@@ -80,7 +80,7 @@ journeys('sharing', (stage) => {
     for (const part of ['map', 'agents', 'signals', 'time']) assert.deepEqual(back[part], first[part], part);
   });
 
-  it('says what can be brought in, and asks what the columns of a table are', { timeout: 60_000 }, async () => {
+  it("lists file kinds for import, and requests the meaning of a table's columns", { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.key('Control+o');
@@ -105,13 +105,13 @@ journeys('sharing', (stage) => {
     await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
     const cars = await e.roadUsers();
     assert.equal(cars.length, 3);
-    // 3 pictures and 90 cm a row: 9 m/s.
+    // 3 frames and 90 cm for each row: 9 m/s.
     for (const c of cars) assert.ok(Math.abs(c.speed - 9) < 0.5, `${c.speed} m/s`);
     await e.page.locator('.toast .btn').click();
     assert.match(await e.text('.dlg.import .notes'), /Headings are derived from the motion/);
   });
 
-  it('takes what it can of a broken file, and of one that is too large', { timeout: 60_000 }, async () => {
+  it('imports the usable part of a broken file, and of a too large one', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     await e.drop('junction.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
@@ -130,7 +130,7 @@ journeys('sharing', (stage) => {
     await e.drop('notes.json', Buffer.from('%PDF-1.7 nothing'));
     await e.page.waitForSelector('.dlg.import');
     assert.match(await e.text('.dlg.import'), /Named \.json, but it is a PDF/);
-    // An archive may hold a network and a recording: only who looks into it knows.
+    // An archive may contain a network and a recording: only its content decides.
     await e.page.keyboard.press('Escape');
     await e.drop('junction.zip', readFileSync(new URL('../../../fuzz/corpus/sumo/junction.sumo.zip', import.meta.url)));
     await e.until(() => /^FCD 0\.0 s imported/.test(document.querySelector('.toast')?.textContent ?? ''));

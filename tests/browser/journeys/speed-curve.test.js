@@ -1,4 +1,4 @@
-// The speed curve in hand: a stop for some seconds, in numbers, and what the generator makes of it.
+// A drawn speed profile: a stop for some seconds, in numbers, and its result from the generator.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -11,7 +11,7 @@ const dot = async (e, nth) => {
   return [r.x + r.width / 2, r.y + r.height / 2];
 };
 
-/** A car, with one point of its speed curve pulled to the ground in the middle. */
+/** A car, with one point of its speed curve dragged to zero in the middle. */
 async function stopping(stage) {
   const e = await stage.open();
   await e.begin();
@@ -32,14 +32,14 @@ async function stopping(stage) {
   return { e, car, mark };
 }
 
-/** The motion of somebody that the generator was asked to keep and judge, and what it says of it. */
+/** The motion of a road user that the generator kept and judged, and its score. */
 const judged = (e, id) => {
   const asked = e.wire.asked.findLast((a) => a.body.pinned?.includes(id));
   const [mode] = asked.body.scene.generated.samples[0].agents[id].modes;
   return { asked, mode, score: asked.event('final').scores[0] };
 };
 
-/** Where the pointer says that the words of a stop can be pulled. */
+/** The place where the pointer shows that a stop's words can be dragged. */
 async function wordsBeside(e, [x, y]) {
   for (let far = 30; far <= 120; far += 10)
     for (let turn = 0; turn < 16; turn++) {
@@ -60,7 +60,7 @@ journeys('the speed curve', (stage) => {
       assert.match(said, /^0 km\/h for 1\.0 s at \d\.\d s$/);
       const { asked, mode, score } = judged(e, car.id);
       assert.ok(asked.body.react, 'others answer it');
-      // It is exactly at rest, and for as long as was asked.
+      // It is exactly at rest, for the requested time.
       const still = mode.x_m.filter((x, i) => i && x === mode.x_m[i - 1] && mode.y_m[i] === mode.y_m[i - 1]).length;
       assert.ok(still >= 9 && still < 20, `stands for ${still} steps`);
       const speeds = mode.vx_mps.map((vx, i) => Math.hypot(vx, mode.vy_mps[i]));
@@ -68,7 +68,7 @@ journeys('the speed curve', (stage) => {
       assert.equal(await e.text('.fu[aria-checked="true"] .nm'), 'At your speed');
       assert.ok(Math.min(...speeds) === 0 && speeds.at(-1) > 0.5, 'and goes on');
       assert.match(await e.text('.toast'), new RegExp(`Speed curve of ${car.name} changed`));
-      // The words on the canvas are painted; the fields say the same.
+      // The words on the canvas are painted; the fields have the same values.
       assert.equal(await e.value('point-speed'), 0);
       await e.picture('speed-curve-stop');
       await e.type('point-hold', '3');
@@ -78,7 +78,7 @@ journeys('the speed curve', (stage) => {
       assert.ok(stands >= 29, `stands for ${stands} steps`);
       assert.match(await e.text('.pointfields .brakes'), /brakes at up to \d+\.\d m\/s²/);
       await e.picture('speed-curve-three-seconds');
-      // Where it brakes hard that is said; later it need not, and what it does is.
+      // Hard braking is reported; with a later stop it is not needed, and the result is reported.
       assert.match(await e.text('.insp .hint'), /Brakes at up to \d\.\d m\/s²/);
       await e.type('point-time', '5.3');
       assert.match(await e.text('.insp .hint'), /^Stops for 3\.0 s, then continues\s+Brakes at up to 2\.\d m\/s²\.$/);
@@ -120,7 +120,7 @@ journeys('the speed curve', (stage) => {
     },
   );
 
-  it('Esc puts a point back while it is in hand', { timeout: 60_000 }, async () => {
+  it('Esc restores a point during its drag', { timeout: 60_000 }, async () => {
     const { e } = await stopping(stage);
     const before = await points(e);
     const from = await dot(e, 1);
@@ -160,7 +160,7 @@ journeys('the speed curve', (stage) => {
       assert.equal(time((await points(e))[1]).toFixed(1), (0.4 + more).toFixed(1));
       assert.ok(await e.page.locator('.misfit').isHidden(), 'it can be driven now');
       assert.ok(e.wire.since(mark).length > 0, 'others answer it');
-      // Where its button is again it would be shown again.
+      // With the button still under the pointer it would be previewed again.
       await e.page.mouse.move(5, 5);
       await e.key('Control+z');
       await e.settled();
@@ -168,7 +168,7 @@ journeys('the speed curve', (stage) => {
     },
   );
 
-  it('a stop is moved as a whole on the time line, and its bar on the road', { timeout: 60_000 }, async () => {
+  it('a stop is moved as a whole on the timeline, and its bar on the road', { timeout: 60_000 }, async () => {
     const { e, car } = await stopping(stage);
     const [, hold, at] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
     const line = await e.page.locator('.plot .holdline').boundingBox();
@@ -180,7 +180,7 @@ journeys('the speed curve', (stage) => {
     const [, held, later] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
     assert.equal(held, hold, 'as long as before');
     assert.ok(Number(later) > Number(at) + 0.3, `${later} s after ${at} s`);
-    // The bar lies before the box where it stands: its place is read from what the generator was asked to keep.
+    // The bar is before the standing box: its place is read from the kept motion in the request.
     const { mode } = judged(e, car.id);
     const i = mode.x_m.findIndex((x, k) => k && x === mode.x_m[k - 1] && mode.y_m[k] === mode.y_m[k - 1]);
     const ahead = (k) => [Math.cos(mode.heading_rad[i]) * k, Math.sin(mode.heading_rad[i]) * k];
@@ -190,7 +190,7 @@ journeys('the speed curve', (stage) => {
     await e.release();
     const [, , sooner] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
     assert.ok(Number(sooner) < Number(later), `${sooner} s before ${later} s`);
-    // The words beside the bar are pulled sideways for how long it stops.
+    // The words beside the bar are dragged sideways for the duration.
     const words = await wordsBeside(e, await place(1));
     await e.drag(words, [words[0] + 40, words[1]]);
     await e.release();
@@ -199,7 +199,7 @@ journeys('the speed curve', (stage) => {
     assert.match(await e.text('.sect.curve'), new RegExp(`for ${longer} s`), 'the inspector says it, too');
   });
 
-  it('the curve is there again when the page is', { timeout: 60_000 }, async () => {
+  it('the curve is restored after a reload', { timeout: 60_000 }, async () => {
     const { e, car } = await stopping(stage);
     const before = await points(e);
     await e.page.reload();

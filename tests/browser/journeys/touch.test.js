@@ -1,4 +1,4 @@
-// The editor under fingers: a phone, a phone on its side, a tablet.
+// The editor on touch devices: a phone, a phone in landscape, a tablet.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carInSight } from '../support/casting.js';
@@ -15,7 +15,7 @@ async function open(stage, device = 'phone') {
   return { e, f: new Fingers(e) };
 }
 
-/** A car is tapped, and its flag lies in the picture. */
+/** A car is tapped, and its flag is in the picture. */
 async function select({ e, f }) {
   const car = await carInSight(e);
   await f.tap(await e.at(car.start.x, car.start.y));
@@ -26,13 +26,13 @@ async function select({ e, f }) {
 }
 
 const sheet = async (e) => (await e.page.locator('.sheet').boundingBox()).height;
-/** The sheet has come to rest. */
+/** The sheet is at rest. */
 const rested = async (e) => {
   for (let was = -1, now = await sheet(e); was !== now; was = now, now = await sheet(e)) await e.frames(6);
   return sheet(e);
 };
 
-/** What one can see and press is large enough for a finger, and nothing sticks out at the side. */
+/** All visible controls are large enough for a finger, and nothing overflows at the side. */
 async function fits(e, where) {
   const wrong = await e.page.evaluate((least) => {
     const seen = (el) => {
@@ -60,7 +60,7 @@ async function fits(e, where) {
   assert.deepEqual(wrong, [], where);
 }
 
-/** By its button, or in the menu that has it where there is no room for one. */
+/** By its button, or in the menu that contains it where there is no room for one. */
 async function press(e, id) {
   const button = e.page.locator(`.top [data-action="${id}"]:visible`);
   if (await button.count()) return button.first().tap();
@@ -76,7 +76,7 @@ async function press(e, id) {
 }
 
 journeys('fingers', (stage) => {
-  it('a tap selects, a finger takes the flag along under a loupe, two fingers undo', { timeout: 60_000 }, async () => {
+  it('a tap selects, a finger drags the flag under a loupe, two fingers undo', { timeout: 60_000 }, async () => {
     const { e, f } = await open(stage);
     const car = await select({ e, f });
     const [x, y] = await e.at(car.end.x, car.end.y);
@@ -143,7 +143,7 @@ journeys('fingers', (stage) => {
     assert.equal(await e.page.locator('.fu[data-future]').count(), 0, 'nobody was selected by it');
   });
 
-  it('a finger that rests opens the menu of what lies under it', { timeout: 40_000 }, async () => {
+  it('a resting finger opens the menu of the object under it', { timeout: 40_000 }, async () => {
     const { e, f } = await open(stage);
     const car = await carInSight(e);
     await f.down(await e.at(car.start.x, car.start.y));
@@ -182,7 +182,7 @@ journeys('fingers', (stage) => {
     assert.match(await e.text('.toast'), new RegExp(`^Heading of ${car.name}`));
   });
 
-  it('a finger that rests on a future asks what to do with it', { timeout: 60_000 }, async () => {
+  it('a finger that rests on a future opens its menu', { timeout: 60_000 }, async () => {
     const { e, f } = await open(stage);
     const car = await select({ e, f });
     const { chosen, modes } = e.wire.last().event('final').samples[0].agents[car.id];
@@ -218,7 +218,7 @@ journeys('fingers', (stage) => {
     await f.up();
     assert.ok((await rested(e)) > 700, 'dragged to the top');
     at = await grip();
-    // The hand stays a while where it let the sheet go: no flick.
+    // The finger pauses before the release: no flick.
     await f.drag(at, [at[0], at[1] + 200], 20);
     await e.frames(12);
     await f.up();
@@ -244,7 +244,7 @@ journeys('fingers', (stage) => {
     assert.equal(await e.page.locator('[data-field="goal-time"]').getAttribute('inputmode'), 'decimal');
   });
 
-  it('the + at the thumb puts a pedestrian there', { timeout: 40_000 }, async () => {
+  it('the + button places a pedestrian', { timeout: 40_000 }, async () => {
     const { e, f } = await open(stage);
     const count = (await e.roadUsers()).length;
     await e.page.getByRole('button', { name: 'Add', exact: true }).tap();
@@ -281,7 +281,7 @@ journeys('fingers', (stage) => {
   );
 
   for (const device of Object.keys(devices)) {
-    it(`everything can be pressed, and nothing sticks out: ${device}`, { timeout: 60_000 }, async () => {
+    it(`everything can be pressed, and nothing overflows: ${device}`, { timeout: 60_000 }, async () => {
       const { e, f } = await open(stage, device);
       const name = device.replaceAll(' ', '-');
       await fits(e, 'at first');
@@ -292,7 +292,7 @@ journeys('fingers', (stage) => {
       await rested(e);
       await fits(e, 'all fields');
       await e.picture(`${name}-full`);
-      // What lies further down is as large.
+      // Controls further down are as large.
       await e.page.locator('.sheet .insp').evaluate((el) => el.scrollTo(0, 1e6));
       await e.frames(3);
       await fits(e, 'the end of the fields');

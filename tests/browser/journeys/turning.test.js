@@ -1,4 +1,4 @@
-// The picture turned: everything under the pointer is where it is seen.
+// The picture turned: everything under the pointer is where it appears.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
@@ -22,7 +22,7 @@ journeys('turning', (stage) => {
     assert.ok(turn(start.heading + turned, Math.PI / 2) < 0.1, `it drives up: turned by ${turned}`);
     assert.ok(await e.shows('.compass'));
 
-    // The middle button moves the picture, and pastes nothing where a browser would.
+    // The middle button moves the picture, and does not paste where a browser would.
     const still = await e.page.getAttribute('main.stage', 'data-view');
     await e.page.mouse.move(400, 300);
     await e.page.mouse.down({ button: 'middle' });
@@ -33,14 +33,14 @@ journeys('turning', (stage) => {
     await e.key('Alt+r');
     await e.settled();
 
-    // With a click, where it is seen now.
+    // With a click, where it appears now.
     await e.letGo();
     await e.page.mouse.click(...(await e.at(start.x, start.y)));
     await e.page.waitForSelector('.fu');
     await e.settled();
     assert.match(await e.text('aside.insp h2'), new RegExp(car.name));
 
-    // The flag follows the hand: down the picture is back along the road.
+    // The flag follows the pointer: down the picture is back along the road.
     const goal = await e.pose('Goal');
     const foot = await e.at(goal.x, goal.y);
     const hand = (down) => [foot[0] + 9, foot[1] - 26 + down];
@@ -53,11 +53,11 @@ journeys('turning', (stage) => {
     await e.release();
     const moved = await e.goal();
     const now = await e.at(moved.x, moved.y);
-    // A lane may draw it to its middle.
+    // A lane may snap it to its centre.
     assert.ok(Math.abs(now[1] - foot[1] - 70) < 6 && Math.abs(now[0] - foot[0]) < 40, `${foot} to ${now}`);
     assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
 
-    // Keys move it as one sees it.
+    // Keys move it in screen directions.
     await leave(e);
     const before = await e.at(...Object.values(await e.goal()));
     await e.key('Shift+ArrowRight');
@@ -72,7 +72,7 @@ journeys('turning', (stage) => {
     await e.key('Shift+PageUp');
     await e.settled();
     assert.ok(turn((await e.view()).turn, turned + Math.PI / 12) < 1e-3);
-    // Undo looks where the step was done.
+    // Undo restores the view of the step.
     await e.key('Control+z');
     await e.settled();
     assert.equal(

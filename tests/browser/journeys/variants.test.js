@@ -1,11 +1,11 @@
-// Variants: ways the scene could go, made at once, side by side on one clock, kept, compared and taken away as files.
+// Variants: alternatives of the scene, made at once, side by side on one clock, kept, compared and exported.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** What the cards say: `{ id, name, kept, starred, shown, verdict }`. */
+/** Contents of the cards: `{ id, name, kept, starred, shown, verdict }`. */
 const cards = (e) =>
   e.page.locator('.vcard[data-variant]').evaluateAll((all) =>
     all.map((el) => ({
@@ -35,9 +35,9 @@ const take = async (e, id) => {
   await e.settled();
 };
 
-/** All that were to be made are cards of their own. */
+/** All requested variants have their cards. */
 async function allMade(e) {
-  // Ten times everybody: on a busy machine that takes longer than one answer does.
+  // Ten times all road users: on a busy machine that takes longer than one answer does.
   await e.page.waitForSelector('.vcard:is(.waiting, .arrived)', { state: 'detached', timeout: 60_000 });
   await e.settled();
 }
@@ -57,7 +57,7 @@ async function begin(stage, options) {
   return e;
 }
 
-/** The cursor leaves what it is in: keys are the page's again. */
+/** Removes the focus: keys go to the page again. */
 const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
 
 const setTime = async (e, seconds) => {
@@ -68,7 +68,7 @@ const setTime = async (e, seconds) => {
 };
 
 journeys('variants', (stage) => {
-  it('makes ten ways of everybody, keeps the good ones and draws the others anew', { timeout: 120_000 }, async () => {
+  it('makes ten variants of all, keeps the good ones and draws the others again', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
     const count = e.page.getByLabel('Number of variants');
     await count.fill('10');
@@ -83,7 +83,7 @@ journeys('variants', (stage) => {
       [1],
     );
     await e.picture('variants');
-    // Kept, starred and named, each a step of its own.
+    // Kept, starred and named, each a separate step.
     await take(e, 3);
     await e.key('Control+d');
     await take(e, 5);
@@ -102,7 +102,7 @@ journeys('variants', (stage) => {
     const eventful = (all) => all.filter((c) => !['No conflict', 'Close'].includes(c.verdict)).map((c) => c.id);
     assert.deepEqual(await ids(e), eventful(marked));
     await e.page.getByRole('radio', { name: /^All/ }).click();
-    // Kept and starred ones stay; the rest is new, drawn with seeds that were not used yet.
+    // Kept and starred ones stay; the rest is new, drawn with unused seeds.
     await leave(e);
     await count.fill('4');
     await count.press('Enter');
@@ -114,7 +114,7 @@ journeys('variants', (stage) => {
     assert.equal(again.find((c) => c.id === 11).shown, true);
     const seeds = e.wire.asked.filter((a) => a.body.agents === 'all').map((a) => a.body.seed);
     assert.equal(new Set(seeds).size, seeds.length, `no seed twice: ${seeds}`);
-    // All of it can be taken back, step by step.
+    // All of it can be undone, step by step.
     await e.key('Control+z');
     await e.settled();
     assert.deepEqual(
@@ -127,7 +127,7 @@ journeys('variants', (stage) => {
     await e.key('Control+z');
     await e.settled();
     assert.equal((await cards(e)).find((c) => c.id === 5).starred, false);
-    // Where two are kept they are the two that are compared.
+    // If two are kept, these two are compared.
     await take(e, 5);
     await e.key('Control+d');
     await e.key('c');
@@ -135,7 +135,7 @@ journeys('variants', (stage) => {
     assert.match(await e.text('.insp .ih'), /Variant [35] and variant [35]/);
   });
 
-  it('runs all pictures on the clock of the playhead', { timeout: 90_000 }, async () => {
+  it("runs all pictures at the playhead's time", { timeout: 90_000 }, async () => {
     const e = await begin(stage);
     await make(e);
     const all = await ids(e);
@@ -151,7 +151,7 @@ journeys('variants', (stage) => {
       'every picture has moved on',
     );
     assert.deepEqual(await at(0), start);
-    // Space plays also while a card has the focus.
+    // Space starts playback also while a card has the focus.
     await face(e, all[1]).focus();
     await e.key('Space');
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 1);
@@ -163,7 +163,7 @@ journeys('variants', (stage) => {
     assert.ok(now.every((p, i) => p !== start[i]));
   });
 
-  it('goes through the futures of one road user, and says how two of them part', { timeout: 120_000 }, async () => {
+  it('makes a variant of each future of a road user, and compares two', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
     const car = await carOnTheMove(e);
     await e.choose(car.id);
@@ -204,7 +204,7 @@ journeys('variants', (stage) => {
       await e.settled();
       assert.equal((await e.text('.tm')).split(' ')[0], time);
     }
-    // The timeline shows the one who is followed in both, and what happens in each by its number.
+    // The timeline shows the followed road user in both, and the events of each by its number.
     const plotted = (await e.page.locator('.plot .seek svg text').allTextContents()).join('; ');
     assert.ok(plotted.includes(`${car.name} in 4, dashed: in 1`), plotted);
     const eventful = (await e.page.locator('.compare td').allInnerTexts()).some((w) => /collision|near/.test(w));
@@ -232,7 +232,7 @@ journeys('variants', (stage) => {
     assert.equal((await cards(e)).find((c) => c.shown).id, 1);
     await e.key('Escape');
     await e.until(() => !document.querySelector('.pane'));
-    // A change of the scene leaves the variants as they are.
+    // A change of the scene leaves the variants unchanged.
     const before = await cards(e);
     await e.type('start-speed', '20');
     assert.deepEqual(
@@ -274,19 +274,19 @@ journeys('variants', (stage) => {
         [20, 30, 40, 50].map((v) => `Starts at ${v} km/h`),
       );
       await e.picture('variants-of-range');
-      // The one on the picture has its number in the inspector, and drives so.
+      // The shown one has its number in the inspector, and its motion.
       await take(e, 3);
       assert.equal(await e.page.locator('[data-field="start-speed"]').inputValue(), '40');
-      // Steps that are too many are told, and nothing can be made of them.
+      // Too many steps are reported, and cannot be made.
       await fill('step', '2');
       assert.match(await range.innerText(), /Make 16 variants/);
       await fill('step', '1');
       assert.match(await range.innerText(), /31 values; there is room for 30/);
       assert.equal(await range.getByRole('button').count(), 0);
-      // Of a goal that is not there no time can be asked.
+      // Without a goal there is no goal time.
       await by.selectOption('by goal time');
       assert.match(await range.innerText(), /has no goal yet/);
-      // Made again by chance, so many that there is time to stop; it waits, and goes on.
+      // Made again by seed, enough of them that there is time to stop; it pauses, and continues.
       await by.selectOption('by seed');
       const count = e.page.getByLabel('Number of variants');
       await count.fill('16');
@@ -298,20 +298,20 @@ journeys('variants', (stage) => {
       const then = await e.page.locator('.vcard.waiting').count();
       await e.frames(40);
       assert.ok((await e.page.locator('.vcard.waiting').count()) >= then - 1, 'nothing is made while it waits');
-      // What is there already is seen, with what happens in it.
+      // Variants made so far are shown, with their events.
       const here = await e.page.locator('.vcard.arrived').allInnerTexts();
       assert.equal(here.length, Number((await e.text('.strip [role="status"]')).split(' ')[0]));
       for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule broken|Goal missed/);
       await e.page.getByRole('button', { name: 'Go on' }).click();
       await allMade(e);
-      // All of it is a step.
+      // All of it is one step.
       await e.key('Control+z');
       await e.settled();
       assert.equal((await cards(e)).filter((c) => /^Starts at/.test(c.name)).length, 4);
     },
   );
 
-  it('is there again after a reload, and goes out as files', { timeout: 120_000 }, async () => {
+  it('is restored after a reload, and exported as files', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
     await e.key('Control+s');
     await e.until(() => document.querySelector('.title small').textContent === 'Saved');
@@ -326,7 +326,7 @@ journeys('variants', (stage) => {
     await e.settled();
     const before = await cards(e);
     await e.until(() => document.querySelector('.title small').textContent === 'Saved');
-    // The file has the scene's own motion and, beside it, that of those which are kept.
+    // The file has the scene's own motion and, beside it, that of the kept ones.
     const { scenes: list } = await e.get('/v1/scenes');
     const own = await e.get(`/v1/scenes/${list.find((s) => !s.readonly).id}`);
     assert.equal(own.generated.samples.length, 3);

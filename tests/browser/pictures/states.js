@@ -1,11 +1,10 @@
-// The states that pictures are taken of: how each is reached, by the number that the design gives it. Each begins on a
-// page of its own.
+// States for pictures: how to reach each, with its number in the design. Each begins on a page of its own.
 import { carBesideMedian, carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
 import { devices } from '../support/devices.js';
 import { Fingers } from '../support/fingers.js';
 import { along, brokenScene, emptyScene, knobOfArm, lanesBeside } from '../support/maps.js';
 
-/** A corner of the picture where the pointer is over nobody and no panel. */
+/** A corner of the picture where the pointer is over no road user and no panel. */
 const REST = [700, 120];
 const rest = (e) => e.page.mouse.move(...REST);
 const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
@@ -25,7 +24,7 @@ async function selected(e) {
   return car;
 }
 
-/** A car that stands in the picture, with road ahead. */
+/** A standing car in the picture, with road ahead. */
 async function waiting(e) {
   const parked = /parked|off the lanes/;
   for (const u of (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed === 0 && !parked.test(u.words))) {
@@ -40,10 +39,10 @@ async function waiting(e) {
   throw new Error('nobody waits in the picture');
 }
 
-/** A hand rests: all steps have run through. */
+/** The drag pauses: all refinement steps are done. */
 const refined = (e) => e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
 
-/** The flag is in the hand, a third of the way back. */
+/** The flag is dragged, a third of the way back. */
 async function dragged(e) {
   const car = await selected(e);
   await e.drag(flag(car, 0), flag(car, 0.33), { moves: 3 });
@@ -59,7 +58,7 @@ async function released(e) {
   return car;
 }
 
-/** The clock of the page, which stands still, goes on by a second: what was on its way is there. */
+/** The stopped clock of the page advances by a second: running animations are done. */
 async function later(e) {
   await e.page.evaluate(() => {
     const now = performance.now();
@@ -68,7 +67,7 @@ async function later(e) {
   await e.frames(3);
 }
 
-/** A scene that begins with nobody on the map of the crossing. */
+/** A scene without road users on the map of the crossing. */
 async function nobody(e) {
   const { json, bytes } = await emptyScene(e);
   await e.drop('nobody.json', bytes);
@@ -77,7 +76,7 @@ async function nobody(e) {
   return json;
 }
 
-/** The flag is in a hand that is across a median: it hangs back at the kerb, and the verdict stands on the line. */
+/** The flag is dragged across a median: it lags at the kerb, and the verdict is on the line. */
 async function acrossMedian(e) {
   const { car, across } = await carBesideMedian(e);
   await e.choose(car.id);
@@ -87,14 +86,14 @@ async function acrossMedian(e) {
     const [right, down] = await e.at(x, y);
     return [right + 9, down - 26];
   };
-  // One move: what a drag shows hangs on what it has shown before.
+  // One move: the futures of a drag depend on those shown before.
   await e.drag(await flagAt(car.end), await flagAt(across), { moves: 1 });
   await e.page.waitForSelector('.helpbar');
   await e.settled();
   await refined(e);
 }
 
-/** The knob of the arm to the north of a new crossing is in a hand that turns it. */
+/** The knob of the northern arm of a new crossing is dragged to turn it. */
 async function turningAnArm(e) {
   await e.key('Shift+T');
   await e.page.click('[data-template="four-arms"]');
@@ -122,8 +121,8 @@ async function variants(e, count) {
 }
 
 /**
- * A recording that may be shown: an example as a scenario record, which knows nothing of where it comes from, read
- * again. One of its cars has its goal from the log.
+ * A recording that may be published: an example as a scenario record without its source, read again. One of its cars
+ * has its recorded goal.
  */
 async function recorded(e) {
   const reply = await e.page.request.get(new URL('/v1/scenes/demo-arterial/export?format=womd', e.page.url()).href);
@@ -141,7 +140,7 @@ async function recorded(e) {
   await gone(e, '.toast');
 }
 
-/** The flag of a car in a finger, with the loupe beside it. */
+/** The flag of a car dragged by a finger, with the loupe beside it. */
 async function fingered(e) {
   const f = new Fingers(e);
   const car = await carOnTheMove(e);
@@ -157,7 +156,7 @@ async function fingered(e) {
 
 const dark = { colorScheme: 'dark' };
 
-/** `[name, how to reach it, what the page is like]`. */
+/** `[name, how to reach it, page options]`. */
 export const STATES = [
   ['01-first-view', rest],
   [
@@ -239,7 +238,7 @@ export const STATES = [
       await e.page.mouse.up();
       await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));
     },
-    // How long until the next try is told in seconds.
+    // The banner counts down the seconds to the next try.
     { hide: ['.banner'], after: ({ program }) => program.run() },
   ],
   [
@@ -257,7 +256,7 @@ export const STATES = [
       await e.settled();
       await e.until(() => [...document.querySelectorAll('.scn canvas')].slice(0, 2).every((c) => c.dataset.done));
     },
-    // When the server has saved them.
+    // The time when the server saved them.
     { hide: ['.scn small + small'] },
   ],
   [
@@ -266,7 +265,7 @@ export const STATES = [
       await e.page.waitForSelector('.empty .crd');
       await e.until(() => [...document.querySelectorAll('.crd canvas')].every((c) => c.dataset.done));
     },
-    // The scene that would be shown cannot be had at first.
+    // The scene to show is unavailable at first.
     {
       scene: false,
       arrange: (context) => {
@@ -290,7 +289,7 @@ export const STATES = [
       await e.page.getByLabel('Number of variants').fill('10');
       await e.page.getByLabel('Number of variants').press('Enter');
       await leave(e);
-      // The futures, and what the others do about four of them.
+      // The futures, and the others' reactions to four of them.
       door.lets = 5;
       await e.page.locator('.strip .none .pri').click();
       await e.until(() => document.querySelector('.strip .progress')?.getAttribute('aria-valuenow') === '4');
@@ -324,7 +323,7 @@ export const STATES = [
     '24-live-drag',
     async (e, { door }) => {
       const car = await selected(e);
-      // The first guess is on the page, and nothing after it.
+      // The first draft is on the page, and nothing after it.
       door.lets = 0;
       await e.drag(flag(car, 0), flag(car, 0.2), { moves: 1 });
       await e.until(() => /first guess|step \d/.test(document.querySelector('.insp').textContent));
@@ -347,7 +346,7 @@ export const STATES = [
         return [to[0] + 9, to[1] - 26];
       };
       await e.drag([x + 9, y - 26], await flagAt(45), { moves: 1 });
-      // Whoever would do something else has been asked; where this car itself waits nobody would.
+      // Reactions have been requested; if this car itself waits there are none.
       for (const ahead of [40, 35, 50, 30]) {
         await e.settled();
         if (await e.shows('.foreseen')) break;
@@ -446,7 +445,7 @@ export const STATES = [
       await e.page.locator('[data-action="share"]').click();
       await e.until(() => document.querySelector('.share input')?.value.startsWith('http'));
     },
-    // The port of the program is another each time.
+    // The port of the program differs each time.
     { hide: ['.share input'] },
   ],
   [
@@ -463,7 +462,7 @@ export const STATES = [
     '35-empty-scene',
     async (e) => {
       await nobody(e);
-      // The list of scenes says when the server has saved it.
+      // The list of scenes has the time of saving.
       await e.key('b');
     },
   ],
@@ -483,7 +482,7 @@ export const STATES = [
       await e.page.locator('.case .face').first().click();
       await e.settled();
     },
-    // It says at what time of the day it began.
+    // It has the time of day when it began.
     { hide: ['.seeking .note'] },
   ],
   [

@@ -1,4 +1,4 @@
-// Finds road users fit for a part, by what the page says about them. Scenes may change; the parts stay.
+// Finds road users for a role, by the page's texts about them. Scenes may change; the roles stay.
 import { distance, turn } from './editor.js';
 
 async function look(e, u) {
@@ -7,12 +7,12 @@ async function look(e, u) {
   return { ...u, start, end, from: await e.at(start.x, start.y), to: await e.at(end.x, end.y) };
 }
 
-/** Are the box and the flag of somebody in view, with no panel over them? */
+/** Are the box and the flag of a road user in view, without a panel over them? */
 const clear = async (e, who) => (await e.open(who.from)) && (await e.open([who.to[0] + 9, who.to[1] - 26]));
 
 /**
- * Goes through the likely ones and takes the first that `suits`, in view if possible; else the view is moved to
- * the first that suits. Nobody is selected afterwards.
+ * Tries the likely ones and takes the first that `suits`, in view if possible; else the view is moved to the first that
+ * suits. No road user is selected afterwards.
  */
 async function find(e, likely, suits) {
   const tried = [],
@@ -40,7 +40,7 @@ async function find(e, likely, suits) {
   throw new Error(`nobody fits: ${tried.join(', ')}`);
 }
 
-/** A car that goes on for a good distance without turning off. */
+/** A car that continues for a good distance without turning off. */
 export async function carOnTheMove(e) {
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5).sort((a, b) => b.speed - a.speed);
   return find(e, cars, (who) => {
@@ -66,7 +66,7 @@ export async function cyclistOnTheMove(e) {
   );
 }
 
-/** A car on the move, and a vehicle ahead of it, near enough to be run into. */
+/** A moving car, and a vehicle ahead of it, near enough for a collision. */
 export async function carBehindAnother(e) {
   const vehicles = [];
   for (const u of (await e.roadUsers()).filter(
@@ -88,7 +88,7 @@ export async function carBehindAnother(e) {
   throw new Error('nobody drives behind anybody');
 }
 
-/** The scene that is open, as the server has it. */
+/** The open scene, as the server has it. */
 async function openScene(e) {
   const name = await e.page.locator('.title input').inputValue();
   const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
@@ -96,17 +96,17 @@ async function openScene(e) {
   return get(`/v1/scenes/${scenes.find((s) => s.name === name).id}`);
 }
 
-/** So far beyond a median is a place across it, and so near to one is a goal beside it, metres. */
+/** Distance of a place across a median, and of a goal beside it, metres. */
 const ACROSS_M = 5,
   BESIDE_M = 6;
 
-/** The place right across a median from where somebody ends; null where there is none. */
+/** The place straight across a median from a road user's end; null where there is none. */
 function acrossMedian(medians, { end }) {
   const left = { x: -Math.sin(end.heading), y: Math.cos(end.heading) };
   const aside = (p) => (p[0] - end.x) * left.x + (p[1] - end.y) * left.y;
   const along = (p) => (p[0] - end.x) * left.y - (p[1] - end.y) * left.x;
   for (const [a, b] of medians) {
-    // Well inside a stretch, or the way round its end is no detour.
+    // Well inside a stretch, or the way round its end would be no detour.
     if (Math.max(along(a), along(b)) < 15 || Math.min(along(a), along(b)) > -15) continue;
     const side = (aside(a) + aside(b)) / 2;
     if (Math.abs(side) > BESIDE_M) continue;
@@ -116,7 +116,7 @@ function acrossMedian(medians, { end }) {
   return null;
 }
 
-/** A car on the move that ends beside a median, and a place right across it. */
+/** A moving car that ends beside a median, and a place straight across it. */
 export async function carBesideMedian(e) {
   const { map } = await openScene(e);
   const medians = map.road_edges
@@ -133,7 +133,7 @@ export async function carBesideMedian(e) {
   return { car, across: acrossMedian(medians, car) };
 }
 
-/** A car on the move whose box and flag are in the picture as it is, with no panel over them. */
+/** A moving car with its box and flag in the current picture, without a panel over them. */
 export async function carInSight(e) {
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
   const seen = [];

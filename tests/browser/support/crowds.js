@@ -1,8 +1,8 @@
-// Scenes with many road users, made by the program itself: an example, with so many more placed on its map, each of
-// whom drives the way that the program gives it.
+// Scenes with many road users, made by the program itself: an example with further ones placed on its map, each with
+// the motion that the program generates.
 
 const DEMO = 'demo-arterial';
-/** Road users worked out in one call. */
+/** Road users computed in one call. */
 const AT_ONCE = 60;
 
 async function asked(url, path, body) {
@@ -15,7 +15,7 @@ async function asked(url, path, body) {
   return reply.json();
 }
 
-/** Stores a scene of so many road users, all with a motion of their own; gives back its id. */
+/** Stores a scene of this many road users, each with its own motion; returns its id. */
 export async function crowd(url, count) {
   const scene = await (await fetch(new URL(`/v1/scenes/${DEMO}`, url))).json();
   const missing = count - scene.agents.length;
@@ -42,7 +42,7 @@ export async function crowd(url, count) {
   return kept.id;
 }
 
-/** What somebody was going to do is what was recorded of it. */
+/** The generated motion of a road user becomes its recording. */
 function recorded(agent, mode, { steps }) {
   const { track } = agent;
   const before = track.first_step + track.x_m.length;

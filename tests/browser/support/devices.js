@@ -1,4 +1,4 @@
-// Pages as they are on devices that one touches.
+// Page settings of touch devices.
 const device = (width, height, deviceScaleFactor) => ({
   viewport: { width, height },
   deviceScaleFactor,

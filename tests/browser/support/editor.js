@@ -1,4 +1,4 @@
-// The editor as a person meets it: eyes, a mouse, a keyboard, and the list that screen readers read.
+// The editor as a user sees it: screen, mouse, keyboard, and the list for screen readers.
 import { chromium as chromiumEngine, firefox as firefoxEngine } from 'playwright-core';
 import { chromium, firefox, out } from './where.js';
 import { Wire } from './wire.js';
@@ -15,7 +15,7 @@ const FLAGS = [
 ];
 const PATIENCE_MS = 15_000;
 
-/** A browser by its name: Chromium, or the Firefox that people have, which speaks WebDriver BiDi. */
+/** A browser by its name: Chromium, or a standard Firefox, which speaks WebDriver BiDi. */
 export const launch = (name = 'chromium') =>
   name === 'firefox'
     ? firefoxEngine.launch({ executablePath: firefox, channel: 'moz-firefox', headless: true })
@@ -25,14 +25,14 @@ const engineOf = (context) => context.browser().browserType().name();
 const number = (text) => Number(text.replace('≈', '').replace('−', '-').replace(',', '.').trim());
 
 export class Editor {
-  /** What the page complained about; a connection that broke is not the page's fault. */
+  /** Errors of the page; a broken connection is not the page's fault. */
   errors = [];
   #listening = undefined;
 
   /**
-   * With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. `arrange` is
-   * done with the browser before the page comes; with `scene: false` nobody waits for a scene. `listening` is how
-   * closely the wire is listened to, which costs the page time.
+   * With `stopwatch: false` the page's clock stands still. With `now` so do dates. `arrange` prepares the browser
+   * before the page loads; with `scene: false` no scene is awaited. `listening` is the level of listening to the wire,
+   * which costs the page time.
    */
   static async open(browser, url, { stopwatch = true, now, arrange, scene = true, listening, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
@@ -62,12 +62,12 @@ export class Editor {
     e.#listening = listening;
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
-    // That the page itself adds no style, Chromium shows; in Firefox a screenshot does, and is refused.
+    // In Chromium any inline style is an error of the page; in Firefox a screenshot adds one, which is refused.
     const expected = engineOf(context) === 'firefox' ? /blocked an inline style/ : /ERR_|Failed to load resource/;
     const complain = (words) => expected.test(words) || e.errors.push(words);
     e.page.on('console', (m) => m.type() === 'error' && complain(m.text()));
     e.page.on('pageerror', (error) => complain(String(error.stack ?? error)));
-    // Only Chromium lets the wire be listened to; elsewhere a journey goes by what the page shows.
+    // Only Chromium gives access to the wire; elsewhere a journey depends on what the page shows.
     const listened = engineOf(context) === 'chromium';
     e.cdp = listened ? await context.newCDPSession(e.page) : null;
     e.wire = listened ? await Wire.on(e.cdp, listening) : new Wire();
@@ -81,7 +81,7 @@ export class Editor {
     return Editor.#in(this.page.context(), url, this.errors, this.#listening);
   }
 
-  /** The tab's process ends at once; the same page in a new one. */
+  /** The tab's process ends at once; the same page opens in a new one. */
   async killed() {
     const url = this.page.url();
     const context = this.page.context();
@@ -94,7 +94,7 @@ export class Editor {
     return e;
   }
 
-  /** What the server says. */
+  /** A reply of the server. */
   async get(path) {
     return (await this.page.request.get(new URL(path, this.page.url()).href)).json();
   }
@@ -104,7 +104,7 @@ export class Editor {
     await this.page.waitForSelector('main.stage[data-view]');
   }
 
-  /** The first seconds play by themselves; most journeys cut that short. */
+  /** The first seconds play automatically; most journeys skip that. */
   async begin() {
     await this.key('Home');
     await this.until(() => document.querySelector('.tm').textContent.startsWith('0.0'));
@@ -123,7 +123,7 @@ export class Editor {
     return this.page.screenshot({ path: `${out}/${name}.png` });
   }
 
-  // -------------------------------------------------------------- what one reads
+  // -------------------------------------------------------------- reading
 
   text(selector) {
     return this.page.locator(selector).first().innerText();
@@ -143,7 +143,7 @@ export class Editor {
     });
   }
 
-  /** A pose as the handles tell it to those who cannot see them. */
+  /** A pose from the handles' texts for screen readers. */
   async pose(part) {
     const said = (what) =>
       this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuetext');
@@ -166,7 +166,7 @@ export class Editor {
     return { x: await this.value('goal-pos', 0), y: await this.value('goal-pos', 1) };
   }
 
-  /** Every value the inspector shows, as text. */
+  /** Every value in the inspector, as text. */
   inspector() {
     return this.page
       .locator('aside.insp')
@@ -179,7 +179,7 @@ export class Editor {
       ]);
   }
 
-  // -------------------------------------------------------------- where things are
+  // -------------------------------------------------------------- positions
 
   async view() {
     const [cx, cy, zoom, turn = 0] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
@@ -212,13 +212,13 @@ export class Editor {
     );
   }
 
-  // -------------------------------------------------------------- what one does
+  // -------------------------------------------------------------- actions
 
   key(k) {
     return this.page.keyboard.press(k);
   }
 
-  /** As a screen reader activates an entry of the list. */
+  /** Like a screen reader that activates an entry of the list. */
   async choose(id) {
     await this.page.locator(`[data-agent="${id}"]`).evaluate((el) => el.click());
     await this.page.waitForSelector('.fu');
@@ -231,7 +231,7 @@ export class Editor {
     await this.until(() => !document.querySelector('.fu'));
   }
 
-  /** Nothing is on the way any more, and what came of it is on the page. */
+  /** No request is under way any more, and the page shows the results. */
   async settled() {
     const end = Date.now() + PATIENCE_MS;
     for (;;) {
@@ -244,7 +244,7 @@ export class Editor {
     }
   }
 
-  /** The page has drawn so many frames. */
+  /** The page has drawn this many frames. */
   async frames(n) {
     for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
   }
@@ -273,7 +273,7 @@ export class Editor {
     await this.settled();
   }
 
-  /** Keeps what an element says from now on; `said()` gives it back. */
+  /** Collects the texts of an element from now on; `said()` returns them. */
   async listen(selector) {
     const log = await this.page.evaluateHandle((s) => {
       const said = [];
@@ -292,7 +292,7 @@ export class Editor {
     return () => log.jsonValue();
   }
 
-  /** Drops files from outside onto the picture: name, bytes, name, bytes … */
+  /** Drops external files onto the picture: name, bytes, name, bytes … */
   async drop(...files) {
     const pairs = files.flatMap((name, i) => (i % 2 ? [] : [[name, files[i + 1].toString('base64')]]));
     const data = await this.page.evaluateHandle((all) => {

@@ -1,4 +1,4 @@
-// Fingers on the glass, by the protocol of the browser: what the page hears is what a phone would tell it.
+// Fingers, by the protocol of the browser: the page gets the events of a phone.
 import { devices } from './devices.js';
 
 export { devices };

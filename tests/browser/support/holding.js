@@ -1,9 +1,9 @@
-// A door before the program that can be held shut: an answer of the generator is let through up to its first draft, and
-// the rest waits. What a page shows for a hundredth of a second can be looked at then.
+// A proxy before the program that can hold answers: an answer of the generator passes up to its first draft, and the
+// rest waits. A state of a hundredth of a second can be examined then.
 import { createServer, request } from 'node:http';
 
 export class Holding {
-  /** So many answers are let through whole; the others stop after their first draft. */
+  /** Number of answers that pass completely; later ones stop after their first draft. */
   lets = Infinity;
   #server;
   url = '';
@@ -15,9 +15,9 @@ export class Holding {
       const headers = { ...asked.headers, host: program.host };
       // The program refuses pages of another origin than its own.
       delete headers.origin;
-      // A line that stays open is not one question after the other.
+      // A persistent connection does not carry one question after the other.
       delete headers.upgrade;
-      // Where a packed event ends nobody sees.
+      // In a compressed stream the end of an event is invisible.
       delete headers['accept-encoding'];
       const { hostname, port } = program;
       const question = asked.method === 'POST' && asked.url.startsWith('/v1/generate');
@@ -43,14 +43,14 @@ export class Holding {
   }
 }
 
-/** A question that wants no drafts of what is answered at once, as one that wants all of them; as long as before. */
+/** Requests drafts without delay, so that quick answers have them too; the body keeps its length. */
 async function withDrafts(asked) {
   const pieces = [];
   for await (const piece of asked) pieces.push(piece);
   return String(Buffer.concat(pieces)).replace(/"draft_delay_ms":\d+/, '"draft_delay_ms":0');
 }
 
-/** That it was accepted, and the first draft. */
+/** The accepted event, and the first draft. */
 const LINES = 2;
 
 function firstDraft(answer, reply) {

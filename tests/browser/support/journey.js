@@ -1,4 +1,4 @@
-// One program and one browser for a file of journeys; a fresh visitor for each journey.
+// One program and one browser for a file of journeys; a new visitor for each journey.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe } from 'node:test';
 import { Editor, launch } from './editor.js';
@@ -6,9 +6,9 @@ import { Program } from './program.js';
 import { missing } from './where.js';
 
 /**
- * `tell(stage)` declares the journeys. `stage.open(options)` opens the editor, `stage.visit(url)` another address;
- * what is open is closed after each journey, which fails when a page complained about anything. `browser` is another
- * one than Chromium.
+ * `tell(stage)` declares the journeys. `stage.open(options)` opens the editor, `stage.visit(url)` another address; open
+ * pages are closed after each journey, which fails when a page has reported an error. `browser`: a browser other than
+ * Chromium.
  */
 export function journeys(name, tell, { browser = 'chromium' } = {}) {
   describe(name, { skip: missing(browser) }, () => {
@@ -18,7 +18,7 @@ export function journeys(name, tell, { browser = 'chromium' } = {}) {
       open(options) {
         return stage.visit(stage.program.url, options);
       },
-      /** Somebody comes in a browser of their own. */
+      /** A visitor with a separate browser context. */
       async visit(url, options) {
         const e = await Editor.open(stage.browser, url, options);
         stage.editors.push(e);

@@ -1,6 +1,6 @@
-// Maps of the example scenes, for journeys that begin with nobody on them, and places on maps that are made.
+// Maps of the example scenes, for journeys that begin without road users, and places on maps being made.
 
-/** The crossing of the examples as a file with nobody in it. */
+/** The example crossing as a file without road users. */
 export async function emptyScene(e) {
   const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
   const { format, version, meta, time, map, signals } = await get('/v1/scenes/demo-crossing');
@@ -8,7 +8,7 @@ export async function emptyScene(e) {
   return { json, bytes: Buffer.from(JSON.stringify(json)) };
 }
 
-/** A scene of which one lane cannot be read. */
+/** A scene with one unreadable lane. */
 export const brokenScene = {
   format: 'dragtraffic.scene',
   version: 1,
@@ -25,7 +25,7 @@ export const brokenScene = {
 
 const heading = ([ax, ay], [bx, by]) => Math.atan2(by - ay, bx - ax);
 
-/** Two lanes side by side that lead the same way, with a stretch of both: `{ a, b }` as lists of points. */
+/** Two adjacent lanes in one direction, with a stretch of both: `{ a, b }` as lists of points. */
 export function lanesBeside({ map }) {
   const road = map.lanes.filter((l) => !['bike_lane', 'sidewalk', 'parking'].includes(l.type));
   const length = (p) => p.slice(1).reduce((s, q, i) => s + Math.hypot(q[0] - p[i][0], q[1] - p[i][1]), 0);
@@ -44,7 +44,7 @@ export function lanesBeside({ map }) {
   throw new Error('no two lanes lie side by side');
 }
 
-/** A place so many metres along a line. */
+/** A place this many metres along a line. */
 export function along(points, metres) {
   let left = metres;
   for (let i = 1; i < points.length; i++) {
@@ -64,10 +64,10 @@ export function boxOf(polygon) {
   return { x0: Math.min(...xs), x1: Math.max(...xs), y0: Math.min(...ys), y1: Math.max(...ys) };
 }
 
-/** So far beyond the mouth of its arm a knob lies, metres. */
+/** Distance of a knob beyond the mouth of its arm, metres. */
 const KNOB_M = 9;
 
-/** Where the knob of an arm of a plain crossing lies on the page, when the arm is at an angle in degrees. */
+/** Page position of an arm's knob on a plain crossing, when the arm is at an angle in degrees. */
 export async function knobOfArm(e, arm) {
   const reply = await e.page.request.post(new URL('/v1/map', e.page.url()).href, { data: { template: 'four-arms' } });
   const { arms } = await reply.json();

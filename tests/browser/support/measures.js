@@ -1,17 +1,17 @@
-// How fast the hand is answered: what is measured of a page, and how. Times are milliseconds, sizes bytes.
+// Response times: measurements of a page, and their methods. Times are milliseconds, sizes bytes.
 import { readdirSync, readFileSync } from 'node:fs';
 import { carOnTheMove } from './casting.js';
 import { FRAMES_ALONE, spread, traced } from './trace.js';
 
-/** A mouse tells of its moves 125 times a second, the slowest of them: a screen has a new place for every frame. */
+/** A mouse reports 125 moves a second, the slowest of them: a screen has a new place for every frame. */
 export const hand = { hz: 125 };
 const SCREEN_HZ = 60;
-/** Clock ticks of the kernel a second. */
+/** Clock ticks of the kernel per second. */
 const TICKS = 100;
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Moves the mouse along a line for so many frames, whatever the page makes of it; gives back when it moved. */
+/** Moves the mouse along a line for this many frames, whatever the page does; returns the times of the moves. */
 export async function sweep(e, from, to, frames) {
   const began = performance.now();
   const sent = [];
@@ -28,14 +28,14 @@ export async function sweep(e, from, to, frames) {
   return moved;
 }
 
-/** Takes the flag of a car that goes straight on; gives back where it is after a share of the way back to the car. */
+/** Grabs the flag of a car that goes straight on; returns its place after a share of the way back to the car. */
 export async function takeFlag(e) {
   const car = await carOnTheMove(e);
   await e.choose(car.id);
   return (k) => [car.to[0] + (car.from[0] - car.to[0]) * k + 9, car.to[1] + (car.from[1] - car.to[1]) * k - 26];
 }
 
-/** Where the flag of the selected road user is by now. */
+/** Present place of the selected road user's flag. */
 export async function flagNow(e) {
   const goal = await e.pose('Goal');
   const [x, y] = await e.at(goal.x, goal.y);
@@ -45,15 +45,15 @@ export async function flagNow(e) {
 async function press(e, at) {
   await e.page.mouse.move(...at);
   await e.page.mouse.down();
-  // The first moves make a press a drag.
+  // The first moves turn a press into a drag.
   for (const d of [2, 4, 6]) await e.page.mouse.move(at[0] + d, at[1]);
   await e.until(() => document.querySelector('main.stage').dataset.cursor === 'grabbing');
 }
 
-/** Drags from one place to another and lets go; `measured` is asked to run the moves. */
+/** Drags from one place to another and releases; `measured` runs the moves. */
 export async function dragged(e, from, to, frames, measured) {
   await press(e, from);
-  // What is only worked out at the first moves is not what a hand feels all the time.
+  // Work that happens only at the first moves is not typical of a drag.
   await sweep(e, from, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], 12);
   const measures = await measured(() =>
     sweep(e, [from[0] + (to[0] - from[0]) * 0.1, from[1] + (to[1] - from[1]) * 0.1], to, frames),
@@ -62,7 +62,9 @@ export async function dragged(e, from, to, frames, measured) {
   return measures;
 }
 
-/** From the pointer to the futures on screen, and what travels; the page was opened with `listening: 'times'`. */
+/**
+ * From the pointer to the futures on screen, and the transferred bytes; the page was opened with `listening: 'times'`.
+ */
 export async function answered(browser, e, from, to, frames) {
   const mark = e.wire.asked.length;
   let moved = [];
@@ -97,7 +99,7 @@ export async function answered(browser, e, from, to, frames) {
   };
 }
 
-/** What a frame of a drag costs, undisturbed: the page was opened with `listening: 'nothing'`. */
+/** Cost of a drag frame, undisturbed: the page was opened with `listening: 'nothing'`. */
 export async function costs(browser, e, from, to, frames) {
   const { trace, threads } = await dragged(e, from, to, frames, async (run) => {
     const before = await threadTimes(browser);
@@ -114,7 +116,7 @@ export async function costs(browser, e, from, to, frames) {
   };
 }
 
-/** CPU time of the page's and the drawing processes by the names of their threads, where the system tells it. */
+/** CPU time of the page's and the drawing processes by thread name, where the system reports it. */
 async function threadTimes(browser) {
   const cdp = await browser.newBrowserCDPSession();
   const { processInfo } = await cdp.send('SystemInfo.getProcessInfo');
@@ -153,14 +155,14 @@ const since = (before, after) =>
       .sort((a, b) => b[1] - a[1]),
   );
 
-/** CPU time, in ms a second, that pages take which nobody touches. */
+/** CPU time of idle pages, in ms per second. */
 export async function atRest(browser, seconds = 3) {
   const before = await threadTimes(browser);
   await wait(seconds * 1000);
   return Object.values(since(before, await threadTimes(browser))).reduce((sum, ms) => sum + ms, 0) / seconds;
 }
 
-/** What the page holds: memory in use after a collection, nodes, listeners. */
+/** Resources of the page: memory in use after a collection, nodes, listeners. */
 export async function held(e) {
   await e.cdp.send('HeapProfiler.enable');
   for (let i = 0; i < 2; i++) await e.cdp.send('HeapProfiler.collectGarbage');
@@ -172,7 +174,7 @@ export async function held(e) {
   return { heap: of('JSHeapUsedSize'), nodes: of('Nodes'), listeners: of('JSEventListeners') };
 }
 
-/** So many edits of the selected road user, by keys. */
+/** This many edits of the selected road user, by keys. */
 export async function edit(e, times) {
   const keys = ['ArrowRight', 'ArrowUp', 'ArrowLeft', 'ArrowDown'];
   for (let i = 0; i < times; i++) await e.key(keys[i % keys.length]);

@@ -1,14 +1,14 @@
-// Pictures made small and laid beside each other. The browser decodes and encodes, so nothing else is needed.
+// Pictures scaled down and compared. The browser decodes and encodes, so nothing else is needed.
 
-/** What is kept of a picture is so much smaller, and so well encoded. */
+/** Scale and quality of stored pictures. */
 const SCALE = 0.5;
 const QUALITY = 0.8;
-/** Colours nearer than this, summed over red, green and blue, are the same: what is kept small has lost as much. */
+/** Colours nearer than this, summed over red, green and blue, are the same: scaled-down pictures have lost as much. */
 const SAME_COLOUR = 72;
 
-/** What is small and in one place is looked at in squares of so many pixels. */
+/** Small differences in one place are measured in squares of this size. */
 const SQUARE_PX = 32;
-/** Shares of differing pixels above which two pictures are called different: of the whole, and of one square. */
+/** Shares of differing pixels above which two pictures differ: of the whole, and of one square. */
 const ALLOWED = { whole: 0.003, square: 0.04 };
 
 export class Pixels {
@@ -26,7 +26,7 @@ export class Pixels {
     return Buffer.from(base64, 'base64');
   }
 
-  /** Are two alike, and where not? The share of differing pixels, and where they lie in words. */
+  /** Are two alike, and where not? The share of differing pixels, and their place in words. */
   async differing(a, b) {
     const [p, q] = [a, b].map((bytes) => bytes.toString('base64'));
     const { share, square, box } = await this.#page.evaluate(differing, [p, q, SAME_COLOUR, SQUARE_PX]);
@@ -56,7 +56,7 @@ async function shrink([base64, scale, quality]) {
   return btoa(text);
 }
 
-/** Runs in the page: share of differing pixels of two pictures, of the worst square, and the rectangle they lie in. */
+/** Runs in the page: share of differing pixels of two pictures, of the worst square, and their bounding rectangle. */
 async function differing([a, b, same, side]) {
   const read = async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));

@@ -1,4 +1,4 @@
-// The real program on a database of its own.
+// The real program on a separate database.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -14,7 +14,7 @@ export class Program {
   #bin = program;
   url = '';
 
-  /** `bin`: another program than the one that was built. */
+  /** `bin`: another program than the built one. */
   static async start(bin = program) {
     const p = new Program();
     p.#bin = bin;

@@ -1,6 +1,6 @@
-// The page as a screen reader has it: the accessibility tree, and what is said aloud.
+// The page as a screen reader gets it: the accessibility tree, and spoken messages.
 
-/** Everything that is named or can be reached: `{ role, name, value, focusable }`. */
+/** All named or focusable elements: `{ role, name, value, focusable }`. */
 export async function tree(e) {
   const { nodes } = await e.cdp.send('Accessibility.getFullAXTree');
   return nodes
@@ -16,7 +16,7 @@ export async function tree(e) {
     }));
 }
 
-/** Presses what has a role and a name, as a screen reader does. */
+/** Presses an element with a role and a name, like a screen reader. */
 export async function press(e, role, name) {
   const is = (n) => n.role === role && (name instanceof RegExp ? name.test(n.name) : n.name === name);
   let found;
@@ -34,13 +34,13 @@ export async function press(e, role, name) {
   return found;
 }
 
-/** What is said from now on. */
+/** Spoken messages from now on. */
 export async function ear(e) {
   const polite = await e.listen('[role="status"][aria-live="polite"]');
   const urgent = await e.listen('[role="alert"][aria-live="assertive"]');
   return {
     said: async () => [...(await polite()), ...(await urgent())],
-    /** Waits until something is said that has these words. */
+    /** Waits for a spoken message with these words. */
     hears: (words) =>
       e.until(
         ([source]) =>

@@ -1,12 +1,12 @@
-// The browser's own record of what happened when. Times are milliseconds of its monotonic clock.
+// The browser's own trace of events. Times are milliseconds of its monotonic clock.
 
 const CATEGORIES = ['devtools.timeline', 'blink', 'viz'];
-/** A frame of the screen. */
+/** Duration of a screen frame. */
 const FRAME_MS = 1000 / 60;
-/** What tells of frames alone, and costs the page next to nothing. */
+/** Events of frames only, which cost the page next to nothing. */
 export const FRAMES_ALONE = ['viz'];
 
-/** Runs `work` under a trace and gives what happened: pointer events, frames begun and frames drawn. */
+/** Runs `work` under a trace and returns its events: pointer events, frames begun and frames drawn. */
 export async function traced(browser, page, work, categories = CATEGORIES) {
   const cdp = await browser.newBrowserCDPSession();
   const events = [];
@@ -33,7 +33,7 @@ async function busy(thread) {
   return metrics.find((m) => m.name === 'TaskDuration').value * 1000;
 }
 
-/** CPU time, in ms, that the page's and the drawing processes have used. */
+/** CPU time, in ms, of the page's and the drawing processes. */
 async function cpu(cdp) {
   const { processInfo } = await cdp.send('SystemInfo.getProcessInfo');
   return processInfo.filter((p) => /renderer|gpu/i.test(p.type)).reduce((sum, p) => sum + p.cpuTime, 0) * 1000;
@@ -49,7 +49,7 @@ class Trace {
         .map((v) => v.ts / 1000)
         .sort((a, b) => a - b);
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
-    // A page may have heard of a move ahead of the frame in which it is told.
+    // A page may get a raw move ahead of the frame that delivers it.
     const ahead = dispatched('pointerrawupdate');
     const told = dispatched('pointermove');
     this.moves = told.map((at, i) => ({ at, known: ahead.findLast((t) => t <= at && t > (told[i - 1] ?? 0)) ?? at }));
@@ -63,20 +63,20 @@ class Trace {
         .filter((v) => v.name === name && v.ph === 'X')
         .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000, event: v }))
         .sort((a, b) => a.at - b.at);
-    // A screen shows with its next tick what was drawn by then; of two pictures, the last.
+    // At its next tick a screen shows what was drawn by then; of two pictures, the last.
     const phase = phaseOf(times('DelayBasedBeginFrameSource::OnTimerTick'));
     const shownAt = ({ done }) => Math.ceil((done - phase) / FRAME_MS);
     this.screen = [...new Set(spans('Display::DrawAndSwap').map(shownAt))].map((tick) => tick * FRAME_MS);
     const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame').filter((c) => c.event.pid === page?.pid);
     this.finished = canvases.map((c) => c.done);
-    // What the page told the worker that paints, and when it had painted it.
+    // Messages of the page to the painting worker, and the end of their painting.
     const painter = canvases[0]?.event;
     const messages = spans('HandlePostMessage');
     const handled = new Map(
       messages.filter((h) => on(painter)(h.event)).map((h) => [h.event.args.data?.traceId, h.done]),
     );
     const frames = spans('FireAnimationFrame').filter((f) => on(page)(f.event));
-    // What other workers told the page, and when it heard of it.
+    // Messages of other workers to the page, and the time of their handling.
     const heard = new Map(messages.filter((h) => on(page)(h.event)).map((h) => [h.event.args.data?.traceId, h.at]));
     this.heard = events
       .filter((v) => v.name === 'SchedulePostMessage' && heard.has(v.args.data?.traceId) && !on(painter)(v))
@@ -89,13 +89,13 @@ class Trace {
       .sort((a, b) => a.at - b.at);
   }
 
-  /** When the first picture was on screen that was begun after a worker had told the page what came at a time. */
+  /** Time on screen of the first picture begun after the page handled a worker's message sent at or after a time. */
   shownOnceTold(time) {
     const news = this.heard.find((h) => h.said >= time);
     return news ? this.shownAfter(news.heard) : null;
   }
 
-  /** When the first picture was on screen that was begun at or after a time; null when there was none. */
+  /** Time on screen of the first picture begun at or after a time; null when there was none. */
   shownAfter(time) {
     const told = this.told.find((t) => t.begun >= time);
     const finished = told && this.finished.find((t) => t >= told.painted);
@@ -103,7 +103,7 @@ class Trace {
   }
 }
 
-/** Where in a frame the clock of a screen ticks, which goes evenly: its timer is late now and then. */
+/** Phase of the screen's clock, which is even: its timer is sometimes late. */
 function phaseOf(ticks) {
   const [first = 0] = ticks;
   const late = ticks.map((t) => t - first - FRAME_MS * Math.round((t - first) / FRAME_MS)).sort((a, b) => a - b);

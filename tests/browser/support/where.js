@@ -1,4 +1,4 @@
-// What these journeys need on this machine, and the words for what is missing.
+// Requirements of these journeys on this machine, and messages for missing ones.
 import { accessSync, constants, existsSync, mkdirSync, readdirSync, statSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
@@ -17,7 +17,7 @@ function runs(path) {
   }
 }
 
-/** Why nothing can be run here in this browser, or false. */
+/** Why no journey can run here in this browser, or false. */
 export function missing(browser = 'chromium') {
   const without = {
     chromium: !runs(chromium) && 'no Chromium; set CHROMIUM to its path',
@@ -33,8 +33,8 @@ export function missing(browser = 'chromium') {
 }
 
 /**
- * A recorded scenario file, or null; `dense` for the one that most happens in. DRAGTRAFFIC_SAMPLES says that there are
- * some in its folder; without it they may lie beside the checkout.
+ * A recorded scenario file, or null; `dense` for the largest one. DRAGTRAFFIC_SAMPLES means that its
+ * folder has some; without it they may be beside the checkout.
  */
 export function recordedFile({ dense = false } = {}) {
   const said = process.env.DRAGTRAFFIC_SAMPLES;
@@ -52,7 +52,7 @@ export function recordedFile({ dense = false } = {}) {
 export const out = here('../out');
 mkdirSync(out, { recursive: true });
 
-/** Address of a page that is served already, for instance by `vite preview`; then no program is started. */
+/** Address of a page that is already served, for instance by `vite preview`; then no program is started. */
 const running = process.env.DRAGTRAFFIC_PAGE || null;
 
 export { chromium, firefox, program, running };

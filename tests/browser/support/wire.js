@@ -1,6 +1,6 @@
-// What the page asks of the generator and what comes back, seen from outside the page.
+// Questions of the page to the generator and their answers, observed from outside the page.
 
-/** An event with compact futures written out as a scene document has them: numbers are summed up twice. */
+/** An event with its compact futures expanded to the columns of a scene document: numbers are summed twice. */
 function inColumns(event) {
   const summed = (numbers, perUnit) => {
     let [value, change] = [0, 0];
@@ -37,7 +37,7 @@ class Asked {
     this.tail = [];
     this.chunks = [];
     this.whole = null;
-    /** Ended, and what came has been fetched from the browser. */
+    /** Ended, and its data has been fetched from the browser. */
     this.read = false;
   }
 
@@ -45,12 +45,12 @@ class Asked {
     return (this.#body ??= JSON.parse(this.text));
   }
 
-  /** What the request and what came of its answer weigh, bytes. */
+  /** Size of the request and of its answer so far, bytes. */
   get weight() {
     return { request: Buffer.byteLength(this.text), answer: this.chunks.reduce((sum, c) => sum + c.bytes, 0) };
   }
 
-  /** The events that arrived whole, with the time at which the last byte of each was there. */
+  /** The complete events, each with the arrival time of its last byte. */
   events() {
     const text = this.whole ?? Buffer.concat([this.head, ...this.tail]);
     const out = [];
@@ -76,7 +76,7 @@ class Asked {
   }
 }
 
-/** A worker of the page; its messages travel inside those of the page. */
+/** A worker of the page; its messages are nested in those of the page. */
 class Worker {
   #count = 0;
   #asked = new Map();
@@ -110,14 +110,14 @@ class Worker {
   }
 }
 
-/** `all`: what is asked and answered, word for word. `times`: what is asked, and when answers come. */
+/** `all`: questions and answers in full. `times`: questions, and times of answers. */
 export class Wire {
   asked = [];
-  /** What has come over the wire so far, bytes, as it travelled. */
+  /** Transferred bytes so far, as compressed. */
   bytes = 0;
   #listening = 'all';
 
-  /** Listens to a page and to its workers, which ask the generator; `listening` is `all`, `times` or `nothing`. */
+  /** Listens to a page and to its workers, which send the questions; `listening` is `all`, `times` or `nothing`. */
   static async on(cdp, listening = 'all') {
     const w = new Wire();
     w.#listening = listening;
@@ -130,13 +130,13 @@ export class Wire {
     });
     cdp.on('Target.detachedFromTarget', ({ sessionId }) => workers.delete(sessionId));
     cdp.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => workers.get(sessionId)?.hear(message));
-    // A worker waits until it is listened to.
+    // A worker waits until listening has started.
     await cdp.send('Target.setAutoAttach', { autoAttach: true, waitForDebuggerOnStart: true, flatten: false });
     await w.#follow(cdp);
     return w;
   }
 
-  /** Keeps what one thread asks and is answered. */
+  /** Follows the questions and answers of one thread. */
   #follow(thread) {
     const of = (e) => this.asked.find((a) => a.id === e.requestId);
     thread.on('Network.requestWillBeSent', (e) => {
@@ -170,7 +170,7 @@ export class Wire {
         a.read = true;
         return;
       }
-      // A quick answer may be over before its stream could be followed.
+      // A quick answer may end before its stream can be followed.
       void thread
         .send('Network.getResponseBody', { requestId: e.requestId })
         .then(
@@ -194,7 +194,7 @@ export class Wire {
     return thread.send('Network.enable', { maxPostDataSize: 1 << 24 });
   }
 
-  /** The same for what is asked over an open line: a message each, and pieces of answers by the number of it. */
+  /** The same for questions over a persistent connection: a message each, and pieces of answers by its number. */
   #overLines(thread) {
     const open = new Map();
     const end = (id, timestamp) => {
@@ -230,7 +230,7 @@ export class Wire {
     });
   }
 
-  /** Those asked since a mark taken with `asked.length`. */
+  /** Questions since a mark taken with `asked.length`. */
   since(mark) {
     return this.asked.slice(mark);
   }
@@ -241,7 +241,7 @@ export class Wire {
     return this.asked.every((a) => a.read);
   }
 
-  /** The most that were on the way at the same time. */
+  /** Largest number under way at the same time. */
   static crowd(asked) {
     const ends = asked
       .flatMap((a) => [

@@ -22,7 +22,7 @@ export const chromiumPath = PLACES.find((p) => p && existsSync(p)) ?? null;
 if (!chromiumPath) console.log('Browser tests are skipped: no Chromium found (set CHROMIUM to its path).');
 
 export async function buildPage(): Promise<void> {
-  // What is tested is what is shipped; under the runner's own NODE_ENV it would be a development build.
+  // The test uses the shipped build; under the runner's own NODE_ENV it would be a development build.
   process.env.NODE_ENV = 'production';
   await build({ root: fileURLToPath(new URL('../..', import.meta.url)), logLevel: 'error' });
 }
@@ -87,14 +87,14 @@ export class Driver {
     await this.settled();
   }
 
-  /** Everything is asked and answered, and what came of it is on the page. */
+  /** All requests are answered, and the page shows the results. */
   async settled(): Promise<void> {
     await this.frames(2);
     await this.page.waitForSelector('main.stage[aria-busy="false"]');
     await this.frames(2);
   }
 
-  /** The page has drawn so many frames. */
+  /** The page has drawn this many frames. */
   async frames(n: number): Promise<void> {
     for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
   }

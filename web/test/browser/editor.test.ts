@@ -44,7 +44,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.coach')).toContain('Click a car');
   });
 
-  it('shows the scene before its tools are there, and the picture stays as it was', async () => {
+  it('shows the scene before its tools are loaded, and the picture stays unchanged', async () => {
     let scene = (): void => undefined;
     let tools = (): void => undefined;
     const allowed = (allow: (go: () => void) => void) => new Promise<void>((go) => allow(() => go()));
@@ -54,7 +54,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       await page.route('**/assets/desk-*.js', (r) => toolsMay.then(() => r.continue()));
     });
     await d.page.waitForSelector('main.stage canvas');
-    // Where no panel will be.
+    // Outside all later panels.
     const box = (await d.page.locator('main.stage').boundingBox())!;
     const clip = { x: box.x + 420, y: box.y + 120, width: 480, height: 320 };
     const picture = () => d.page.screenshot({ clip });
@@ -76,7 +76,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await bar.boundingBox()).toEqual(barBox);
   });
 
-  it('says that a part did not load, and fetches it when asked again', async () => {
+  it('reports a part that did not load, and fetches it on the next request', async () => {
     let reachable = false;
     d = await Driver.open(browser, {}, '/', (page) =>
       page.route('**/assets/agent-panel-*.js*', (r) => (reachable ? r.continue() : r.abort())),
@@ -92,7 +92,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await said.count()).toBe(0);
   });
 
-  it('says that its tools did not load', async () => {
+  it('reports that its tools did not load', async () => {
     d = await Driver.open(browser, {}, '/', (page) => page.route('**/assets/desk-*.js', (r) => r.abort()));
     const said = d.page.locator('main.stage [role="alert"]');
     await said.waitFor();
@@ -102,7 +102,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.ready();
   });
 
-  it('drags a goal: six live futures, others asked on release, undo and redo', async () => {
+  it('drags a goal: six live futures, reactions on release, undo and redo', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     expect(await d.page.locator('.fu[data-future]').count()).toBe(6);
@@ -113,7 +113,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await expect.poll(() => previews().length).toBeGreaterThan(2);
     expect(await d.text('.helpbar')).toContain('where others would wait');
     await d.release();
-    // Whether it was asked while the hand still moved or on release: about the same goal.
+    // Whether sent during the drag or on release: the request has the same goal.
     const last = d.server.log.filter((l) => l.react).at(-1)!;
     expect(last).toMatchObject({ react: true, agents: ['1'] });
     expect(last.conditions['1'].goal).toEqual(previews().at(-1)!.conditions['1'].goal);
@@ -127,11 +127,11 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Control+Shift+z');
     await d.settled();
     expect(await d.goal()).toEqual(moved);
-    // Undo and redo show what was worked out before; nobody is asked again.
+    // Undo and redo show known answers without a new request.
     expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
   });
 
-  it('shows who would change while the hand moves, and takes that over on release', async () => {
+  it('shows reactions during the drag, and takes them over on release', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     const [x, y] = await d.at(...(await d.goal()));
@@ -151,7 +151,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.page.locator('.ch').allInnerTexts()).toEqual(causes);
   });
 
-  it('puts everything back on Esc, without an undo step', async () => {
+  it('restores everything on Esc, without an undo step', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     const [x, y] = await d.at(...(await d.goal()));
@@ -185,14 +185,14 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(painted.agents ?? 0).toBeLessThanOrEqual(2);
   });
 
-  it('paints the same where a worker cannot', async () => {
+  it('paints the same without a worker', async () => {
     const picture = async (setup?: (p: Page) => Promise<void>) => {
       d = await (await Driver.open(browser, {}, '/', setup)).ready();
       await d.select('1');
       await d.settled();
       // The middle of the picture, between the panels.
       const middle = { clip: { x: 420, y: 180, width: 560, height: 380 } };
-      // On its way through a worker a picture may come a frame later.
+      // Through a worker a picture may come a frame later.
       let last = await d.page.screenshot(middle);
       await expect.poll(async () => last.equals((last = await d.page.screenshot(middle)))).toBe(true);
       return last;
@@ -205,7 +205,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
         delete (HTMLCanvasElement.prototype as Partial<HTMLCanvasElement>).transferControlToOffscreen;
       });
     });
-    // Letters differ by parts of a pixel.
+    // Text may differ by fractions of a pixel.
     expect(await differing(d.page, onPage, byWorker)).toBeLessThan(5e-4);
   });
 
@@ -254,7 +254,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await f.press('Escape');
   });
 
-  it('lets another future be chosen; the others then answer it', async () => {
+  it('lets the user pick another future; the others react to it', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     await d.key('Alt+2');
@@ -268,7 +268,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.fu[aria-checked="true"] .nm')).toBe('As recorded');
   });
 
-  it('says that a goal is too far, why, and offers three ways out', async () => {
+  it('reports an unreachable goal with the reason, and offers three remedies', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     for (const [field, n, v] of [
@@ -288,7 +288,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.toast')).toContain('nearest reachable');
   });
 
-  it('keeps working while the generator is away and catches up', async () => {
+  it('keeps working while the generator is unreachable, and catches up', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     d.server.options.away = true;
@@ -305,7 +305,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(d.last().conditions['1'].goal).toBeDefined();
   });
 
-  it('notices in the middle of a drag that the generator hangs', async () => {
+  it('notices during a drag that the generator hangs', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     const [x, y] = await d.at(...(await d.goal()));
@@ -319,7 +319,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       { timeout: 5000 },
     );
     await d.page.waitForSelector('.banner', { timeout: 9000 });
-    // While the hand is there panels say it a moment later.
+    // During a drag the panels follow a moment later.
     await d.page.waitForFunction(() => document.querySelector('.status')!.textContent!.includes('Generator offline'));
     await d.page.waitForFunction(() => !document.querySelector('.fu'));
     await d.page.mouse.up();
@@ -339,12 +339,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
           (document.activeElement as HTMLElement).dataset.field ??
           document.activeElement!.tagName,
       );
-    // Enter selects in the list, and then goes on to the inspector.
+    // Enter selects in the list; a further Enter moves to the inspector.
     await d.page.locator('[data-agent="1"]').focus();
     await d.key('Enter');
     await d.page.waitForSelector('.fu');
     expect(await focus()).toBe('1');
-    // Events come and go; the buttons of the list stay.
+    // Events change; the buttons of the list stay.
     d.server.options.collision = true;
     await d.key('g');
     await d.key('Shift+ArrowUp');
@@ -352,7 +352,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await focus()).toBe('1');
     await d.key('Enter');
     expect(await focus()).toBe('goal-speed');
-    // Undo is the editor's as soon as what was typed is taken over.
+    // Undo is the editor's once typed text is committed.
     await d.page.locator('[data-field="goal-time"]').fill('4');
     await d.key('Enter');
     await d.settled();
@@ -360,18 +360,18 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.value('goal-time')).toBe(9);
     expect(await focus()).toBe('goal-time');
     const plays = () => d.page.locator('[data-action="play"]').getAttribute('aria-pressed');
-    // Space plays from a field whose number is applied.
+    // In a field with a committed number Space starts playback.
     await d.key('Space');
     expect(await plays()).toBe('true');
     await d.key('Space');
     expect(await d.value('goal-time')).toBe(9);
-    // After a click with the mouse Space plays.
+    // After a mouse click Space starts playback.
     await d.page.locator('.fu[data-future="C"]').click();
     await d.settled();
     await d.key('Space');
     expect(await plays()).toBe('true');
     await d.key('Space');
-    // Nothing is said about futures when nobody is selected.
+    // Without a selection the status does not mention futures.
     await d.page.locator('.card.chipbar .btn').first().focus();
     await d.key('Escape');
     await d.key('Escape');
@@ -398,7 +398,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.page.inputValue('.title input')).toBe('Mine');
   });
 
-  it('reports on many files in a few rows, what is wrong among them, and on all when asked', async () => {
+  it('reports many files in a few rows, with the faulty ones among them, and all on request', async () => {
     d = await (await Driver.open(browser)).ready();
     const scenes = Array.from({ length: 15 }, (_, i) => ({
       name: `mine-${i}.json`,
@@ -428,9 +428,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
     expect(JSON.stringify(stored.scene.agents[0].conditions)).toContain('x_m');
-    // The word stands from the save before until the next one begins: what counts is what has arrived.
+    // "Saved" stays from the previous save until the next one begins: the stored futures are decisive.
     await expect.poll(() => stored.scene.generated?.samples[0].agents['1']).toBeDefined();
-    // Opened again, the futures are there without asking.
+    // A reopened scene has its futures without a request.
     const asked = d.server.log.length;
     await d.page.reload();
     await d.ready();
@@ -456,7 +456,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.toast')).toContain('Restored');
   });
 
-  it('can be driven by keys alone', async () => {
+  it('works by keys only', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
     await d.key('Tab');
@@ -471,7 +471,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     const id = (d.last().agents as string[])[0];
     expect(d.last().conditions[id].goal).toHaveProperty('speed_mps');
-    // Five repeats within a moment are one step.
+    // Five repeats in quick succession are one step.
     await d.key('Control+z');
     await d.key('Control+z');
     expect(await d.page.locator('.goalsec [aria-checked="true"]').count()).toBe(1);
@@ -498,7 +498,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('5.4 s');
   });
 
-  it('says what is wrong with futures, row by row and in one line, and offers the way by the road', async () => {
+  it('reports faults of futures, by row and in one line, and offers the way by the road', async () => {
     d = await (await Driver.open(browser, { judged: true })).ready();
     await d.select('1');
     const [x, y] = await d.at(...(await d.goal()));
@@ -532,7 +532,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const [hollowX, hollowY] = await d.at(...moved);
     await byRoad(() => d.page.mouse.click(hollowX + 8, hollowY - 26));
 
-    // Leave to go over the median travels with the goal, is one step, and can be taken back.
+    // Permission to cross the median is stored with the goal, is one step, and can be withdrawn.
     await d.page.getByRole('button', { name: 'Allow crossing this median' }).click();
     await d.settled();
     expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
@@ -551,13 +551,13 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     }
     expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await d.goal()).toEqual(goal);
-    // What is in the log is there, and does not count.
+    // Events of the recording are listed, but do not count.
     expect(await d.page.locator('.badge.log').count()).toBe(1);
     await d.key('e');
     expect(await d.text('.insp')).toMatch(/6 in these 9 s · 1 in the log/);
   });
 
-  it('works out 20 s: the timeline stretches, the picked length travels, playback runs to the end', async () => {
+  it('plans 20 s: the timeline stretches, the set length is sent, playback runs to the end', async () => {
     d = await (await Driver.open(browser)).ready();
     expect(await d.text('.tm')).toContain('/ 9.0 s');
     await d.page.locator('[data-action="length-20"]').click();
@@ -575,7 +575,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await time.fill('25');
     await time.press('Enter');
     await d.settled();
-    // What is past the end is not taken, and nothing is cut off in silence.
+    // A time past the end is refused, and not clamped silently.
     expect(await d.text('.field .why')).toBe('1 to 20 s');
     expect(d.last().conditions['1'].goal!.time_s).toBe(9);
     await time.fill('+11');
@@ -600,7 +600,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('/ 20.0 s');
   });
 
-  it('starts empty when there is no scene, and waits when there is no server', async () => {
+  it('starts empty without a scene, and waits without a server', async () => {
     d = await Driver.open(browser, { away: false }, '/', async (p) => {
       await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } }));
     });

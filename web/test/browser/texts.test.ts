@@ -1,5 +1,5 @@
-// Every text of the page stands in a table: with all of them marked, no letter is left that is not. None is cut off
-// when it is longer by a third. And German, where it is chosen.
+// Every text of the page is in a table: with all of them marked, no unmarked letter is left. None is cut off when it is
+// longer by a third. German appears when chosen.
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import { buildPage, chromiumPath, Driver, launch } from './driver';
@@ -13,7 +13,7 @@ const speaking = (language: string) => (page: import('playwright-core').Page) =>
     page.addInitScript((l) => localStorage.setItem('dragtraffic:language', JSON.stringify(l)), language),
   ]);
 
-/** What is the same in every language: keys, units, formats, letters of futures, and what the server or a file says. */
+/** Equal in every language: keys, units, formats, letters of futures, and texts of the server or a file. */
 const SAME = [
   'DragTraffic|Ctrl|Shift|Alt|Esc|Tab|Space|Home|End|Del|Page(?:Up|Down)|[AP]M|Enter|Menu|Backspace|Delete|F\\d+',
   '[A-F]{2,6}',
@@ -21,11 +21,11 @@ const SAME = [
   '\\.[a-z0-9.]+',
 ];
 
-/** Texts, names and titles on the page that hold unmarked letters; and those that are cut off. */
+/** Texts, names and titles on the page with unmarked letters; and those that are cut off. */
 const look = (): Promise<{ bare: string[]; cut: string[] }> =>
   d.page.evaluate((same) => {
     const known = new RegExp(`(?<![A-Za-z])(?:${same.join('|')})(?![A-Za-z])`, 'g');
-    // Names are of the scene: they stand in its file.
+    // Names belong to the scene: they are in its file.
     const names = /(?<![A-Za-z])(?:Car|Truck|Bus|Motorcycle|Cyclist|Pedestrian|Object) \d+/g;
     const bareOf = (text: string): boolean => {
       let left = text;
@@ -107,11 +107,11 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
     expect(found).toEqual({});
   });
 
-  it('tell lengths in feet where speeds are in miles an hour', async () => {
+  it('show lengths in feet where speeds are in miles per hour', async () => {
     d = await Driver.open(browser, { judged: true }, '/', (page) =>
       page.addInitScript(() => {
         localStorage.setItem('dragtraffic:speed-unit', '"mph"');
-        // What is written on the picture goes to its painter.
+        // Texts on the picture are sent to its painter.
         const painted: string[] = ((window as unknown as { painted: string[] }).painted = []);
         const send = Worker.prototype.postMessage as (this: Worker, ...all: unknown[]) => void;
         Worker.prototype.postMessage = function (this: Worker, ...all: unknown[]) {
@@ -127,7 +127,7 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
     const state = async (name: string): Promise<void> => {
       await d.settled();
       const texts = await d.page.evaluate(() => {
-        // Places are metres, as in the file, and say so; so are the steps of the keys that move them.
+        // Positions are in metres, as in the file, with their unit; so are the steps of the keys that move them.
         const metric = '[data-file-text], script, noscript, style, .field:has([data-field$="-pos"])';
         const read = [...document.querySelectorAll<HTMLElement>('body *')].flatMap((e) => {
           if (e.closest(metric)) return [];
@@ -177,7 +177,7 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
       ).toBe(true);
   });
 
-  it('are German where it is chosen, and the page says so', async () => {
+  it("are German when chosen, and so is the page's language attribute", async () => {
     d = await (await Driver.open(browser, {}, '/', speaking('de'))).ready();
     expect(await d.page.getAttribute('html', 'lang')).toBe('de');
     expect(await d.text('.coach')).toContain('Auf einen Pkw klicken');
@@ -185,7 +185,7 @@ describe.skipIf(!chromiumPath)('texts on the page', { timeout: 60_000 }, () => {
     await d.select('1');
     await d.settled();
     expect(await d.text('[data-action="set-goal"]')).toContain('Ziel setzen');
-    // Numbers are written with a comma, and read with either.
+    // Numbers have a comma, and are read with comma or point.
     const time = d.page.locator('[data-field="goal-time"]');
     for (const typed of ['4,5', '4.5']) {
       await time.fill(typed);

@@ -17,7 +17,7 @@ beforeEach(() => {
 });
 
 describe('every change of the document', () => {
-  it('gives it a higher version: commits, folds, ways there and back, another version, another scene', () => {
+  it('raises its version: commits, folds, undo and redo, another version, another scene', () => {
     const folding = (seed: number): Command => ({ ...setSeed(seed), name: 'Seed', fold: 'seed' });
     const changes: (() => void)[] = [
       () => document.run(setSeed(1)),
@@ -54,7 +54,7 @@ describe('every change of the document', () => {
 });
 
 describe('the trial of a drag', () => {
-  it('is shown and not committed, and leaves nothing when it is put back', () => {
+  it('is shown but not committed, and leaves nothing when it is cancelled', () => {
     const before = document.committed.peek();
     document.begin();
     document.preview(goal(5));
@@ -63,7 +63,7 @@ describe('the trial of a drag', () => {
     expect([goalX(), document.committed.peek(), steps()]).toEqual([undefined, before, []]);
   });
 
-  it('becomes one step, with where the picture looked before and after it', () => {
+  it('becomes one step, with the cameras before and after it', () => {
     let cx = 0;
     document.camera = () => ({ cx, cy: 0, z: 8 });
     document.begin();
@@ -76,7 +76,7 @@ describe('the trial of a drag', () => {
     expect([step.from?.cx, step.to?.cx, goalX()]).toEqual([0, 300, undefined]);
   });
 
-  it('lets nothing else be committed', () => {
+  it('blocks all other commits', () => {
     document.run(setSeed(1));
     document.begin();
     document.preview(goal(5));
@@ -94,7 +94,7 @@ describe('the trial of a drag', () => {
     expect([document.scene.peek()!.seed, document.scene.peek()!.name]).toEqual([1, crossing().name]);
   });
 
-  it('is over when another scene is opened, also for the hand that goes on', () => {
+  it('ends when another scene is opened, also for a drag that goes on', () => {
     document.begin();
     document.preview(goal(5));
     document.open(crossing());
@@ -103,7 +103,7 @@ describe('the trial of a drag', () => {
     expect([goalX(), steps()]).toEqual([undefined, []]);
   });
 
-  it('lets work wait for its end, but not work for a scene that is no longer open', () => {
+  it('delays work until its end, but not for a scene that is no longer open', () => {
     const done: string[] = [];
     document.afterTrial(() => done.push('at once'));
     document.begin();

@@ -1,4 +1,4 @@
-// A drag in the session, and what happens to it when something else changes the document.
+// A drag in the session while something else changes the document.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { Editor } from '../../src/edit/session/editor';
 import { rename, setGoal, setSeed } from '../../src/model/document/commands';
@@ -35,7 +35,7 @@ describe('during a drag', () => {
     expect([goalX(), steps().length]).toEqual([5, 2]);
   });
 
-  it('undo takes it back, and redo brings it again', () => {
+  it('undo takes it back, and redo restores it', () => {
     editor.commits.run(setSeed(3));
     drag(5);
     editor.commits.undo();
@@ -44,7 +44,7 @@ describe('during a drag', () => {
     expect(goalX()).toBe(5);
   });
 
-  it('a step of the history is shown, and the drag is a branch of it', () => {
+  it('a jump in the history works, and the drag is a branch of it', () => {
     editor.commits.run(setSeed(3));
     drag(5);
     editor.commits.goTo(null);
@@ -52,7 +52,7 @@ describe('during a drag', () => {
     expect(editor.document.history!.kept().steps).toHaveLength(2);
   });
 
-  it('a lock puts it back, and the release changes nothing', () => {
+  it('a lock cancels it, and the release changes nothing', () => {
     drag(5);
     editor.lockWith({ words: 'Open elsewhere.', label: 'Edit here', run: () => undefined });
     expect([goalX(), editor.drag.active.peek()]).toEqual([undefined, false]);
@@ -62,7 +62,7 @@ describe('during a drag', () => {
     expect([goalX(), steps()]).toEqual([undefined, []]);
   });
 
-  it('another scene ends it, and the hand that goes on changes nothing there', () => {
+  it('another scene ends it, and a drag that goes on changes nothing there', () => {
     const p = new Pointer();
     ({ editor } = p);
     editor.select('1');

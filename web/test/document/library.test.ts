@@ -1,4 +1,4 @@
-// Opening scenes: from the server, with what this computer keeps of them, one tab at a time.
+// Opening scenes: from the server, with the steps stored on this computer, one tab at a time.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { rename, setSeed } from '../../src/model/document/commands';
 import { PassingStepStore } from '../../src/net/step-store';
@@ -39,8 +39,8 @@ beforeEach(() => {
   return () => vi.useRealTimers();
 });
 
-describe('of two scenes that are on their way', () => {
-  it('the one that was asked for last is shown, whichever comes first', async () => {
+describe('of two scenes being opened', () => {
+  it('the last requested one is shown, whichever arrives first', async () => {
     const tab = await newTab();
     server.fate = (_, id) => (id === 'mine' ? { back: 900 } : { back: 100 });
     void tab.library.open('mine');
@@ -52,7 +52,7 @@ describe('of two scenes that are on their way', () => {
     expect(second.editor.document.lock.peek()).not.toBeNull();
   });
 
-  it('one that is gone leaves the scene before on screen, in hand and with its changes', async () => {
+  it('a missing one leaves the scene before on screen, locked and with its changes', async () => {
     const tab = await newTab();
     await open(tab, 'mine');
     tab.editor.commits.run(rename('Mine'));
@@ -68,7 +68,7 @@ describe('of two scenes that are on their way', () => {
 });
 
 describe('a change while a scene is opened', () => {
-  it('is kept and saved where another scene comes', async () => {
+  it('is kept and saved when another scene is opened', async () => {
     const tab = await newTab();
     await open(tab, 'mine');
     server.fate = (method, id) => (method === 'GET' && id === 'other' ? { back: 500 } : {});
@@ -85,7 +85,7 @@ describe('a change while a scene is opened', () => {
     ]);
   });
 
-  it('is kept where the same scene comes anew', async () => {
+  it('is kept when the same scene is opened again', async () => {
     const tab = await newTab();
     await open(tab, 'mine');
     server.fate = (method, id) => (method === 'GET' && id === 'mine' ? { back: 500 } : {});
@@ -103,7 +103,7 @@ describe('a change while a scene is opened', () => {
 });
 
 describe('two tabs at one scene', () => {
-  it('the second looks on, sees what the first does, and goes on with it when it asks', async () => {
+  it('the second is read-only, follows the first, and takes over on request', async () => {
     const first = await newTab();
     const second = await newTab();
     await open(first, 'mine');
@@ -127,7 +127,7 @@ describe('two tabs at one scene', () => {
     expect(shown(second).seed).toBe(crossingJson().x_editor?.seed ?? 0);
   });
 
-  it('the second has what was done where the server is away', async () => {
+  it('the second has the stored steps while the server is unreachable', async () => {
     const first = await newTab();
     const second = await newTab();
     await open(first, 'mine');

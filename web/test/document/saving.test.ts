@@ -1,4 +1,4 @@
-// Saving: what goes to the server, when, and what the title says of it.
+// Saving: the content, the time, and the state in the title.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { rename, setGoal, setSeed } from '../../src/model/document/commands';
 import { readScene } from '../../src/model/document/scene-reader';
@@ -16,7 +16,7 @@ const pass = (ms: number) => vi.advanceTimersByTimeAsync(ms);
 const nameOf = (id: string) => server.scenes.get(id)?.json.name;
 const seedOf = (id: string) => server.scenes.get(id)?.json.x_editor?.seed;
 const puts = (id: string) => server.seen.filter((s) => s.method === 'PUT' && s.id === id);
-/** Opening waits for what is on its way, and the clock must go on meanwhile. */
+/** Opening waits for running requests, so the clock must advance meanwhile. */
 const open = async (id: string, t = tab) => {
   const opened = t.library.open(id);
   await pass(3000);
@@ -39,8 +39,8 @@ beforeEach(async () => {
   return () => vi.useRealTimers();
 });
 
-describe('what is saved', () => {
-  it('is what was committed, also while a hand tries something else', async () => {
+describe('the saved version', () => {
+  it('is the committed one, also during a drag', async () => {
     tab.editor.commits.run(setSeed(7));
     tab.editor.select('1');
     tab.editor.drag.begin({ part: 'goal', handle: 'body' });
@@ -54,7 +54,7 @@ describe('what is saved', () => {
     expect(goals).toEqual(goals.map(() => null));
   });
 
-  it('includes the change that waits when another scene is opened', async () => {
+  it('includes a waiting change when another scene is opened', async () => {
     server.fate = (method) => (method === 'PUT' ? { there: 500 } : {});
     tab.editor.commits.run(setSeed(7));
     await pass(400);
@@ -64,7 +64,7 @@ describe('what is saved', () => {
     expect(seedOf('mine')).toBe(8);
   });
 
-  it('includes the change that waits when the server is slower than the opening of another scene', async () => {
+  it('includes a waiting change when the server is slower than the opening of another scene', async () => {
     tab.editor.commits.run(setSeed(7));
     server.fate = (method) => (method === 'PUT' ? { back: 5000 } : {});
     await pass(400);
@@ -77,7 +77,7 @@ describe('what is saved', () => {
     expect(seedOf('mine')).toBe(8);
   });
 
-  it('is kept in mind where neither the server nor this computer took it, and shown again', async () => {
+  it('is kept in memory where neither the server nor this computer stored it, and shown again', async () => {
     class NoStore extends PassingStepStore {
       override read = () => Promise.reject(new Error('forbidden'));
       override append = () => Promise.reject(new Error('forbidden'));
@@ -125,7 +125,7 @@ describe('a step that grew after it was saved', () => {
 });
 
 describe('a scene that was deleted elsewhere', () => {
-  it('is a conflict that ends when this version is kept: the scene is made again', async () => {
+  it('is a conflict that ends when this version is kept: the scene is created again', async () => {
     server.scenes.delete('mine');
     tab.editor.commits.run(rename('Kept'));
     await pass(400);
@@ -158,7 +158,7 @@ describe('a conflict', () => {
     expect([nameOf('mine'), seedOf('mine'), tab.saving.conflict.peek()]).toEqual(['Mine', 9, null]);
   });
 
-  it('ends with "keep" also where something is changed while that is on its way', async () => {
+  it('ends with "keep" also where another change follows during the request', async () => {
     await conflict();
     server.fate = (method) => (method === 'PUT' ? { there: 200, back: 200 } : {});
     void tab.saving.keepMine();
@@ -169,7 +169,7 @@ describe('a conflict', () => {
     expect([nameOf('mine'), seedOf('mine'), tab.saving.state.peek()]).toEqual(['Mine', 9, 'saved']);
   });
 
-  it('is none where only the reply to our own save was lost', async () => {
+  it('does not occur where only the reply to our own save was lost', async () => {
     server.fate = (method) => (method === 'PUT' ? { fails: 'reply' } : {});
     tab.editor.commits.run(rename('Mine'));
     await pass(400);
@@ -180,7 +180,7 @@ describe('a conflict', () => {
     expect([nameOf('mine'), seedOf('mine'), tab.saving.state.peek()]).toEqual(['Mine', 9, 'saved']);
   });
 
-  it('that the other version ends is undone as a step', async () => {
+  it('ends with the other version as a step that can be undone', async () => {
     await conflict();
     const taken = tab.library.takeTheirs();
     await pass(1000);
@@ -193,7 +193,7 @@ describe('a conflict', () => {
 });
 
 describe('a server that does not answer', () => {
-  it('is asked again by and by, and the title says that the change is only here', async () => {
+  it('is retried, and the title reports that the change is only local', async () => {
     server.fate = (method) => (method === 'PUT' ? { fails: 'busy' } : {});
     tab.editor.commits.run(setSeed(7));
     await pass(400);
@@ -205,7 +205,7 @@ describe('a server that does not answer', () => {
 });
 
 describe('a scene that is newer on the server', () => {
-  it('is shown as it is there, and undo leads back to what was here', async () => {
+  it('is shown as on the server, and undo leads back to the local version', async () => {
     const store = new PassingStepStore();
     tab = new Tab(server, { store });
     await tab.list.refresh();
@@ -223,7 +223,7 @@ describe('a scene that is newer on the server', () => {
 });
 
 describe('a document that was saved', () => {
-  it('is read back as it was', async () => {
+  it('is read back unchanged', async () => {
     tab.editor.commits.run(goalFor('1', 12, 3));
     await pass(1000);
     const there = readScene(server.scenes.get('mine')!.json);
@@ -232,7 +232,7 @@ describe('a document that was saved', () => {
 });
 
 describe('a scene that is opened again while a change waits', () => {
-  it('and that was changed elsewhere meanwhile is not overwritten by what waits', async () => {
+  it('is not overwritten by the waiting change if it was changed elsewhere meanwhile', async () => {
     const store = new PassingStepStore();
     tab = new Tab(server, { store });
     await tab.list.refresh();

@@ -1,4 +1,4 @@
-// Scenes as a whole: copied, renamed, removed and brought back.
+// Whole scenes: copied, renamed, deleted and restored.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { rename, setGoal, setSeed } from '../../src/model/document/commands';
 import { crossingJson } from '../helpers';
@@ -27,7 +27,7 @@ beforeEach(async () => {
 });
 
 describe('a copy', () => {
-  it('of the open scene has what was committed, not what a drag tries', async () => {
+  it("of the open scene has the committed version, not the drag's preview", async () => {
     tab.editor.commits.run(setSeed(7));
     const a = shown().agents.get('1')!;
     tab.editor.drag.begin({ part: 'goal', handle: 'body' });
@@ -39,7 +39,7 @@ describe('a copy', () => {
     expect(shown().name).toBe('mine, copy');
   });
 
-  it('of an example saves itself from then on', async () => {
+  it('of an example is saved from then on', async () => {
     await whole(tab.library.open('demo-crossing'));
     tab.editor.commits.run(setSeed(7));
     await whole(tab.care.saveCopy());
@@ -48,7 +48,7 @@ describe('a copy', () => {
     expect([tab.saving.state.peek(), [...server.scenes.values()].at(-1)!.json.x_editor?.seed]).toEqual(['saved', 8]);
   });
 
-  it('has a name that is free', async () => {
+  it('has a free name', async () => {
     await whole(tab.care.saveAs('other'));
     await whole(tab.care.saveCopy());
     await whole(tab.care.newOnThisRoad());
@@ -66,7 +66,7 @@ describe('a name', () => {
     expect(names()).toEqual(['Mine', 'Other', 'demo-crossing']);
   });
 
-  it('that was changed elsewhere meanwhile is not overwritten, and that is said', async () => {
+  it('changed elsewhere meanwhile is not overwritten, and a notice reports it', async () => {
     server.put('other', { ...crossingJson(), name: 'Theirs' });
     await whole(tab.care.rename('other', 'Other'));
     expect(names()).toContain('Theirs');
@@ -74,8 +74,8 @@ describe('a name', () => {
   });
 });
 
-describe('a scene that is removed', () => {
-  it('comes back as it was, with its steps', async () => {
+describe('a deleted scene', () => {
+  it('is restored unchanged, with its steps', async () => {
     tab.editor.commits.run(rename('Mine'));
     await whole(tab.care.remove('mine'));
     expect([names(), shown().id]).toEqual([['other', 'demo-crossing'], 'other']);
@@ -87,7 +87,7 @@ describe('a scene that is removed', () => {
     expect(server.scenes.get('mine')!.json.name).toBe('mine');
   });
 
-  it('stays where the server says no', async () => {
+  it('stays where the server refuses', async () => {
     server.fate = (method) => (method === 'DELETE' ? { fails: 'busy' } : {});
     await whole(tab.care.remove('mine'));
     expect([names().includes('mine'), shown().id]).toEqual([true, 'mine']);

@@ -1,12 +1,12 @@
-// A server in memory for tests of the page: scenes with ETags, and for each request a fate that the test decides.
+// An in-memory server for tests of the page: scenes with ETags, and for each request a fate that the test decides.
 import type { SceneJson } from '../../src/model/document/scene-json';
 
-/** What becomes of a request. Times in milliseconds; the test's clock moves them. */
+/** The fate of a request. Times in milliseconds; the test's clock advances them. */
 export interface Fate {
   /** Until the server acts on the request, and from then until its reply arrives. */
   readonly there?: number;
   readonly back?: number;
-  /** `request`: the server never sees it. `reply`: the server acts, and nobody hears of it. `busy`: a 503. */
+  /** `request`: the server never sees it. `reply`: the server acts, and the reply is lost. `busy`: a 503. */
   readonly fails?: 'request' | 'reply' | 'busy';
 }
 
@@ -20,7 +20,7 @@ export interface Seen {
   readonly id: string;
   readonly status: number;
   readonly json: SceneJson | null;
-  /** Its tab was closed while the request was on its way. */
+  /** Its tab was closed while the request was under way. */
   readonly late: boolean;
 }
 
@@ -28,7 +28,7 @@ export class ScriptedServer {
   readonly scenes = new Map<string, StoredScene>();
   /** Every request that the server acted on, in order. */
   readonly seen: Seen[] = [];
-  /** Requests that are on their way there or back. */
+  /** Requests under way in either direction. */
   open = 0;
   fate: (method: string, id: string) => Fate = () => ({});
   #version = 0;
@@ -39,7 +39,7 @@ export class ScriptedServer {
     return etag;
   }
 
-  /** What a tab calls; `here` is false once the tab is closed: it sends nothing more and hears nothing more. */
+  /** The fetch function of a tab; once `here` is false the tab is closed, and neither sends nor receives. */
   fetcher(here: () => boolean = () => true): typeof fetch {
     return async (url, init) => {
       if (!here()) return never();
@@ -103,7 +103,7 @@ const passes = (ms?: number): Promise<void> | void =>
 
 const never = (): Promise<never> => new Promise(() => undefined);
 
-/** Of a reply the client reads no more than this; a real one needs more time than a thousand schedules have. */
+/** The client reads only this much of a reply; a real one would be too slow for a thousand schedules. */
 function reply(status: number, body: unknown, etag?: string): Response {
   const text = JSON.stringify(body);
   return {

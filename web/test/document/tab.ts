@@ -1,4 +1,4 @@
-// A tab of the page without a page: session, document, saving and library, with a server and a storage of the test.
+// A tab without a page: session, document, saving and library, with a server and a storage of the test.
 import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
 import { Editor } from '../../src/edit/session/editor';
 import { Generation } from '../../src/edit/asking/generation';
@@ -14,12 +14,12 @@ import { PassingStepStore, type StepStore } from '../../src/net/step-store';
 import { InMemoryGenerator } from '../edit/session';
 import type { ScriptedServer } from './server';
 
-/** What tabs of one browser share, as one of them has it. */
+/** Shared state of a browser's tabs, as one of them sees it. */
 export interface Surroundings {
   readonly store?: StepStore;
-  /** Without it the tab is alone. */
+  /** Absent for a single tab. */
   readonly browser?: { readonly locks: LockManager; readonly channel: BroadcastChannel };
-  /** Is the tab still there? */
+  /** Is the tab still open? */
   readonly here?: () => boolean;
 }
 
@@ -36,7 +36,7 @@ export class Tab {
   readonly care: SceneCare;
   readonly generation: Generation;
 
-  /** What the generator of the others answers. */
+  /** The generator of the others' reactions. */
   readonly others = new InMemoryGenerator();
 
   constructor(

@@ -1,4 +1,4 @@
-// Filling an area: outlines drawn by hand, kinds shared out, pins that stay.
+// Filling an area: drawn outlines, distribution of kinds, pins that stay.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { FILL_KINDS, EVEN_MIX, shareOf, typesOf } from '../../src/edit/tools/filling/fill-mix';
@@ -30,7 +30,7 @@ describe('a mix of kinds', () => {
     expect(shareOf(EVEN_MIX, 'car')).toBeCloseTo(0.7);
   });
 
-  it('puts longer ones only where they touch nobody', () => {
+  it('uses longer ones only where they overlap no road user', () => {
     const heavy = { ...EVEN_MIX, car: 50, heavy: 50, motorcycle: 0, cyclist: 0, pedestrian: 0 };
     const roomy = recast(
       Array.from({ length: 10 }, (_, i) => carAt(i * 40)),
@@ -92,7 +92,7 @@ describe('an outline drawn by hand', () => {
 });
 
 describe('a preview', () => {
-  it('keeps whoever is pinned, first in the list, and forgets all when it is closed', () => {
+  it('keeps pinned road users, first in the list, and drops all when it is closed', () => {
     const f = new Filling(new Editor());
     f.open(1);
     const all = [carAt(0), carAt(20), carAt(40)];
@@ -137,8 +137,8 @@ const still = (x: number, first = 0): Newcomer => {
   return { ...carAt(x), motion, parked: first === 0 };
 };
 
-describe('those who are parked or come in later', () => {
-  it('come into the scene with their motion, and nobody asked anything of them', () => {
+describe('parked road users and late arrivals', () => {
+  it('are added with their motion, and without conditions', () => {
     const [parked, late] = [settle(still(5), '7'), settle(still(-90, 30), '8')];
     expect([parked.parked, parked.placed, touched(parked)]).toEqual([true, false, false]);
     expect(parked.logStart).toMatchObject({ x: 5, speed: 0 });
@@ -148,7 +148,7 @@ describe('those who are parked or come in later', () => {
     expect(json.conditions).toEqual({});
   });
 
-  it('keep their kind, and are not under the pointer before they are there', () => {
+  it('keep their kind, and are not under the pointer before they arrive', () => {
     const heavy = { ...EVEN_MIX, car: 0, heavy: 50, motorcycle: 0, cyclist: 0, pedestrian: 0 };
     const all = [carAt(-40), still(5), still(-90, 30)];
     expect(recast(all, heavy, []).map((n) => n.kind)).toEqual(['truck', 'car', 'car']);
@@ -164,7 +164,7 @@ describe('arms', () => {
   const west: Arm = { id: 'west', at: [-50, 0], heading: 0, most: 2400, placed: 0, later: 0 };
   const north: Arm = { id: 'north-east-2', at: [0, 30], heading: -Math.PI / 2, most: 4800, placed: 2, later: 1 };
 
-  it('have handles that go outward with the rate and stay in the picture', () => {
+  it('have handles that move outward with the rate and stay in the picture', () => {
     const v = new View();
     for (const rate of [0, 600, 2400]) {
       const [w, n] = armHandles([west, north], { west: rate, 'north-east-2': rate }, v);
@@ -180,7 +180,7 @@ describe('arms', () => {
     expect(armHandles([{ ...west, at: [-500, 0] }], {}, v)).toEqual([]);
   });
 
-  it('take what the hand says, between nothing and all that their lanes take', () => {
+  it('take dragged rates between zero and the capacity of their lanes', () => {
     fc.assert(
       fc.property(fc.integer({ min: 0, max: 2400 }), fc.integer({ min: -500, max: 500 }), (before, px) => {
         const rate = rateAfter(before, px, west);
@@ -191,7 +191,7 @@ describe('arms', () => {
     expect(armName(north)).toBe('North-east 2');
   });
 
-  it('are remembered by their names, and speeds keep their order', () => {
+  it('are stored by name, and speeds keep their order', () => {
     const f = new Filling(new Editor());
     f.open(1);
     f.setRate('west', 600);

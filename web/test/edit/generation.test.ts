@@ -1,4 +1,4 @@
-// What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
+// Requests to a generator and the handling of its answers, with a generator inside the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import {
   clearGoal,
@@ -43,15 +43,15 @@ const goalOf = (id: string) => {
   return setGoal(a, { ...a.goal, pos: [10, 10] });
 };
 const goalFor = (id: string) => editor.commits.run(goalOf(id));
-/** The same by hand. */
+/** The same by a drag. */
 const dragGoal = (id: string) => {
   editor.drag.begin({ part: 'goal', handle: 'body' });
   editor.drag.preview(goalOf(id));
   editor.drag.end(goalOf(id));
 };
 
-describe('a look', () => {
-  it('asks for the six futures of whom one selects, once', () => {
+describe('a selection', () => {
+  it('requests the six futures of the selected road user, once', () => {
     editor.select('1');
     expect(generator.last).toMatchObject({ preview: true, options: { agents: ['1'], react: true, score: false } });
     expect(generator.last.scene()).toEqual({ id: json.id });
@@ -68,7 +68,7 @@ describe('a look', () => {
 });
 
 describe('a change', () => {
-  it('rests, then asks how the others react, and says who changed', () => {
+  it('waits, then requests reactions, and reports them', () => {
     editor.select('1');
     goalFor('1');
     goalFor('1');
@@ -84,7 +84,7 @@ describe('a change', () => {
     expect(editor.notices.toast.peek()?.text).toMatch(/^Goal of Car 1.* 1 other changed\.$/);
   });
 
-  it('done again says again who changed, and taken back says nothing', () => {
+  it('redone reports the reactions again, and undone reports none', () => {
     goalFor('1');
     rest();
     generator.last.on.final(finalOf('1', '2'), 30);
@@ -96,14 +96,14 @@ describe('a change', () => {
     expect(editor.answers.changes.peek()).toEqual(changed);
   });
 
-  it('asks nobody else when the others keep to the log', () => {
+  it('requests no others when they replay the recording', () => {
     editor.commits.run(setOthers('log'));
     goalFor('1');
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1'], react: false });
   });
 
-  it('that takes everything back is answered by the log, and only scored', () => {
+  it('that removes all conditions is answered by the recording, and only scored', () => {
     goalFor('1');
     rest();
     generator.last.on.final(finalOf('1'), 5);
@@ -114,7 +114,7 @@ describe('a change', () => {
     expect(editor.answers.motion.peek()).toMatchObject({ stale: false, futures: new Map() });
   });
 
-  it('shows an answer that is known at once, without asking', () => {
+  it('shows a known answer at once, without a request', () => {
     goalFor('1');
     rest();
     generator.last.on.final(finalOf('1'), 5);
@@ -142,7 +142,7 @@ describe('a speed curve', () => {
     expect(speeds()).toHaveLength(3);
   });
 
-  it('is drawn on the new way when a change asks nothing else of the speed, within the same step', () => {
+  it('is drawn along the new path when a change sets no other speed, within the same step', () => {
     const { depth } = editor.document.history!;
     editor.commits.run(setSize(editor.agent.peek()!, 5, 2));
     expect(speeds()).toBeUndefined();
@@ -172,7 +172,7 @@ describe('a speed curve', () => {
   });
 });
 
-describe('a speed curve whose change is answered while a hand drags', () => {
+describe('a speed curve whose change is answered during a drag', () => {
   const curved = () => profileOf(editor.scene.peek()!.agents.get('1')!) !== null;
 
   beforeEach(() => {
@@ -187,14 +187,14 @@ describe('a speed curve whose change is answered while a hand drags', () => {
     generator.last.on.final(finalOf('1'), 5);
   });
 
-  it('is drawn once the drag is put back, within the step of the change', () => {
+  it('is drawn once the drag is cancelled, within the step of the change', () => {
     expect(curved()).toBe(false);
     editor.drag.cancel();
     expect(curved()).toBe(true);
     expect(editor.document.undoName.peek()).toBe('Size of Car 1 changed');
   });
 
-  it('is off where the drag changes the goal, and no step names a document that never was', () => {
+  it('is off where the drag changes the goal, and no step names a document that never existed', () => {
     editor.drag.end(goalOf('1'));
     expect([editor.scene.peek()!.agents.get('1')!.goal.pos, curved()]).toEqual([[10, 10], false]);
     editor.commits.undo();
@@ -227,7 +227,7 @@ describe('a pick among futures', () => {
     generator.last.on.final(finalOf('1'), 5);
   });
 
-  it('asks for that one alone, pinned, and how the others react to it', () => {
+  it('requests only that one, pinned, with the reactions of the others', () => {
     pick(2);
     expect(generator.last).toMatchObject({ preview: false });
     expect(generator.last.options).toMatchObject({ agents: ['1'], pinned: ['1'], react: true, score: true });
@@ -236,7 +236,7 @@ describe('a pick among futures', () => {
     expect(asked()['1']).toMatchObject({ chosen: 0, modes: [{ probability: six('1').modes[2].probability }] });
   });
 
-  it('asks how it goes on past its 9 s, also where nobody else is asked', () => {
+  it('requests its continuation past 9 s, also where no other road user is requested', () => {
     editor.commits.run(setOthers('log'));
     const asked9 = generator.asked.length;
     pick(2);
@@ -247,7 +247,7 @@ describe('a pick among futures', () => {
     expect(Object.keys(asked())).toEqual(['1']);
   });
 
-  it('is scored where nobody answers: others are said to hit it only where they do', async () => {
+  it('is scored without reactions: others have a collision only with their own fault', async () => {
     editor.commits.run(setOthers('log'));
     const hits = six('2');
     const hit = { kind: 'collision', with: '1', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 9 };
@@ -259,7 +259,7 @@ describe('a pick among futures', () => {
     }
     editor.select('1');
     pick(2);
-    // Who has none picked is drawn with it.
+    // A road user without a pick is drawn with it.
     expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
     generator.last.on.final(finalWith({ 2: hits }), 5);
     expect(editor.reading.events.peek().map((x) => x.kind)).toContain('collision');
@@ -272,7 +272,7 @@ describe('a pick among futures', () => {
     expect(editor.answers.motion.peek().futures.get('2')!.modes[1].about?.faults).toEqual([]);
   });
 
-  it('changes only those that say whom they answer', () => {
+  it('changes only road users with a reaction', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     expect(editor.answers.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
@@ -280,21 +280,21 @@ describe('a pick among futures', () => {
     expect([editor.reading.futures.peek()!.modes.length, editor.reading.chosen.peek()]).toEqual([6, 2]);
   });
 
-  it('is answered from the log on, whatever was picked before', () => {
+  it('is answered from the recording on, whatever was picked before', () => {
     const told = () => editor.answers.changes.peek().map((c) => [c.id, c.words]);
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     const [[, first]] = told();
     pick(3);
     expect(Object.keys(asked())).toEqual(['1']);
-    // It answers as it did: that is said again, and not that nobody had to change.
+    // The same reaction is reported again, instead of "no other agent is affected".
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     expect(told()).toEqual([['2', first]]);
     pick(4);
     generator.last.on.final(finalWith({}), 5);
     expect(editor.answers.motion.peek().driving).toEqual(new Set(['1']));
     expect(told()).toEqual([['2', 'no longer reacts to Car 1']]);
-    // A third one's change leaves those alone that answer another.
+    // A third one's change does not affect reactions to another.
     pick(3);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     editor.select('3');
@@ -303,13 +303,13 @@ describe('a pick among futures', () => {
     expect(Object.keys(asked()).sort()).toEqual(['1', '2', '3']);
     generator.last.on.final(finalWith({}), 5);
     expect([...editor.answers.motion.peek().driving].sort()).toEqual(['1', '2', '3']);
-    // Nothing is asked of the first one any more: it follows its log, and nobody answers it.
+    // The first one has no conditions any more: it replays the recording, and none reacts to it.
     editor.commits.run(resetAgent(editor.scene.peek()!.agents.get('1')!));
     rest();
     expect(Object.keys(asked())).toEqual(['3']);
   });
 
-  it('leaves who answers free again when the scene is read from a file', () => {
+  it('frees a reacting road user again when the scene is read from a file', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     const scene = editor.scene.peek()!;
@@ -321,7 +321,7 @@ describe('a pick among futures', () => {
     expect(thoseWhoAnswer(scene, read, ['3'])).toEqual(new Set());
   });
 
-  it('gives back to one that was put here what it did before it answered', () => {
+  it('restores the earlier motion of a placed road user that reacted', () => {
     const scene = editor.scene.peek()!;
     const placed = { ...scene.agents.get('2')!, placed: true };
     const there = withAgents(scene, [placed]);
@@ -334,12 +334,12 @@ describe('a pick among futures', () => {
     const set = { ...emptyMotion(''), futures, driving: new Set(['2']), answering };
     const again = asIfNotAsked(set, thoseWhoAnswer(there, set, ['1']));
     expect([again.futures.get('2'), again.driving.has('2'), again.answering.size]).toEqual([own.futures, true, 0]);
-    // Nobody knows what it did: it goes on as it does.
+    // Its earlier motion is unknown: it keeps the current one.
     const unknown = { ...set, answering: new Map([['2', { said }]]) };
     expect(thoseWhoAnswer(there, unknown, ['1'])).toEqual(new Set());
   });
 
-  it('taken back and made again says again who changed', () => {
+  it('undone and repeated reports the reactions again', () => {
     pick(2);
     generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
     const changed = editor.answers.changes.peek();
@@ -352,7 +352,7 @@ describe('a pick among futures', () => {
     expect(generator.asked.filter((q) => !q.preview)).toHaveLength(asked);
   });
 
-  it('leaves those that were picked before as they are', () => {
+  it('leaves earlier picks unchanged', () => {
     pick(2);
     generator.last.on.final(finalWith({}), 5);
     editor.select('2');
@@ -363,7 +363,7 @@ describe('a pick among futures', () => {
     expect(react).not.toContain('1');
     expect(react).not.toContain('2');
     expect(react).toContain('3');
-    // Who comes in later brakes too.
+    // Late arrivals brake too.
     const scene = editor.scene.peek()!;
     const third = scene.agents.get('3')!;
     const comesAt = (step: number) =>
@@ -379,7 +379,7 @@ describe('a pick among futures', () => {
 });
 
 describe('a scene that gets longer', () => {
-  it('goes on: nobody is drawn anew, neither untouched nor asked something', () => {
+  it('continues: none is drawn again, with or without conditions', () => {
     editor.commits.run(setLength(editor.scene.peek()!, 15));
     rest();
     expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 15 });
@@ -390,7 +390,7 @@ describe('a scene that gets longer', () => {
     editor.commits.run(setLength(editor.scene.peek()!, 20));
     rest();
     expect(generator.last.options).toMatchObject({ agents: [], react: true, horizon_s: 20 });
-    // Another seed draws anew.
+    // Another seed draws again.
     editor.commits.run(setSeed(7));
     rest();
     expect(generator.last.options).toMatchObject({ agents: ['1'], react: true, seed: 7 });
@@ -398,7 +398,7 @@ describe('a scene that gets longer', () => {
 });
 
 describe('another seed', () => {
-  it('draws all anew that were asked something, but whose future is picked', () => {
+  it('draws all conditioned ones again, except those with a picked future', () => {
     for (const id of ['1', '2']) {
       goalFor(id);
       rest();
@@ -418,8 +418,8 @@ describe('another seed', () => {
   });
 });
 
-describe('who goes one way alone', () => {
-  it('is offered five others beside it when it is selected, and goes on as it did', () => {
+describe('a road user with only one future', () => {
+  it('is offered five others beside it when it is selected, and keeps its motion', () => {
     goalFor('1');
     rest();
     generator.last.on.final(answered('1', { '2': late('2', 3, '1') }), 5);
@@ -437,8 +437,8 @@ describe('who goes one way alone', () => {
   });
 });
 
-describe('a generator that goes away', () => {
-  it('is tried again, and then asked for what has waited', async () => {
+describe('an unreachable generator', () => {
+  it('is retried, and then gets the waiting requests', async () => {
     editor.select('1');
     goalFor('1');
     rest();
@@ -460,7 +460,7 @@ describe('a generator that goes away', () => {
 });
 
 describe('a drag', () => {
-  it('asks about the same surroundings with the same object, which is written once', () => {
+  it('sends the same surroundings as the same object, which is serialised once', () => {
     goalFor('1');
     rest();
     generator.last.on.final(finalOf('1'), 5);
@@ -470,15 +470,15 @@ describe('a drag', () => {
     generation.preview('2');
     expect(generator.last.scene()).toEqual(first);
     expect((generator.last.scene() as { scene: unknown }).scene).toBe((first as { scene: unknown }).scene);
-    // Of those that go another way than recorded it says the one way they go.
+    // Road users off their recording are sent with their one followed future.
     const { generated } = (first as { scene: SceneJson }).scene;
     expect(generated?.samples[0].agents['1']).toMatchObject({ chosen: 0, modes: [{ probability: 0.41 }] });
   });
 });
 
-describe('what is shown of a drag', () => {
+describe('the shown future of a drag', () => {
   const judgedSix = judged(six('1').modes as ModeJson[], ['2', '17']);
-  /** The six in another order of likelihood, as sent: the likeliest first. */
+  /** The six in another order of probability, as received: the likeliest first. */
   const sent = (order: string, chosen: number): AgentFuturesJson => ({
     chosen,
     modes: [...order].map((letter, i) => ({ ...judgedSix['ABCDEF'.indexOf(letter)], probability: 0.3 - 0.04 * i })),
@@ -505,7 +505,7 @@ describe('what is shown of a drag', () => {
     generation.preview('1');
   };
 
-  it('goes with the next question and with the release, and with nothing else', () => {
+  it('is sent with the next question and with the release, and with nothing else', () => {
     expect(generator.last.options.shown).toBeUndefined();
     dragTo(10);
     const { x_m, y_m, anchor } = generator.last.options.shown!['1'];
@@ -543,7 +543,7 @@ describe('what is shown of a drag', () => {
     expect(editor.answers.remark.peek()).toBeNull();
   });
 
-  it('has the names of rest where the hand rests', () => {
+  it('has the names of rest while the drag pauses', () => {
     dragTo(10);
     const ahead = judgedSix.map((m) => ({ ...m, relations: [], manoeuvre: 'straight' as const }));
     generator.last.on.draft(draft({ chosen: 0, modes: ahead as ModeJson[] }), 5, 5, 10);
@@ -557,7 +557,7 @@ describe('what is shown of a drag', () => {
     expect(names()).not.toEqual(moving);
   });
 
-  it('says why another is shown than in the drag, until the next one', () => {
+  it('reports why another is shown than in the drag, until the next one', () => {
     dragTo(10);
     generator.last.on.draft(draft(sent('ABCDEF', 0)), 5, 5, 10);
     editor.drag.end(goal(10));
@@ -570,7 +570,7 @@ describe('what is shown of a drag', () => {
     expect(editor.answers.remark.peek()).toBeNull();
   });
 
-  it('is taken over from what was foreseen, ranked and explained', async () => {
+  it('is taken over from the preview, ranked and explained', async () => {
     editor.commits.run(setOthers('react'));
     rest();
     dragTo(10);

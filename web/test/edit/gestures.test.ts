@@ -1,4 +1,4 @@
-// From state to state: what a press, a movement and a release become, without a page.
+// Transitions of states: the effects of press, move and release, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { wrapAngle, type Point } from '../../src/model/base/geometry';
 import { startPose } from '../../src/model/document/scene';
@@ -16,7 +16,7 @@ const B = { x: 340, y: 280 };
 const goalBody = { kind: 'grip', grip: { part: 'goal', handle: 'body' } } as const;
 
 describe('idle', () => {
-  it('lights up what is under the pointer and shows what it would do', () => {
+  it('highlights the object under the pointer and shows its action', () => {
     p.hit = { kind: 'agent', id: '2', pile: ['2'] };
     p.move(A);
     expect(p.state).toBe('idle');
@@ -25,7 +25,7 @@ describe('idle', () => {
     expect([p.editor.hover.peek(), p.cursor]).toEqual([null, '']);
   });
 
-  it('shows nothing under another tool than select', () => {
+  it('shows nothing with another tool than select', () => {
     p.hit = { kind: 'agent', id: '2', pile: ['2'] };
     p.editor.chooseTool('measure');
     p.move(A);
@@ -34,7 +34,7 @@ describe('idle', () => {
 });
 
 describe('pressed', () => {
-  it('stays pressed while the hand trembles, and clicks on release', () => {
+  it('stays pressed while the pointer trembles, and clicks on release', () => {
     p.hit = { kind: 'agent', id: '2', pile: ['2', '3'] };
     p.down(A);
     p.move({ x: A.x + 2, y: A.y + 1 });
@@ -53,13 +53,13 @@ describe('pressed', () => {
     expect(p.state).toBe('panning');
   });
 
-  it('deselects where nothing is', () => {
+  it('deselects on the empty picture', () => {
     p.editor.select('1');
     p.click(A);
     expect(p.editor.selection.peek()).toBeNull();
   });
 
-  it('is forgotten on Esc, which then does what it does otherwise', () => {
+  it('is cancelled on Esc, which then keeps its usual effect', () => {
     p.down(A);
     expect(p.chart.cancel()).toBe(false);
     expect(p.state).toBe('idle');
@@ -69,7 +69,7 @@ describe('pressed', () => {
 });
 
 describe('panning', () => {
-  it('moves the picture with the pointer, and begins with Space and the middle button over anything', () => {
+  it('moves the picture with the pointer, also with Space and the middle button over anything', () => {
     p.hit = goalBody;
     p.editor.select('1');
     p.down(A, { button: 1 });
@@ -96,7 +96,7 @@ describe('dragging a handle', () => {
     return from;
   };
 
-  it('previews the document, asks for live futures, and commits one step on release', () => {
+  it('previews the document, requests live futures, and commits one step on release', () => {
     const from = take();
     p.move({ x: from.x + 4, y: from.y });
     expect([p.state, p.cursor]).toEqual(['dragging handle', 'grabbing']);
@@ -131,7 +131,7 @@ describe('dragging a handle', () => {
     }
   });
 
-  it('puts everything back on Esc and drops the previews', () => {
+  it('restores everything on Esc and drops the previews', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     expect(p.chart.cancel()).toBe(true);
@@ -141,14 +141,14 @@ describe('dragging a handle', () => {
     expect(p.editor.document.undoName.peek()).toBeNull();
   });
 
-  it('is put back by a second finger, which then pinches', () => {
+  it('is cancelled by a second finger, which then pinches', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     p.down({ x: 500, y: 400 }, { id: 2 });
     expect([p.state, p.editor.drag.info.peek()]).toEqual(['pinching', null]);
   });
 
-  it('asks ahead of the frame, once, and not again for the same place', () => {
+  it('sends a request ahead of the frame, once, and not again for the same place', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     const asked = p.previewed.length;
@@ -161,7 +161,7 @@ describe('dragging a handle', () => {
     expect(p.editor.agent.peek()!.goal.pos).toEqual(goal);
   });
 
-  it('asks no more often than pictures come: what comes between is shown, and asked a little later', () => {
+  it('sends no more requests than frames: places in between are shown, and requested a little later', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });
     const asked = p.previewed.length;
@@ -182,7 +182,7 @@ describe('dragging a handle', () => {
     p.now -= 10;
     p.move({ x: from.x + 90, y: from.y });
     expect(p.previewed).toHaveLength(asked + 2);
-    // The hand has come to rest.
+    // The pointer has stopped.
     p.frame();
     expect(p.previewed).toHaveLength(asked + 3);
     p.frame();
@@ -191,7 +191,7 @@ describe('dragging a handle', () => {
     expect(p.editor.document.undoName.peek()).not.toBeNull();
   });
 
-  it('is not told ahead before it is held, nor with two fingers', () => {
+  it('handles no moves ahead of the frame before the press, nor with two fingers', () => {
     p.ahead({ x: 300, y: 300 });
     expect(p.previewed).toEqual([]);
     const from = take();
@@ -200,7 +200,7 @@ describe('dragging a handle', () => {
     expect(p.previewed).toEqual([]);
   });
 
-  it('answers to modifier keys at once', () => {
+  it('reacts to modifier keys at once', () => {
     const from = take();
     expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(false);
     p.move({ x: from.x + 50, y: from.y });
@@ -209,7 +209,7 @@ describe('dragging a handle', () => {
     expect(p.previewed).toHaveLength(2);
   });
 
-  it('takes the box of a road user as the handle of its start, at the start of the scene alone', () => {
+  it('takes the box of a road user as the handle of its start, only at the start of the scene', () => {
     p.hit = { kind: 'agent', id: '2', pile: ['2'] };
     p.down(A);
     p.move(B);
@@ -225,7 +225,7 @@ describe('dragging a handle', () => {
 });
 
 describe('pinching', () => {
-  it('zooms with the distance of two fingers, and the one that stays moves the picture', () => {
+  it('zooms with the distance of two fingers; a single remaining one moves the picture', () => {
     const z = p.view.z;
     p.down(A);
     p.down({ x: 400, y: 300 }, { id: 2 });
@@ -243,7 +243,7 @@ describe('pinching', () => {
 });
 
 describe('two fingers on the selected road user', () => {
-  /** Both beside the box, so many pixels to its left and right, turned about its middle. */
+  /** Both beside the box, this many pixels to its left and right, turned about its middle. */
   const pair = (angle: number, apart = 40): [Point, Point] => {
     const { x, y } = startPose(p.editor.agent.peek()!)!;
     const c = p.at(x, y);
@@ -280,7 +280,7 @@ describe('two fingers on the selected road user', () => {
     expect(heading()).toBeCloseTo(before);
   });
 
-  it('zoom the picture where they are drawn apart', () => {
+  it('zoom the picture when moved apart', () => {
     press();
     const [before, z] = [heading(), p.view.z];
     for (let k = 1; k <= 10; k++) {
@@ -293,7 +293,7 @@ describe('two fingers on the selected road user', () => {
     expect(heading()).toBe(before);
   });
 
-  it('zoom the picture elsewhere, and where it is locked', () => {
+  it('zoom the picture elsewhere, and over a locked road user', () => {
     press();
     p.chart.cancel();
     p.editor.commits.run(lockAll([p.editor.agent.peek()!], true)!);
@@ -322,7 +322,7 @@ describe('fingers', () => {
     expect([p.taps, p.state]).toEqual([[2, 3], 'idle']);
   });
 
-  it('have a loupe over what they take along, which a mouse has not', () => {
+  it('have a loupe over the dragged object, which a mouse has not', () => {
     p.editor.select('1');
     p.hit = goalBody;
     for (const touch of [true, false]) {
@@ -334,7 +334,7 @@ describe('fingers', () => {
     }
   });
 
-  it('take along who they are on, and move the picture beside somebody', () => {
+  it('drag the road user under them, and pan beside one', () => {
     const [agent, pile] = ['2', ['2']];
     p.hit = { kind: 'agent', id: agent, pile, beside: true };
     p.down(A, { touch: true });

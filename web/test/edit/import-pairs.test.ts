@@ -22,7 +22,7 @@ test('of several maps each goes with the recording of its name', () => {
   ]);
 });
 
-test('maps alone and tables stay what they are', () => {
+test('maps alone and tables stay unpaired', () => {
   expect(names(['town.net.xml', 'motion.parquet', 'log_map_archive_a.json'])).toEqual([
     'town.net.xml',
     'motion.parquet',

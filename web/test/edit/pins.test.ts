@@ -1,4 +1,4 @@
-// Pinned futures: they stay while others are drawn anew, are kept with the scene, and can be taken again.
+// Pinned futures: they stay when others are drawn again, are stored with the scene, and can be taken again.
 import { describe, expect, it } from 'vitest';
 import { clearGoal, drawAnew, setGoal, setSeed } from '../../src/model/document/commands';
 import { MOST_PINS, motionOfPin, takenPin, takePin, unpin } from '../../src/model/document/pins';
@@ -31,7 +31,7 @@ class Pinning extends Session {
     return undefined;
   }
 
-  /** Other futures than before: all of them lie so many metres further on. */
+  /** Other futures than before: all are shifted by this many metres. */
   drawnAnew(shift: number): void {
     const other = six(ID);
     for (const m of other.modes) m.x_m = Array.from(m.x_m, (x) => x + shift);
@@ -49,7 +49,7 @@ class Pinning extends Session {
 }
 
 describe('a pinned future', () => {
-  it('carries a mark, is one step, and no more than three are pinned', () => {
+  it('has a mark, is one step, and at most three are pinned', () => {
     const t = new Pinning();
     for (let i = 0; i < MOST_PINS; i++) expect(t.toggle(i)).toBeUndefined();
     expect(t.toggle(MOST_PINS)).toMatch(/the maximum/);
@@ -62,7 +62,7 @@ describe('a pinned future', () => {
     expect(t.agent.pins).toHaveLength(MOST_PINS - 1);
   });
 
-  it('stands beside others that are drawn anew, and in the file', () => {
+  it('stays when others are drawn again, and in the file', () => {
     const t = new Pinning();
     const [, b] = t.editor.reading.futures.peek()!.modes;
     t.toggle(1);
@@ -75,7 +75,7 @@ describe('a pinned future', () => {
     expect(readScene(broken).agents.get(ID)!.pins).toEqual([]);
   });
 
-  it('says why it fits no more, and brings back what it was made for when it is taken', () => {
+  it('reports why it no longer fits, and restores its start and goal when it is taken', () => {
     const t = new Pinning();
     t.toggle(2);
     const [pin] = t.agent.pins;
@@ -92,12 +92,12 @@ describe('a pinned future', () => {
     expect(t.editor.reading.futures.peek()!.modes).toHaveLength(1);
     const motion = motionOf(t.editor.scene.peek()!, t.editor.answers.motion.peek(), t.agent);
     expect(motion).toBe(motionOfPin(pin));
-    // Let go, it is free again.
+    // Unpinned, it is free again.
     t.editor.commits.run(unpin(t.agent, pin));
     expect([t.agent.chosen, t.agent.pins]).toEqual([null, []]);
   });
 
-  it('goes on while everybody else is drawn anew, and is there whatever answer was kept', () => {
+  it('continues when all others are drawn again, and is present whatever answer was stored', () => {
     const t = new Pinning();
     t.toggle(3);
     t.editor.commits.run(takePin(t.agent, t.agent.pins[0]));
@@ -109,11 +109,11 @@ describe('a pinned future', () => {
     expect((asked as { kept: ReadonlySet<string> }).kept.has(ID)).toBe(true);
     const seeded = setSeed(7).apply(editor.scene.peek()!);
     expect(requestForChange(editor, seeded, { name: '', agent: null, undo: false })).toMatchObject({ pinned: [ID] });
-    // Opened without an answer it is known all the same.
+    // A scene opened without an answer has it too.
     editor.open(editor.scene.peek()!);
     const f = editor.answers.motion.peek().futures.get(ID)!;
     expect(f.modes[0].motion).toBe(motionOfPin(editor.scene.peek()!.agents.get(ID)!.pins[0]));
-    // Of somebody who takes none nothing is said.
+    // A road user without a taken one has no futures.
     const free = withAgents(editor.scene.peek()!, [{ ...editor.scene.peek()!.agents.get(ID)!, chosen: null }]);
     editor.open(clearGoal(free.agents.get(ID)!).apply(free));
     expect(editor.answers.motion.peek().futures.size).toBe(0);

@@ -1,4 +1,4 @@
-// A pointer without a page: drives the state chart of gestures as the page would.
+// A pointer without a page: drives the state chart of gestures like the page.
 import { View } from '../../src/draw/view';
 import { Editor } from '../../src/edit/session/editor';
 import { Chart, NOTHING, type Hit, type Modifiers, type Surface } from '../../src/edit/gestures/chart';
@@ -16,21 +16,21 @@ export class Pointer {
   readonly editor = new Editor();
   readonly placement = new Placement();
   readonly view = new View();
-  /** What lies under the pointer, wherever it is. */
+  /** The object under the pointer, wherever it is. */
   hit: Hit = NOTHING;
   cursor = '';
-  /** Road users that live futures were asked for, and how often they were dropped again. */
+  /** Road users with requested live futures, and the number of cancellations. */
   readonly previewed: string[] = [];
   dropped = 0;
-  /** Does the picture stand still at its edges? */
+  /** Is the picture still at its edges? */
   calm = true;
-  /** How often two ticks were felt. */
+  /** Number of double vibrations. */
   ticked = 0;
-  /** What is shown larger. */
+  /** The magnified place. */
   magnified: Point | null = null;
-  /** How many fingers were tapped at once. */
+  /** Numbers of fingers tapped at once. */
   readonly taps: number[] = [];
-  /** What menus were asked for. */
+  /** Requested menus. */
   /** Milliseconds. */
   now = 0;
   readonly menus: string[] = [];
@@ -75,7 +75,7 @@ export class Pointer {
     this.chart.down({ ...p, id, button, touch, timeStamp });
   }
 
-  /** Moves, and lets a frame pass. */
+  /** Moves, and advances a frame. */
   move(p: Point, { id = 1, ...mods }: Partial<Modifiers> & { id?: number } = {}): void {
     this.chart.move(id, p, { ...PLAIN, ...mods }, true);
     this.frame();
@@ -86,7 +86,7 @@ export class Pointer {
     this.chart.moveAhead(id, p, { ...PLAIN, ...mods }, this.now);
   }
 
-  /** Lets a frame pass. */
+  /** Advances a frame. */
   frame(seconds = 0.016): void {
     this.now += seconds * 1000;
     this.chart.frame(seconds, this.now);

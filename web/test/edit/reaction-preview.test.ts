@@ -1,4 +1,4 @@
-// What the others would do, asked while a handle is dragged and taken over by the release.
+// Reactions of the others, requested during a drag and taken over by the release.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal, setOthers, type Command } from '../../src/model/document/commands';
 import { outOfReach } from '../../src/edit/moves/goal-verdict';
@@ -19,7 +19,7 @@ const goalAt = (x: number): Command => {
   return setGoal(a, { ...a.goal, pos: [x, 10] });
 };
 
-/** A frame of the drag; the drag's own question shows its first guess unless it is to wait. */
+/** A frame of the drag; the drag's own question shows its first draft unless it must wait. */
 async function frame(x: number, { shown = true } = {}): Promise<void> {
   s.editor.drag.preview(goalAt(x));
   s.generation.preview('1');
@@ -39,7 +39,7 @@ const answer = (others: Parameters<typeof answered>[1], ms = 30) => s.others.las
 const names = () => s.editor.answers.previewed.peek()?.map((c) => `${c.name} ${c.words}`);
 
 describe('while a handle is dragged', () => {
-  it('asks on a line of its own what a release would ask', async () => {
+  it("sends the release's request on a connection of its own", async () => {
     begin();
     await frame(10);
     expect(s.generator.last.options).toMatchObject({ agents: ['1'], react: false });
@@ -50,13 +50,13 @@ describe('while a handle is dragged', () => {
     expect(asked.preview).toBe(false);
     const { background, ...foreseenOptions } = foreseen.options;
     expect(background).toBe(true);
-    // Only how the answer is sent differs: nobody looks at drafts of it.
+    // Only the streaming differs: its drafts are not shown.
     const sent = { stream_modes: 'all', draft_delay_ms: 8, draft_interval_ms: 16 };
     expect({ ...foreseenOptions, ...sent }).toEqual(asked.options);
     expect(foreseen.scene()).toEqual(asked.scene());
   });
 
-  it('lets the own futures go first', async () => {
+  it("lets the drag's own futures go first", async () => {
     begin();
     await frame(10, { shown: false });
     expect(s.others.asked).toHaveLength(0);
@@ -65,7 +65,7 @@ describe('while a handle is dragged', () => {
     expect(s.others.asked).toHaveLength(1);
   });
 
-  it('has one question under way at most, and asks about the newest pose next', async () => {
+  it('has at most one question under way, and sends the newest pose next', async () => {
     begin();
     for (let x = 10; x < 30; x++) await frame(x);
     expect(s.others.asked.map(goalOf)).toEqual([10]);
@@ -81,7 +81,7 @@ describe('while a handle is dragged', () => {
     expect(s.generation.asking.peek()).toBe(false);
   });
 
-  it('asks at least five times a second while the hand moves', async () => {
+  it('sends at least five requests a second while the drag moves', async () => {
     begin();
     for (let ms = 0; ms < 2000; ms += 16) {
       await frame(10 + ms / 100);
@@ -91,7 +91,7 @@ describe('while a handle is dragged', () => {
     expect(s.others.asked.length).toBeGreaterThanOrEqual(10);
   });
 
-  it('drops a question about an older pose once the hand rests at another', async () => {
+  it('drops a question about an older pose once the drag rests at another', async () => {
     begin();
     await frame(10);
     await frame(20);
@@ -99,13 +99,13 @@ describe('while a handle is dragged', () => {
     vi.advanceTimersByTime(200);
     expect(s.others.cancelled).toBe(1);
     expect(s.others.asked.map(goalOf)).toEqual([10, 20]);
-    // The hand still rests there: this one is waited for, however long it takes.
+    // The drag still rests there: this one is awaited, however long it takes.
     vi.advanceTimersByTime(5000);
     expect(s.others.asked).toHaveLength(2);
     expect(s.others.cancelled).toBe(1);
   });
 
-  it('says who would change and why, most affected first, and leaves the picture as it is', async () => {
+  it('reports the reactions and their causes, most affected first, and leaves the picture unchanged', async () => {
     begin();
     await frame(10);
     const before = s.editor.answers.motion.peek();
@@ -114,7 +114,7 @@ describe('while a handle is dragged', () => {
     expect(s.editor.answers.motion.peek()).toBe(before);
   });
 
-  it('shows where the hand rests the six that the others answer, whatever comes later of the own ones', async () => {
+  it('shows the six futures judged with reactions while the drag rests', async () => {
     begin();
     await frame(10);
     s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
@@ -124,14 +124,14 @@ describe('while a handle is dragged', () => {
     expect(s.editor.reading.chosen.peek()).toBe(3);
     await frame(11);
     expect(s.editor.reading.chosen.peek()).toBe(0);
-    // An answer about a pose that the hand has left changes nothing of the six.
+    // An answer about a former pose does not change the six.
     vi.advanceTimersByTime(150);
     await frame(12);
     s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
     expect(s.editor.reading.chosen.peek()).toBe(0);
   });
 
-  it('tells nobody hit who would give way', async () => {
+  it('reports no collision with a road user that would give way', async () => {
     const hits = (id: string) => ({ kind: 'collision', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 5, with: id });
     const modes = six('1').modes.map((m) => ({ ...m, faults: [hits('2'), hits('3')] }));
     const draft = { event: 'step', window: 0, agents: { '1': { chosen: 0, modes } } } as unknown as DraftEvent;
@@ -146,7 +146,7 @@ describe('while a handle is dragged', () => {
     expect(hit()).toEqual(['3']);
   });
 
-  it('changes a verb only after it has been agreed upon for a while', async () => {
+  it('changes a verb only after a while of agreement', async () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1') });
@@ -159,7 +159,7 @@ describe('while a handle is dragged', () => {
     expect(names()).toEqual([expect.stringMatching(/Car 3$/)]);
   });
 
-  it('asks nothing where the others do not react', async () => {
+  it('sends nothing where the others do not react', async () => {
     for (const others of ['log', 'still'] as const) {
       s = new Session();
       s.editor.commits.run(setOthers(others));
@@ -171,7 +171,7 @@ describe('while a handle is dragged', () => {
     }
   });
 
-  it('forgets everything on Esc', async () => {
+  it('drops everything on Esc', async () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1') });
@@ -191,7 +191,7 @@ describe('while a handle is dragged', () => {
 });
 
 describe('a release', () => {
-  it('takes over what was foreseen of exactly this pose, without asking', async () => {
+  it('takes over the preview of exactly this pose, without a request', async () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1'), '3': late('3', 1, '2') });
@@ -221,7 +221,7 @@ describe('a release', () => {
     expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
   });
 
-  it('at another pose is asked for as any change', async () => {
+  it('at another pose is requested like any change', async () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1') });
@@ -229,13 +229,13 @@ describe('a release', () => {
     vi.advanceTimersByTime(100);
     expect(s.generator.last).toMatchObject({ preview: false, options: { react: true } });
     expect(goalOf(s.generator.last)).toBe(12);
-    // What was foreseen stays on screen until the answer is there.
+    // The preview stays on screen until the answer arrives.
     expect(s.editor.answers.previewed.peek()).toHaveLength(1);
     s.generator.last.on.final(finalOf('1'), 20);
     expect([s.editor.answers.previewed.peek(), s.editor.answers.changes.peek()]).toEqual([null, []]);
   });
 
-  it('asks itself when what it waited for does not come', async () => {
+  it('sends its own request when the awaited answer fails', async () => {
     begin();
     await frame(10);
     releaseAt(10);
@@ -244,7 +244,7 @@ describe('a release', () => {
   });
 });
 
-describe('whether somebody is in the way', () => {
+describe('a blocked goal', () => {
   const BLOCKED = {
     status: 'unreachable',
     limiting: 'traffic',
@@ -257,7 +257,7 @@ describe('whether somebody is in the way', () => {
   const about = (e: FinalEvent, reach: object) => ({ ...e, resolved: { '1': { reach } } }) as unknown as FinalEvent;
   const said = () => outOfReach(s.editor, s.editor.agent.peek()!);
 
-  it('is known when the others have answered', async () => {
+  it('is known once the others have reacted', async () => {
     begin();
     await frame(10);
     s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
@@ -271,7 +271,7 @@ describe('whether somebody is in the way', () => {
     expect([said(), s.editor.answers.liveReach.peek()?.reach.status]).toEqual([null, 'reached']);
   });
 
-  it('is said of a goal of its own alone', async () => {
+  it('is reported only for a goal of its own', async () => {
     begin();
     await frame(10);
     await frame(12);
@@ -279,7 +279,7 @@ describe('whether somebody is in the way', () => {
     expect(s.editor.answers.liveReach.peek()).toBeNull();
   });
 
-  it('is nothing beside a collision', async () => {
+  it('is not reported beside a collision', async () => {
     begin();
     await frame(10);
     const hits = judged(six('1').modes as ModeJson[], ['2', '17'], true);

@@ -1,4 +1,4 @@
-// What comes of the ways out of an event is known before one is taken: each is tried apart, and nothing is changed.
+// Outcomes of an event's remedies are known before one is taken: each is tried separately, without a change.
 import { describe, expect, it } from 'vitest';
 import type { TrafficEvent } from '../../src/model/words/event-words';
 import { eventRemedies } from '../../src/edit/moves/event-remedies';
@@ -65,8 +65,8 @@ class Weighed extends Session {
   }
 }
 
-describe('ways out of an event', () => {
-  it('say whether it is gone, still there, or something else comes in its place', () => {
+describe('remedies of an event', () => {
+  it('report whether the event is gone, remains, or is replaced by another', () => {
     const t = new Weighed();
     const scene = t.editor.scene.peek();
     const [first, second] = t.ways;
@@ -84,13 +84,13 @@ describe('ways out of an event', () => {
     expect([t.editor.scene.peek(), t.editor.document.undoName.peek()]).toEqual([scene, null]);
   });
 
-  it('are good where nothing happens then', () => {
+  it('are good where no event remains', () => {
     const t = new Weighed();
     t.answer();
     expect(t.outcomes.of(t.ways[0])).toEqual({ mark: 'ok', words: 'Event avoided' });
   });
 
-  it('are weighed anew for another event; a late answer says nothing of it', () => {
+  it('are tried again for another event; a late answer is ignored', () => {
     const t = new Weighed();
     const { on } = t.line.last;
     t.editor.pickEvent({ ...t.event, time: 6 });

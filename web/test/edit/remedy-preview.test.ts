@@ -1,4 +1,4 @@
-// A way out that is pointed at is tried: shown and asked apart, and nothing of it is in the document.
+// A remedy under the pointer is tried: shown and requested separately, without a change of the document.
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { motionOf } from '../../src/model/physics/playback';
@@ -31,7 +31,7 @@ class Trying extends Session {
 }
 
 describe('a trial', () => {
-  it('shows where the goal would be at once, and what all would do when it is known', () => {
+  it('shows the new goal at once, and the resulting motions when they are known', () => {
     const t = new Trying();
     const [scene, motion] = [t.editor.scene.peek(), t.editor.answers.motion.peek()];
     const asked = t.generator.asked.length;
@@ -46,7 +46,7 @@ describe('a trial', () => {
     expect(beside.parted).toEqual([ID, '2']);
     const other = beside.scene.agents.get('2')!;
     expect(motionOf(beside.scene, beside.set, other)).not.toBe(motionOf(scene!, motion, other));
-    // The document and what is shown of it are as they were, and nobody was asked about it.
+    // The document and the answers are unchanged, and no regular request was sent.
     expect([t.editor.scene.peek(), t.editor.answers.motion.peek()]).toEqual([scene, motion]);
     expect(t.generator.asked).toHaveLength(asked);
     expect(t.editor.document.undoName.peek()).toBeNull();
@@ -54,7 +54,7 @@ describe('a trial', () => {
     expect(t.editor.view.beside.peek()).toBeNull();
   });
 
-  it('is over when it is stopped, made, or somebody else is selected; a late answer shows nothing', () => {
+  it('ends when it is stopped, taken, or another road user is selected; a late answer shows nothing', () => {
     for (const end of [
       (t: Trying) => t.trial.stop(),
       (t: Trying) => t.editor.commits.run(t.command),
@@ -71,7 +71,7 @@ describe('a trial', () => {
     }
   });
 
-  it('takes nothing away that somebody else shows', () => {
+  it('leaves previews of other owners in place', () => {
     const t = new Trying();
     t.trial.begin(t.command);
     const other = { scene: t.editor.scene.peek()!, set: t.editor.answers.motion.peek(), parted: [] };

@@ -34,7 +34,7 @@ const dragged = (r: Resistance, ...places: Vec[]): Vec =>
   places.reduce<Vec>((_, place) => r.to(place, ZOOM).map((v) => Math.round(v * 1e6) / 1e6) as unknown as Vec, [0, 0]);
 
 describe('a kerb', () => {
-  it('is met where the straight way crosses it first', () => {
+  it('is met at the first crossing of the straight line', () => {
     expect(firstKerb(map, [40, -2], [40, 8])).toEqual([40, 1]);
     expect(firstKerb(map, [40, 8], [40, -2])).toEqual([40, 3]);
     expect(firstKerb(map, [120, -2], [120, 8])).toBeNull();
@@ -42,7 +42,7 @@ describe('a kerb', () => {
 
   it('does not count where a lane leads to the other side without a detour', () => {
     expect(laneLeadsTo(map, start, { x: 65, y: -12 }, fits)).toBe(true);
-    // The lane of the other direction is near, but does not come from here; beyond the kerb there is none.
+    // The opposite lane is near, but does not start here; beyond the kerb there is none.
     expect(laneLeadsTo(map, start, { x: 40, y: 6 }, fits)).toBe(false);
     expect(laneLeadsTo(map, start, { x: 40, y: -7 }, fits)).toBe(false);
   });
@@ -59,7 +59,7 @@ describe('resistance', () => {
     expect(dragged(r, [40, 9])).toEqual([40, 6.6]);
   });
 
-  it('ends with the way back, round the end of the median and at Alt', () => {
+  it('ends on the way back, round the end of the median and at Alt', () => {
     const r = from(40, -2);
     expect(dragged(r, [40, 6], [40, 0])).toEqual([40, 0]);
     expect(r.held).toBe(false);
@@ -67,18 +67,18 @@ describe('resistance', () => {
     dragged(r, [40, 6]);
     r.pass();
     expect(dragged(r, [40, 6])).toEqual([40, 6]);
-    // And stays off, however often the kerb is crossed.
+    // It stays off, however often the kerb is crossed.
     expect(dragged(r, [40, 0], [40, 5])).toEqual([40, 5]);
     expect(r.held).toBe(false);
   });
 
-  it('is none on the way to a drive, nor for what stands behind a kerb already', () => {
+  it('is none on the way to a drive, nor for a flag that is already behind a kerb', () => {
     expect(dragged(from(45, -2), [65, -12])).toEqual([65, -12]);
     expect(dragged(from(40, 6), [40, 2.5])).toEqual([40, 2.5]);
     expect(dragged(from(40, 6), [40, -2])).toEqual([40, -2]);
   });
 
-  it('is there again for a flag that has come back to its road', () => {
+  it('applies again for a flag that has returned to its road', () => {
     expect(dragged(from(40, 6), [40, -2], [40, 6])).toEqual([40, 3.6]);
   });
 });
@@ -92,14 +92,14 @@ describe('a flag at a kerb', () => {
     p.editor.select('1');
     p.hit = { kind: 'grip', grip: { part: 'goal', handle: 'body' } };
     const at = startPose(p.editor.agent.peek()!)!;
-    // Where a car without futures has its goal: ahead in its lane, with the kerb at y = -8.8 on its right.
+    // The goal of a car without futures: ahead in its lane, with the kerb at y = -8.8 on its right.
     lane = [at.x + 20, at.y];
   });
   const goal = () => p.editor.agent.peek()!.goal.pos!;
   const over = (mods = {}) => p.move(p.at(lane[0], -12), mods);
   const take = (touch = false) => p.down(p.at(...lane), { touch });
 
-  it('hangs on a string that ends at the hand, and is left where it hangs', () => {
+  it('hangs on a line to the pointer, and stays where it hangs', () => {
     take();
     p.move(p.at(lane[0], -6));
     expect(p.editor.drag.info.peek()!.lag).toBeNull();
@@ -111,7 +111,7 @@ describe('a flag at a kerb', () => {
     expect(goal()[1]).toBeCloseTo(-9.6);
   });
 
-  it('is let go by Alt until the release, also when Alt is let go first', () => {
+  it('is released by Alt until the end of the drag, also when Alt is released first', () => {
     take();
     over();
     over({ alt: true });
@@ -126,7 +126,7 @@ describe('a flag at a kerb', () => {
     expect(p.editor.drag.info.peek()!.lag).not.toBeNull();
   });
 
-  it('may go over what the shown future goes over, as long as Alt is held past a kerb', () => {
+  it('may cross what the shown future crosses, as long as Alt is held past a kerb', () => {
     const futures = readFutures(
       { chosen: 0, modes: judged(sixFutures(crossingJson().agents[0], {}, 5, 5), ['2', '17']) },
       startPose(p.editor.agent.peek()!)!,
@@ -139,7 +139,7 @@ describe('a flag at a kerb', () => {
     p.move(p.at(lane[0], -6), { alt: true });
     p.editor.answers.showDraft('1', futures);
     p.move(p.at(lane[0], -7), { alt: true });
-    // On this side of the kerb Alt only lets go of the lanes.
+    // On this side of the kerb Alt only disables lanes.
     expect(mayCross()).toEqual([]);
     over({ alt: true });
     expect(mayCross()).toEqual([MEDIAN]);
@@ -152,7 +152,7 @@ describe('a flag at a kerb', () => {
     expect([p.editor.agent.peek()!.goal.pos, mayCross()]).toEqual([null, []]);
   });
 
-  it('is felt by a finger, which passes when it rests', () => {
+  it('holds back a finger, which passes when it rests', () => {
     take(true);
     over();
     expect(p.ticked).toBe(1);
@@ -161,7 +161,7 @@ describe('a flag at a kerb', () => {
       for (let i = 0; i < frames; i++) p.frame(0.05);
     };
     rest(5);
-    // A finger that goes on has not rested.
+    // A moving finger has not rested.
     p.move(p.at(lane[0], -14));
     rest(6);
     expect(goal()[1]).toBeCloseTo(-11.6);
@@ -169,7 +169,7 @@ describe('a flag at a kerb', () => {
     expect([goal()[1], p.ticked]).toEqual([expect.closeTo(-14), 1]);
   });
 
-  it('is not held back where the start is dragged', () => {
+  it('does not hold back a dragged start', () => {
     p.hit = { kind: 'grip', grip: { part: 'start', handle: 'body' } };
     const at = startPose(p.editor.agent.peek()!)!;
     p.down(p.at(at.x, at.y));

@@ -4,7 +4,7 @@ import { RestTimer } from '../../src/edit/asking/rest-timer';
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-it('waits as long as something happens, and then once', () => {
+it('waits while something happens, and then runs once', () => {
   const rest = new RestTimer(100);
   const done: number[] = [];
   for (let i = 0; i < 30; i++) {
@@ -21,7 +21,7 @@ it('waits as long as something happens, and then once', () => {
   expect(vi.getTimerCount()).toBe(0);
 });
 
-it('begins again, and can be called off', () => {
+it('restarts, and can be cancelled', () => {
   const rest = new RestTimer(100);
   const done = vi.fn();
   rest.begin(done);

@@ -1,4 +1,4 @@
-// Rounds of cards: what is asked, what an undo shows again, what ends them, and what taking a card leaves behind.
+// Rounds of cards: requests, undo, ends, and the state after taking a card.
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { reasons } from '../../src/model/words/feedback-words';
@@ -38,7 +38,7 @@ class Table extends Session {
     return this.cards.last.options.feedback!;
   }
 
-  /** Six cards; those of another round lie elsewhere. */
+  /** Six cards; those of another round are elsewhere. */
   deal(shift = 0, wishes: readonly unknown[] = []): void {
     const cards = six(ID).modes.map((m, i) => ({
       features: { pace_mps: 5, gap_s: 2, harshness_mps2: i + shift, standing_s: 0 },
@@ -48,7 +48,7 @@ class Table extends Session {
     this.cards.last.on.final(e, 20);
   }
 
-  /** Three scenes of two road users; in each of them one comes a second later than in the one before. */
+  /** Three scenes of two road users; in each of them one is a second later than in the one before. */
   dealScenes(): void {
     const samples = [0, 1, 2].map((n) => ({ agents: { [ID]: late(ID, n + 1), 2: late('2', n + 2) } }));
     const cards = samples.map(({ agents }, n) => ({
@@ -59,7 +59,7 @@ class Table extends Session {
     this.cards.last.on.final(e as unknown as FinalEvent, 20);
   }
 
-  /** Of a reason, by its words. */
+  /** Key of a reason, by its words. */
   keyOf(words: string): string {
     const { features } = this.deck.hand.peek()!.round.cards[0];
     return reasons(ID, features, 'reject', () => null).find((r) => r.words === words)!.key;
@@ -74,7 +74,7 @@ class Table extends Session {
 }
 
 describe('rounds', () => {
-  it('ask for one road user whom nobody answers, and leave its motion alone', () => {
+  it('request one road user without reactions, and leave its motion unchanged', () => {
     const t = new Table();
     const before = t.editor.answers.motion.peek();
     t.rounds.open();
@@ -87,13 +87,13 @@ describe('rounds', () => {
     t.deck.point(3);
     expect(t.editor.reading.chosen.peek()).toBe(3);
     expect(t.editor.reading.motionFor(t.agent)).toBe(t.editor.reading.futures.peek()!.modes[3].motion);
-    // Nothing that follows a pick may take them for futures.
+    // Code that follows a pick must not take them for futures.
     expect(pickFuture(t.editor, t.agent, 2)).toBeNull();
     t.rounds.close();
     expect(t.editor.reading.futures.peek()).toBe(before.futures.get(ID));
   });
 
-  it('go back with undo, a step for each thing that was said, without asking again', () => {
+  it('are undone one statement at a time, without a new request', () => {
     const t = new Table();
     t.rounds.open();
     t.deal();
@@ -108,7 +108,7 @@ describe('rounds', () => {
     t.rounds.next();
     expect(t.cards.asked).toHaveLength(2);
     expect(t.feedback.answers).toHaveLength(3);
-    // Cards of the round before are not to be judged while the next ones are drawn.
+    // Cards of the round before cannot be judged while the next ones are drawn.
     t.rounds.say(1, 'keep');
     expect(t.agent.feedback!.answers).toHaveLength(3);
     t.deal(50);
@@ -124,7 +124,7 @@ describe('rounds', () => {
     expect(t.cards.asked).toHaveLength(2);
   });
 
-  it('show what was learned but for what was forgotten, and what was wished since', () => {
+  it('show learned preferences except forgotten ones, and new preferences since', () => {
     const t = new Table();
     t.rounds.open();
     const smooth = { trait: 'harshness', wants: 'less', strength: 0.6, said: false, against: [] };
@@ -162,7 +162,7 @@ describe('rounds', () => {
     expect(t.editor.scene.peek()!.agents.get(ID)!.feedback!.answers).toHaveLength(1);
   });
 
-  it('say why there are no cards, and ask again when told to', () => {
+  it('report why there are no cards, and retry on demand', () => {
     const t = new Table();
     t.rounds.open();
     t.cards.last.on.refused({ code: 'http-500', title: 'Too much is asked' } as Problem);
@@ -177,7 +177,7 @@ describe('rounds', () => {
     expect(t.letters).toBe('......');
   });
 
-  it('do not open in a tab that may only look', () => {
+  it('do not open in a read-only tab', () => {
     const t = new Table();
     t.editor.lockWith({ words: 'Open in another tab', label: 'Take over', run: () => undefined });
     t.rounds.open();
@@ -185,7 +185,7 @@ describe('rounds', () => {
     expect(t.editor.notices.toast.peek()?.text).toBe('Open in another tab');
   });
 
-  it('end with a card taken: others answer it as they do a pick, and undo brings the usual six back', () => {
+  it('end with a taken card: others react to it as to a pick, and undo restores the usual six', () => {
     const t = new Table();
     const usual = t.editor.answers.motion.peek();
     t.rounds.open();
@@ -210,7 +210,7 @@ describe('rounds', () => {
       return now?.id === null ? now.sets : [];
     };
 
-    it('ask for everybody, and show what all of them do on a card without changing anything', () => {
+    it("request all road users, and show a card's motions without a change", () => {
       const t = new Table();
       const before = t.editor.answers.motion.peek();
       t.rounds.openScene();
@@ -218,7 +218,7 @@ describe('rounds', () => {
       t.dealScenes();
       expect(sets(t)).toHaveLength(3);
       expect(t.editor.answers.motion.peek()).toBe(before);
-      // Those of one road user are not what is on the table.
+      // Cards of one road user are not in use here.
       expect(t.editor.reading.futures.peek()).toBe(before.futures.get(ID));
       t.deck.point(2);
       expect(t.editor.reading.motionFor(t.agent)).toBe(sets(t)[2].futures.get(ID)!.modes[0].motion);
@@ -228,7 +228,7 @@ describe('rounds', () => {
       expect(t.editor.answers.motion.peek()).toBe(before);
     });
 
-    it('keep what was said with the scene, apart from what was said of one', () => {
+    it('store feedback with the scene, apart from that of one road user', () => {
       const t = new Table();
       t.rounds.openScene();
       t.dealScenes();
@@ -248,7 +248,7 @@ describe('rounds', () => {
       expect(t.editor.scene.peek()!.feedback).toBeNull();
     });
 
-    it('end with a card taken: everybody does it, and undo takes it back', () => {
+    it('end with a taken card, which all road users follow, and undo takes it back', () => {
       const t = new Table();
       const before = t.editor.answers.motion.peek();
       t.rounds.openScene();

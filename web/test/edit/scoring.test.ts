@@ -1,4 +1,4 @@
-// Whose motions are sent to be scored: of all others it is known what they do.
+// Motions that are sent for scoring: the server knows those of all others.
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { withAgents } from '../../src/model/document/scene';
@@ -10,7 +10,7 @@ describe('a score', () => {
   beforeEach(() => void vi.useFakeTimers());
   afterEach(() => void vi.useRealTimers());
 
-  it('is asked with what those do who come in later and answer somebody', async () => {
+  it('is requested with the motions of late arrivals that react', async () => {
     const { editor, generator } = new Session();
     const file = new SceneFile(editor);
     file.adopt(json, {} as never, true);

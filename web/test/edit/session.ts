@@ -1,4 +1,4 @@
-// An editing session without a page or a server: its generators live in the test.
+// An editing session without a page or a server: its generators are in the test.
 import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
 import { Editor } from '../../src/edit/session/editor';
 import { Generation } from '../../src/edit/asking/generation';
@@ -15,12 +15,12 @@ import { readScene } from '../../src/model/document/scene-reader';
 import { crossingJson } from '../helpers';
 import { giveWay, reactionTo, sixFutures } from '../standin/futures.mjs';
 
-/** A score in which nothing happens; of the rest the editor reads nothing. */
+/** An empty score; the editor reads nothing else. */
 export const uneventful = {
   scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
 } as unknown as ScoreReply;
 
-/** Keeps the questions; the test answers them when it likes. */
+/** Collects the questions; the test answers them at any time. */
 export class InMemoryGenerator implements Generator {
   readonly asked: Question[] = [];
   readonly scored: { scene: SceneRef; ids: string[] }[] = [];
@@ -53,7 +53,7 @@ export const json = crossingJson();
 const agentOf = (id: string) => json.agents.find((a) => a.id === id)!;
 export const six = (id: string): AgentFuturesJson => ({ chosen: 0, modes: sixFutures(agentOf(id), undefined, 5, 5) });
 
-/** Somebody comes so many seconds later, for `cause` where one is named. */
+/** A road user delayed by this many seconds, with a reaction where `cause` is given. */
 export function late(id: string, seconds: number, cause?: string): AgentFuturesJson {
   const mode = giveWay(agentOf(id), seconds);
   return { chosen: 0, modes: [mode], ...(cause ? { reaction: reactionTo(cause, mode, seconds) } : {}) };
@@ -73,7 +73,7 @@ export const finalWith = (agents: Record<string, AgentFuturesJson>) =>
 
 export const finalOf = (...ids: string[]) => finalWith(Object.fromEntries(ids.map((id) => [id, six(id)])));
 
-/** The selected one has its six, and others answer it. */
+/** The selected one has its six, and others react to it. */
 export const answered = (id: string, others: Record<string, AgentFuturesJson>) =>
   finalWith({ [id]: six(id), ...others });
 
@@ -81,7 +81,7 @@ export class Session {
   readonly editor = new Editor();
   readonly curve = new SpeedCurve(this.editor);
   readonly generator = new InMemoryGenerator();
-  /** Asked what the others would do. */
+  /** The generator of the reaction previews. */
   readonly others = new InMemoryGenerator();
   readonly generation: Generation;
 

@@ -1,4 +1,4 @@
-// Many at once, and new ones: what the pointer makes of them, without a page.
+// Several road users, and new ones: the effects of the pointer, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import type { Vec } from '../../src/model/base/geometry';
@@ -29,7 +29,7 @@ const on = (id: string) => {
 const ground = { kind: 'none' } as const;
 
 describe('selecting several', () => {
-  it('adds and takes away with Shift', () => {
+  it('adds and removes with Shift', () => {
     p.click(on('1'));
     p.chart.modifiers = { shift: true, alt: false, ctrl: false };
     p.click(on('2'));
@@ -42,7 +42,7 @@ describe('selecting several', () => {
     expect(p.editor.selected.peek()).toEqual(['2']);
   });
 
-  /** A frame drawn so that exactly one of two has its middle inside. */
+  /** A marquee with exactly one of two centres inside. */
   const sweep = (id: string, mods = {}) => {
     p.hit = ground;
     const { x, y } = place(id);
@@ -55,7 +55,7 @@ describe('selecting several', () => {
     return during;
   };
 
-  it('takes whose middle lies in the marquee, adds with Shift, takes away with Alt', () => {
+  it('takes road users with their centre in the marquee, adds with Shift, removes with Alt', () => {
     const during = sweep('1');
     expect(during!.ids).toContain('1');
     expect(during!.outline).toHaveLength(4);
@@ -68,7 +68,7 @@ describe('selecting several', () => {
     expect(p.editor.selected.peek()).toContain('2');
   });
 
-  it('puts the old selection back on Esc', () => {
+  it('restores the old selection on Esc', () => {
     p.editor.select('2');
     p.hit = ground;
     p.down(p.at(-500, -500));
@@ -95,10 +95,10 @@ describe('selecting several', () => {
   });
 });
 
-describe('several in hand', () => {
+describe('several in a drag', () => {
   beforeEach(() => p.editor.selectAll(['1', '2']));
 
-  it('move together as one step, and go back on Esc', () => {
+  it('move together as one step, and are restored on Esc', () => {
     const before = { a: place('1'), b: place('2') };
     const from = on('2');
     p.down(from);
@@ -137,12 +137,12 @@ describe('several in hand', () => {
     expect(all().map((a) => a.id)).not.toContain('2');
   });
 
-  it('change sides about their common middle, as the first sees it, and twice is not at all', () => {
+  it('change sides about their common centre, as seen by the first; twice restores them', () => {
     const ids = ['1', '2', '3'];
     const before = ids.map(place);
     const [mx, my] = middleOf(ids.map(agent));
     const axis = before[0].heading;
-    /** Metres ahead and to the left of the middle. */
+    /** Metres ahead and to the left of the centre. */
     const seen = ({ x, y }: { x: number; y: number }): [number, number] => {
       const [dx, dy] = [x - mx, y - my];
       return [dx * Math.cos(axis) + dy * Math.sin(axis), dy * Math.cos(axis) - dx * Math.sin(axis)];
@@ -168,7 +168,7 @@ describe('several in hand', () => {
     expect(place('1')).toEqual(a);
   });
 
-  it('one alone stays, and its goal changes sides', () => {
+  it('a single one stays, and its goal changes sides', () => {
     const a = agent('1');
     expect(mirrorAll([a])).toBeNull();
     const { x, y, heading } = place('1');
@@ -184,7 +184,7 @@ describe('several in hand', () => {
     expect(place('1')).toMatchObject({ x, y, heading });
   });
 
-  it('turn about their common middle, or each about itself with Alt', () => {
+  it('turn about their common centre, or each about itself with Alt', () => {
     const [a, b] = [place('1'), place('2')];
     const mid = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
     p.hit = { kind: 'frame', handle: 'turn' };
@@ -224,7 +224,7 @@ describe('copies', () => {
     expect(all()).toHaveLength(n);
   });
 
-  it('go by text from scene to scene, and land on free ground under the pointer', () => {
+  it('are text between scenes, and land on free ground under the pointer', () => {
     p.editor.selectAll(['1', '2']);
     const text = new Copying(p.editor).copy()!;
     const other = new Pointer();
@@ -240,7 +240,7 @@ describe('copies', () => {
     expect(b.y - a.y).toBeCloseTo(place('2').y - place('1').y);
   });
 
-  it('stand where nobody is, also of copies of copies', () => {
+  it('are placed without overlaps, also as copies of copies', () => {
     p.editor.select('1');
     const copying = new Copying(p.editor);
     for (let i = 0; i < 6; i++) copying.duplicate();
@@ -281,7 +281,7 @@ describe('placing', () => {
     expect(p.editor.tool.peek()).toBe('place-car');
   });
 
-  it('asks where somebody stands, and knows a place further on', () => {
+  it('offers a free place further on where a road user stands', () => {
     p.editor.chooseTool('place-car');
     const { x, y } = place('1');
     const n = all().length;
@@ -301,7 +301,7 @@ describe('placing', () => {
     expect(Math.hypot(there.x - x, there.y - y)).toBeLessThan(2.5);
   });
 
-  it('turns the ghost with the hand and with the keys', () => {
+  it('turns the ghost with the pointer and with keys', () => {
     p.editor.chooseTool('place-pedestrian');
     const from = p.at(80, 80);
     p.down(from);
@@ -318,7 +318,7 @@ describe('placing', () => {
     expect(startPose(p.editor.agent.peek()!)!.heading).toBeCloseTo(0.5);
   });
 
-  it('spreads many over an area or along a line with one drag, one step, nobody touching', () => {
+  it('spreads many over an area or along a line with one drag, one step, without overlaps', () => {
     for (const [spread, to] of [
       ['area', [100, 100]],
       ['line', [110, 70]],
@@ -341,7 +341,7 @@ describe('placing', () => {
     }
   });
 
-  it('says how many find room where not all do', () => {
+  it('reports how many fit where not all do', () => {
     p.editor.chooseTool('place-bus');
     p.placement.choose('bus', { spread: 'area', count: 50 });
     p.down(p.at(80, 80));
@@ -355,7 +355,7 @@ describe('placing', () => {
 });
 
 describe('menus', () => {
-  it('are asked for by the right button and by a finger that rests, for what lies there', () => {
+  it('open on the right button and on a resting finger, for the object there', () => {
     p.hit = ground;
     p.down({ x: 50, y: 50 }, { button: 2 });
     p.up({ x: 50, y: 50 });
@@ -379,7 +379,7 @@ describe('menus', () => {
     expect(p.menus).toEqual(['ground', 'road-user', 'several', 'goal', 'road-user']);
   });
 
-  it('are none where the right button moves the picture', () => {
+  it('do not open where the right button moves the picture', () => {
     p.hit = ground;
     p.down({ x: 50, y: 50 }, { button: 2 });
     p.move({ x: 90, y: 50 });
@@ -390,7 +390,7 @@ describe('menus', () => {
 });
 
 describe('a pennant', () => {
-  it('selects whose goal it stands at, and adds it with Shift', () => {
+  it('selects its road user, and adds it with Shift', () => {
     p.hit = { kind: 'pennant', id: '2' };
     p.move({ x: 40, y: 40 });
     expect([p.editor.hover.peek(), p.cursor]).toEqual(['2', 'pointer']);
@@ -404,7 +404,7 @@ describe('a pennant', () => {
 });
 
 describe('a locked road user', () => {
-  it('refuses drags and says how it is unlocked', () => {
+  it('refuses drags and explains how to unlock it', () => {
     p.editor.commits.run(lockAll([agent('1')], true)!);
     const was = place('1');
     const at = on('1');
@@ -416,8 +416,8 @@ describe('a locked road user', () => {
   });
 });
 
-describe('what is typed', () => {
-  it('is a value, a change or nonsense', () => {
+describe('typed text', () => {
+  it('is a value, a change or invalid', () => {
     const read = (text: string, now: number) => readTyped(text, 'km/h')?.(now) ?? null;
     expect(read('50/3.6', 1)).toBeCloseTo(13.889, 3);
     expect(read('+5', 30)).toBe(35);
@@ -432,10 +432,10 @@ describe('what is typed', () => {
   });
 });
 
-describe('what is asked of the generator', () => {
+describe('a request to the generator', () => {
   const roster = (s: Session) => s.editor.scene.peek()!;
 
-  it('is about all that came, with a whole scene while the server does not know them', () => {
+  it('covers all added road users, with the whole scene while the server lacks them', () => {
     const s = new Session();
     const copying = new Copying(s.editor);
     s.editor.selectAll(['1', '2']);
@@ -451,7 +451,7 @@ describe('what is asked of the generator', () => {
     expect(options.conditions[fresh[0]].start).toMatchObject({ speed_mps: expect.any(Number) });
   });
 
-  it('no longer holds who was removed', () => {
+  it('no longer has a removed road user', () => {
     const s = new Session();
     s.generation.generateAll();
     expect(s.generator.last.scene()).toEqual({ id: roster(s).id });
@@ -460,14 +460,14 @@ describe('what is asked of the generator', () => {
     s.generation.generateAll();
     const sent = s.generator.last.scene() as { scene: { agents: { id: string }[] } };
     expect(sent.scene.agents.map((a) => a.id)).not.toContain('2');
-    // What was generated since is a step of its own.
+    // The generation since is a separate step.
     s.editor.commits.undo();
     s.editor.commits.undo();
     s.generation.generateAll();
     expect(s.generator.last.scene()).toEqual({ id: roster(s).id });
   });
 
-  it('lets those react of whom that was said, and stands those still who hold', () => {
+  it('sets single road users to react, and stands those that hold still', () => {
     const s = new Session();
     const scene = roster(s);
     const still = setDoes(scene, [scene.agents.get('2')!], 'still')!;

@@ -1,4 +1,4 @@
-// What is said of the others does not flicker.
+// Words about the others do not flicker.
 import { beforeEach, expect, it, vi } from 'vitest';
 import type { Change } from '../../src/model/words/change-words';
 import { AGREED_MS, StableWords } from '../../src/edit/asking/stable-words';
@@ -15,7 +15,7 @@ beforeEach(() => {
   });
 });
 
-it('says a new one at once, most affected first', () => {
+it('reports a new one at once, most affected first', () => {
   steady.hear([change('2', 'waits', 1), change('3', 'slows', 4)]);
   expect(said).toEqual(['3 slows 4', '2 waits 1']);
 });
@@ -26,7 +26,7 @@ it('follows the numbers of the same verb at once', () => {
   expect(said).toEqual(['2 waits 2']);
 });
 
-it('changes a verb after a while of agreement, also when nothing more is heard', () => {
+it('changes a verb after a while of agreement, also without further answers', () => {
   steady.hear([change('2', 'waits')]);
   steady.hear([change('2', 'slows')]);
   vi.advanceTimersByTime(AGREED_MS - 1);
@@ -46,7 +46,7 @@ it('does not flicker between two', () => {
   expect(said).toEqual([]);
 });
 
-it('says nothing more of a drag that is over', () => {
+it('reports nothing after the end of a drag', () => {
   steady.hear([change('2', 'waits')]);
   steady.hear([]);
   steady.forget();

@@ -1,4 +1,4 @@
-// What counts as an event: kept with the scene, sent along, and changed without another motion.
+// Thresholds of events: stored with the scene, sent in requests, and changed without another motion.
 import { describe, expect, it } from 'vitest';
 import { choose, setSeed } from '../../src/model/document/commands';
 import { readScene } from '../../src/model/document/scene-reader';
@@ -10,8 +10,8 @@ import { finalOf, json, Session } from './session';
 
 const ID = '1';
 
-describe('what counts', () => {
-  it('is the usual where nothing else is said, and goes with the file', () => {
+describe('thresholds', () => {
+  it('are the usual ones by default, and are stored in the file', () => {
     const t = new Session();
     const before = t.editor.scene.peek()!;
     expect([threshold(before, 'gap_m'), threshold(before, 'ttc_s')]).toEqual([1, 1.5]);
@@ -21,7 +21,7 @@ describe('what counts', () => {
     const file = writeScene(json, scene, null);
     expect(readScene(file).thresholds).toEqual({ gap_m: 2 });
     expect(sceneKey(readScene(file))).toBe(sceneKey(scene));
-    // The usual value, typed, is no difference; what cannot be is left out.
+    // The usual value is not stored; invalid ones are dropped.
     expect(setThreshold(scene, 'gap_m', 1).apply(scene).thresholds).toBe(NO_THRESHOLDS);
     expect(readThresholds({ gap_m: -1, ttc_s: 'x', harsh_brake_mps2: 2, toString: 3 })).toEqual({
       harsh_brake_mps2: 2,
@@ -32,7 +32,7 @@ describe('what counts', () => {
     expect(t.editor.scene.peek()!.thresholds).toEqual({ gap_m: 2 });
   });
 
-  it('changes no motion: what is followed is scored anew, and looks are asked for again with it', () => {
+  it('change no motion: followed futures are scored again, and selections requested again with them', () => {
     const t = new Session();
     t.editor.select(ID);
     t.generator.last.on.final(finalOf(ID), 10);
@@ -50,7 +50,7 @@ describe('what counts', () => {
 });
 
 describe('the code of a result', () => {
-  it('is the same for the same scene, whatever it is called, and another for whatever is asked', () => {
+  it('is equal for equal scenes with any name, and differs with any condition', () => {
     const t = new Session();
     const [scene, set] = [t.editor.scene.peek()!, t.editor.answers.motion.peek()];
     const code = resultCode(scene, set);

@@ -1,4 +1,4 @@
-// What panels say while a hand drags.
+// Panels during a drag.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { computed, effect, signal } from '@preact/signals-core';
 import { Throttle } from '../../src/edit/session/throttle';
@@ -16,7 +16,7 @@ function panel() {
   return { dragging, shown, calm, said };
 }
 
-test('follows at once while nothing is dragged', () => {
+test('follows at once outside a drag', () => {
   const { shown, said, calm } = panel();
   shown.value = 1;
   shown.value = 2;
@@ -24,7 +24,7 @@ test('follows at once while nothing is dragged', () => {
   expect(calm.waiting.value).toBe(false);
 });
 
-test('follows a drag now and then, with the newest', () => {
+test('follows a drag at intervals, with the newest value', () => {
   const { dragging, shown, said, calm } = panel();
   dragging.value = true;
   for (let i = 1; i <= 60; i++) {
@@ -38,7 +38,7 @@ test('follows a drag now and then, with the newest', () => {
   expect(calm.waiting.value).toBe(false);
 });
 
-test('says the last of a drag as it ends', () => {
+test('shows the last value when the drag ends', () => {
   const { dragging, shown, said, calm } = panel();
   dragging.value = true;
   shown.value = 1;

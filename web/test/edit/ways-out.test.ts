@@ -1,4 +1,4 @@
-// Out of a goal that is reached over a median: by the road, or with leave to go over it.
+// Remedies for a goal that is reached over a median: by the road, or with permission to cross it.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/document/commands';
 import { readFutures, withNames } from '../../src/model/words/named-futures';
@@ -12,13 +12,13 @@ import { sixFutures } from '../standin/futures.mjs';
 import { judged } from '../standin/judged.mjs';
 
 const GOAL = [1.75, 26] as const;
-/** On the lane that car 1 turns into, and on the way of its futures. */
+/** On the lane that car 1 turns into, and on the path of its futures. */
 const ROAD = { x: 1.75, y: 40, heading: Math.PI / 2, distance: 14 };
 
 let e: Editor;
 const agent = (): Agent => e.agent.peek()!;
 
-/** What a generator answers for the goal as it is; with `named: false` it does not say which edge is gone over. */
+/** The answer of a generator for the goal; with `named: false` without the ids of crossed edges. */
 function answer({ mayCross = [] as string[], named = true, change = (m: ModeJson[]) => m } = {}): void {
   const goal = { x_m: GOAL[0], y_m: GOAL[1], heading_rad: Math.PI / 2 };
   const six = judged(sixFutures(crossingJson().agents[0], { goal }, 5, 5), ['2', '17'], false, mayCross);
@@ -38,7 +38,7 @@ beforeEach(() => {
 });
 
 describe('the way by the road', () => {
-  it('leads to the nearest goal that the road has, in one step that can be undone', () => {
+  it('leads to the nearest goal on the road, in one step that can be undone', () => {
     answer();
     reach(ROAD);
     const way = roadWay(e, agent())!;
@@ -57,7 +57,7 @@ describe('the way by the road', () => {
     expect(roadGoal(e, agent())).toBeNull();
   });
 
-  it('goes along the future that gets there without leaving the road', () => {
+  it('follows the future that reaches it without leaving the road', () => {
     answer();
     reach({ ...ROAD, y: GOAL[1] });
     const { path } = roadWay(e, agent())!;
@@ -66,7 +66,7 @@ describe('the way by the road', () => {
     expect(Math.hypot(path.at(-1)![0] - ROAD.x, path.at(-1)![1] - GOAL[1])).toBeLessThan(4);
   });
 
-  it('goes along the lanes where no future does', () => {
+  it('follows the lanes where no future does', () => {
     answer({ change: (modes) => modes.map((m) => ({ ...m, faults: modes[0].faults })) });
     reach(ROAD);
     const { path } = roadWay(e, agent())!;
@@ -75,7 +75,7 @@ describe('the way by the road', () => {
     expect(path.at(-1)).toEqual([expect.closeTo(ROAD.x, 1), expect.closeTo(ROAD.y, 1)]);
   });
 
-  it('goes as far as a future leads that keeps to the road, where no lane goes all the way', () => {
+  it('follows a future that keeps to the road as far as it leads, where no lane leads all the way', () => {
     answer();
     reach({ ...ROAD, x: 5.1, y: 60 });
     const { path } = roadWay(e, agent())!;
@@ -84,7 +84,7 @@ describe('the way by the road', () => {
     expect(path.at(-1)).toEqual([clean.x.at(-1), clean.y.at(-1)]);
   });
 
-  it('is the future that gets to the goal by it, where no other goal is known', () => {
+  it('is the future that reaches the goal by it, where no other goal is known', () => {
     answer();
     reach(null);
     const way = roadWay(e, agent())!;
@@ -99,7 +99,7 @@ describe('the way by the road', () => {
     expect([roadWay(e, agent()), leaveToCross(e, agent())]).toEqual([null, null]);
   });
 
-  it('stays while the hand moves on, as far from the goal as it is by then', () => {
+  it('stays while the drag moves on, at its current distance from the goal', () => {
     e.drag.begin({ part: 'goal', handle: 'body' });
     answer();
     reach(ROAD);
@@ -111,8 +111,8 @@ describe('the way by the road', () => {
   });
 });
 
-describe('leave to go over an edge', () => {
-  it('is stored with the goal as one step, and can be taken back', () => {
+describe('permission to cross an edge', () => {
+  it('is stored with the goal as one step, and can be withdrawn', () => {
     answer();
     const leave = leaveToCross(e, agent())!;
     expect([leave.words, leave.command.name]).toEqual(['Allow crossing this median', 'Car 1 may cross this median']);
@@ -128,12 +128,12 @@ describe('leave to go over an edge', () => {
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: [] });
   });
 
-  it('names a kerb what is no median', () => {
+  it('calls an edge a kerb where it is no median', () => {
     answer({ change: (modes) => modes.map((m) => ({ ...m, faults: m.faults?.map((f) => ({ ...f, edge: 'e1' })) })) });
     expect(leaveToCross(e, agent())!.words).toBe('Allow crossing this kerb');
   });
 
-  it('is offered for edges that the answer names and that it has no leave for', () => {
+  it('is offered for edges in the answer without permission', () => {
     answer({ named: false });
     expect(leaveToCross(e, agent())).toBeNull();
     answer();

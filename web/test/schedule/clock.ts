@@ -1,4 +1,4 @@
-// The time of a schedule: timers fire in order and at once, so that a minute of the page takes no time here.
+// The clock of a schedule: timers fire in order and at once, so that a minute of the page takes no time here.
 
 interface Timer {
   readonly id: number;
@@ -7,7 +7,7 @@ interface Timer {
   readonly work: () => void;
 }
 
-/** Lets everything go on that waits for a promise. */
+/** Lets all pending promises continue. */
 const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
 export class Clock {
@@ -22,7 +22,7 @@ export class Clock {
     dateNow: Date.now,
   };
 
-  /** Takes the place of the machine's clock, until `restore`. */
+  /** Replaces the machine's clock, until `restore`. */
   install(): void {
     const start = (every: boolean) => (work: () => void, ms?: number) => {
       const wait = Math.max(1, ms ?? 0);
@@ -42,7 +42,7 @@ export class Clock {
     Date.now = dateNow;
   }
 
-  /** Lets so many milliseconds pass. */
+  /** Advances the clock by this many milliseconds. */
   async pass(ms: number): Promise<void> {
     const end = this.now + ms;
     await settled();

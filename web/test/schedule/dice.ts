@@ -1,4 +1,4 @@
-// Chance that one seed decides.
+// Random numbers from one seed.
 
 export class Dice {
   #state: number;

@@ -1,5 +1,5 @@
-// Schedules of the page: at rest the server has what was committed, or the title says otherwise. `npm run schedule`
-// runs more of them, and one again by its seed.
+// Schedules of the page: at rest the server has the committed document, or the title reports otherwise. `npm run
+// schedule` runs more of them, and repeats one by its seed.
 import { expect, it } from 'vitest';
 import { runSchedule } from './schedule';
 

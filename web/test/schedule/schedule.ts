@@ -1,4 +1,4 @@
-// A schedule: what a person, two tabs, a network and other people do to scenes, decided by one seed.
+// A schedule: actions of a user, two tabs, a network and other users on scenes, decided by one seed.
 import { rename, setGoal, setSeed, setSize, type Command } from '../../src/model/document/commands';
 import { finalWith, six } from '../edit/session';
 import { Clock } from './clock';
@@ -8,19 +8,19 @@ import { OWN, SCENES, World, type OpenTab } from './world';
 export interface Outcome {
   readonly seed: number;
   readonly steps: readonly string[];
-  /** What does not hold; empty where all is well. */
+  /** Violated invariants; empty where all hold. */
   readonly broken: readonly string[];
 }
 
-/** What may happen: how likely it is beside the others, and what it does; null where it cannot be done now. */
+/** A possible event: its weight beside the others, and its action; null where it is impossible now. */
 interface Happening {
   readonly weight: number;
-  /** It happens to no tab in particular. */
+  /** It concerns no single tab. */
   readonly everywhere?: true;
   run(t: OpenTab, c: Course): string | null | Promise<string | null>;
 }
 
-/** Car 1 of the scene that is open. */
+/** Car 1 of the open scene. */
 const car = ({ tab }: OpenTab) => tab.editor.scene.peek()?.agents.get('1');
 
 class Course {
@@ -32,7 +32,7 @@ class Course {
     readonly clock: Clock,
   ) {}
 
-  /** A number that no other change has. */
+  /** A number that no other change uses. */
   fresh(): number {
     return ++this.#count;
   }
@@ -58,10 +58,10 @@ class Course {
   }
 }
 
-/** What the generator says of it, short: it is saved with the document. */
+/** A short answer of the generator: it is saved with the document. */
 const ANSWER = { chosen: 0, modes: six('1').modes.slice(0, 1) };
 
-/** Opens a scene with the road user selected whose answers the generator gives. */
+/** Opens a scene and selects the road user that the generator's answers are about. */
 async function open({ tab }: OpenTab, id: string): Promise<void> {
   await tab.library.open(id);
   tab.editor.select('1');
@@ -200,7 +200,7 @@ const HAPPENINGS: Record<string, Happening> = {
     weight: 8,
     everywhere: true,
     async run(_, c) {
-      // Where nothing is kept two tabs know nothing of each other's changes.
+      // Without storage two tabs do not see each other's changes.
       if (c.world.tabs.length > (c.world.storeOff ? 0 : 1)) return null;
       return begin(c);
     },
@@ -257,7 +257,7 @@ async function begin(c: Course): Promise<string | null> {
   return id;
 }
 
-/** All that is on its way arrives, the server answers, and hands are taken off. */
+/** All pending requests arrive, the server answers, and drags end. */
 async function rest(c: Course): Promise<void> {
   c.world.weather = WEATHERS.fair;
   for (const { tab } of c.world.tabs) tab.editor.drag.end(null);
@@ -282,7 +282,7 @@ export async function runSchedule(seed: number): Promise<Outcome> {
     await clock.pass(100);
     const most = LEAST_STEPS + dice.below(MOST_STEPS - LEAST_STEPS);
     for (let i = 0; i < most && !world.broken.length; i++) {
-      // A person does something when no promise waits, as events of a page come.
+      // A user acts when no promise is pending, like events of a page.
       await clock.pass(0);
       steps.push(await step(c));
       world.checkRequests();
@@ -298,7 +298,7 @@ export async function runSchedule(seed: number): Promise<Outcome> {
   return { seed, steps, broken: [...new Set(world.broken)] };
 }
 
-/** Tabs are closed at rest, with no conflict left. */
+/** Tabs are closed at rest, without a conflict. */
 async function closeAll(c: Course): Promise<void> {
   for (const t of [...c.world.tabs]) {
     const { editor, saving } = t.tab;
@@ -307,7 +307,7 @@ async function closeAll(c: Course): Promise<void> {
   }
 }
 
-/** "Keep this version" ends a conflict, whatever the server has; once more where that was changed again since. */
+/** "Keep this version" ends a conflict, whatever the server has; repeated where that changed again since. */
 async function endConflict({ name, tab }: OpenTab, c: Course): Promise<void> {
   for (let tries = 0; tries < 2 && tab.saving.conflict.peek(); tries++) {
     void tab.saving.keepMine();
@@ -317,7 +317,7 @@ async function endConflict({ name, tab }: OpenTab, c: Course): Promise<void> {
   if (state !== 'saved') c.world.broken.push(`${name} kept its version, and says "${state}"`);
 }
 
-/** Every scene is opened once more in a tab of its own, and comes to rest. */
+/** Every scene is opened once more in a tab of its own, until it is at rest. */
 async function again(c: Course, steps: string[]): Promise<void> {
   await closeAll(c);
   for (const id of SCENES) {

@@ -1,4 +1,4 @@
-// The world of a schedule: one server, one browser with tabs that come and go, and a book of all that was committed.
+// The world of a schedule: one server, one browser with tabs that open and close, and a record of all commits.
 import { effect } from '@preact/signals-core';
 import { versionOf } from '../../src/edit/document/journal';
 import type { SceneJson } from '../../src/model/document/scene-json';
@@ -23,7 +23,7 @@ export const OWN = ['one', 'two'];
 export const EXAMPLE = 'demo-crossing';
 export const SCENES = [...OWN, EXAMPLE];
 
-/** Tabs that one run may open, one after the other. */
+/** Tabs that one run may open, in turn. */
 const MOST_TABS = 16;
 
 const whole = crossingJson();
@@ -35,7 +35,7 @@ const small: SceneJson = {
   agents: whole.agents.slice(0, 2),
 };
 
-/** A step that was committed in a tab. */
+/** A step committed in a tab. */
 interface Entry {
   readonly scene: string;
   readonly tab: OpenTab;
@@ -45,14 +45,14 @@ interface Entry {
 export interface OpenTab {
   readonly name: string;
   readonly tab: Tab;
-  /** RequestBuilder of the generator that were answered. */
+  /** Answered requests to the generator. */
   answered: number;
   here: boolean;
-  /** Releases what the tab holds, as a browser does when it is closed. */
+  /** Releases the tab's locks, like a browser when it is closed. */
   release(): void;
 }
 
-/** The storage of the browser as one tab has it: it takes its time, and what a closed tab writes is not written. */
+/** The browser's storage as one tab sees it: it is slow, and writes of a closed tab are lost. */
 class TabStore implements StepStore {
   constructor(
     private readonly store: StepStore,
@@ -89,12 +89,12 @@ export class World {
   readonly server = new ScriptedServer();
   readonly store = new PassingStepStore();
   readonly tabs: OpenTab[] = [];
-  /** Scenes that somebody else has changed or deleted. */
+  /** Scenes that another user has changed or deleted. */
   readonly foreign = new Set<string>();
   readonly broken: string[] = [];
-  /** What requests meet from now on. */
+  /** Fates of the following requests. */
   weather: (dice: Dice) => Fate = () => ({});
-  /** Every document that was ever committed, and the newest, of each scene. */
+  /** Every committed document, and the newest, of each scene. */
   readonly #documents = new Map<string, Set<string>>(SCENES.map((id) => [id, new Set()]));
   readonly #newest = new Map<string, { readonly scene: Scene; readonly tab: OpenTab | null }>();
   readonly #entries: Entry[] = [];
@@ -113,7 +113,7 @@ export class World {
     this.foreign.clear();
   }
 
-  /** Somebody else, on another computer, writes a scene. */
+  /** Another user, on another computer, writes a scene. */
   foreignWrite(id: string, name: string): void {
     const json = { ...(this.server.scenes.get(id)?.json ?? small), id, name };
     this.server.put(id, json);
@@ -145,7 +145,7 @@ export class World {
     return open;
   }
 
-  /** Locks of one tab: they are free once it is closed. */
+  /** Locks of one tab: released once it is closed. */
   #locksOf(): { locks: LockManager; release: () => void } {
     const held = new Set<() => void>();
     const gone = new AbortController();
@@ -167,7 +167,7 @@ export class World {
     return { locks: { request } as unknown as LockManager, release };
   }
 
-  /** The tab is closed without a warning: nothing that it waits for comes any more. */
+  /** The tab is closed without a warning: its pending requests never complete. */
   closeTab(open: OpenTab): void {
     open.here = false;
     this.tabs.splice(this.tabs.indexOf(open), 1);
@@ -188,7 +188,7 @@ export class World {
       if (last) this.#entries.push({ scene: scene.id, tab: open, step: last });
     });
     effect(() => {
-      // A tab that hands a scene over leaves it to the next one to save it.
+      // A tab that hands a scene over leaves saving to the next one.
       const scene = document.lock.value && document.scene.peek();
       if (scene && this.#newest.get(scene.id)?.tab === open) this.#newest.set(scene.id, { scene, tab: null });
     });
@@ -206,13 +206,13 @@ export class World {
     this.#newest.set(scene.id, { scene, tab });
   }
 
-  // -------------------------------------------------------------- what must hold
+  // -------------------------------------------------------------- invariants
 
-  /** At any time: what came to the server was committed before, and no example was saved. */
+  /** At any time: what reached the server was committed before, and no example was saved. */
   checkRequests(): void {
     for (const { method, id, json, status, late } of this.server.seen.slice(this.#seen)) {
       if (method !== 'PUT' || !json) continue;
-      // Where nothing is kept no other tab can know of it.
+      // Without storage no other tab can know of it.
       if (this.storeOff && late && status < 300) {
         this.foreign.add(id);
         this.#foreignDocuments.add(versionOf(readScene(json)));
@@ -245,7 +245,7 @@ export class World {
     const isThere = there !== undefined && versionOf(readScene(there.json)) === versionOf(scene);
     const says = `${name} says "${state}" of ${scene.id}`;
     if (scene.id === EXAMPLE) return;
-    // A write elsewhere after the save shows with the next save.
+    // A write elsewhere after the save appears with the next save.
     const overwritten = this.foreign.has(scene.id) && (!there || this.#isForeign(there.json));
     if (state === 'saved' && !isThere && !overwritten) this.broken.push(`${says}, which the server does not have`);
     if (state === 'saving' || state === 'example') this.broken.push(`${says} at rest`);
@@ -254,7 +254,7 @@ export class World {
     if (state !== 'saved' && state !== 'conflict') this.broken.push(`${says} although the server answers`);
   }
 
-  /** A scene that nobody has open is on the server as it was left, unless its tab was closed or another wrote it. */
+  /** A scene open in no tab is on the server as it was left, unless its tab was closed or another user wrote it. */
   #checkServer(id: string): void {
     const newest = this.#newest.get(id);
     if (!newest?.tab?.here || this.foreign.has(id)) return;
@@ -264,7 +264,7 @@ export class World {
       this.broken.push(`the server does not have the newest version of ${id}, which was left`);
   }
 
-  /** Every step of a tab that is still there is kept, or has grown since. */
+  /** Every step of an open tab is stored, or has grown since. */
   async #checkKept(id: string): Promise<void> {
     const kept = await this.store.read(id);
     const steps = new Map(kept?.steps.map((s) => [s.id, s]));

@@ -1,5 +1,5 @@
-// Builds a small signalised crossing for tests: lanes with successors, bike lanes, crosswalks, signals, and road
-// users that follow them. Nothing of this is shipped.
+// Builds a small signalised crossing for tests: lanes with successors, bike lanes, crosswalks, signals, and road users
+// that follow them. Not shipped.
 
 const STEPS = 91;
 const ARMS = [0, 90, 180, 270].map((d) => (d * Math.PI) / 180);

@@ -1,4 +1,4 @@
-// Constructed answers for tests: six smooth ways to a goal, rough at first and settled after the last step.
+// Constructed answers for tests: six smooth paths to a goal, rough at first and final after the last step.
 
 const N = 90;
 const wave = (i, a, seed) => Math.sin(i * 0.37 + seed * 1.7) * a + Math.sin(i * 0.11 + seed) * a * 0.6;
@@ -62,7 +62,7 @@ export function sixFutures(agent, condition, step, steps) {
   });
 }
 
-/** Somebody near the way of the regenerated one waits a little. */
+/** A road user near the path of the changed one waits a little. */
 export function giveWay(agent, seconds) {
   const t = agent.track,
     n = t.x_m.length;
@@ -80,7 +80,7 @@ export function giveWay(agent, seconds) {
   return mode;
 }
 
-/** What is said of somebody that gives way: for whom, and where it is slowest. */
+/** The reaction of a road user that gives way: its cause, and where it is slowest. */
 export function reactionTo(cause, mode, delay_s) {
   const speed = (i) => Math.hypot(mode.vx_mps[i], mode.vy_mps[i]);
   let low = 5;
@@ -96,7 +96,7 @@ export function reactionTo(cause, mode, delay_s) {
   };
 }
 
-/** Makes a future longer: on as it moved last. */
+/** Extends a future with its last motion. */
 export function goOn(mode, steps) {
   const end = mode.x_m.length - 1;
   const last = Object.fromEntries(['x_m', 'y_m', 'heading_rad', 'vx_mps', 'vy_mps'].map((k) => [k, mode[k][end]]));

@@ -1,5 +1,5 @@
-// What a generator says about its futures, made up for tests: four drive over a median, one of them into somebody,
-// one gets there by the road, the last one stops short.
+// Made-up facts of a generator about its futures: four drive over a median, one of them into another road user, one
+// reaches the goal by the road, the last one stops short.
 
 const fault = (kind, mode, from, to, extra = {}) => {
   const i = Math.min(mode.x_m.length - 1, Math.round(((from + to) / 2) * 10) - 1);
@@ -10,10 +10,10 @@ const relation = (kind, other, mode, time) => {
   return { kind, with: other, time_s: time, x_m: mode.x_m[i], y_m: mode.y_m[i], gap_s: 1.4 };
 };
 
-/** The road edge that they go over. */
+/** The road edge that they cross. */
 export const MEDIAN = 'm0';
 
-/** The same six with faults, relations and manoeuvres; `others` are the ids that are met. */
+/** The same six with faults, relations and manoeuvres; `others` are the ids of the met road users. */
 export function judged(modes, [first, second], hit = false, mayCross = []) {
   const over = (m, from) =>
     mayCross.includes(MEDIAN) ? [] : [fault('over_median', m, from, from + 1.1, { extent: 0.6, edge: MEDIAN })];
@@ -36,7 +36,7 @@ export function judged(modes, [first, second], hit = false, mayCross = []) {
   return modes.map((m, i) => ({ ...m, anchor: i, ...said[i % said.length](m) }));
 }
 
-/** The nearest goal by the road, some way beyond the one that was asked for. */
+/** The nearest goal by the road, some way beyond the requested one. */
 export const byRoad = (goal) => ({
   x_m: goal.x_m + 14 * Math.cos(goal.heading_rad ?? 0),
   y_m: goal.y_m + 14 * Math.sin(goal.heading_rad ?? 0),

@@ -1,5 +1,5 @@
 // A scripted server for tests and for work on the page: the HTTP interface with constructed answers, and a chosen
-// delay, loss and order of events. Never shipped.
+// delay, loss and order of events. Not shipped.
 //
 //   node test/standin/server.mjs [--port 8090] [--delay 8] [--loss 0] [--shuffle] [--judged] [--scene file.json]…
 import { createHash } from 'node:crypto';
@@ -12,7 +12,7 @@ import { giveWay, goOn, reactionTo, sixFutures } from './futures.mjs';
 import { byRoad, judged } from './judged.mjs';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
-/** Seconds that every fifth of the others loses. */
+/** Delay of every fifth of the others, seconds. */
 const LATE_S = 2.2;
 const CSP = [
   "default-src 'none'",
@@ -135,7 +135,7 @@ export function startStandIn(options = {}) {
       if (!o.judged || a.type !== 'vehicle') return modes;
       return judged(modes, ['2', '17'], o.collision, b.conditions?.[a.id]?.goal?.may_cross);
     };
-    // Those that are pinned go on as they are, and nothing is said of them.
+    // Pinned ones keep their futures, and the answer omits them.
     const made = wanted.filter((a) => !b.pinned?.includes(a.id));
     const drafts = (step) => Object.fromEntries(made.map((a) => [a.id, { chosen: 0, modes: six(a, step) }]));
     send({
@@ -161,7 +161,7 @@ export function startStandIn(options = {}) {
           : { event: 'step', window: 0, sample: 0, step, steps: b.steps, agents: drafts(step) },
       );
     }
-    // Later windows begin where they begin; their answers are part of the last event.
+    // Later windows continue from the earlier ones; their answers are part of the last event.
     for (let window = 1; window < windows; window++)
       for (const step of order) {
         await sleep(o.delay);
@@ -339,7 +339,7 @@ export function startStandIn(options = {}) {
   const server = createServer((req, res) => {
     const url = new URL(req.url, 'http://x');
     if (o.away) return void req.socket.destroy();
-    // Takes the question and says nothing, as a stopped process does.
+    // Accepts the question without an answer, like a stopped process.
     if (o.hang && ['/v1/generate', '/healthz'].includes(url.pathname)) return;
     if (url.pathname === '/healthz') return void res.end('ok');
     if (url.pathname.startsWith('/v1/'))
@@ -358,7 +358,7 @@ export function startStandIn(options = {}) {
         url: `http://127.0.0.1:${server.address().port}`,
         options: o,
         log,
-        /** Scenes that came with questions are no longer known. */
+        /** Scenes that came with questions are dropped. */
         forget: () => held.clear(),
         scenes,
         close: () =>
