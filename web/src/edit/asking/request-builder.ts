@@ -159,7 +159,7 @@ function shownOf(editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selectio
   return shown ? { shown } : {};
 }
 
-/** Only the followed future: the others react to it alone, and it is a sixth of the text. */
+/** Only the followed future: the others react to no other, and it is a sixth of the text. */
 function inForce(scene: Scene, id: string, f: Futures): Futures {
   const a = scene.agents.get(id);
   const index = Math.min(f.modes.length - 1, a?.chosen ?? f.chosen);

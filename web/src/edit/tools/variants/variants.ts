@@ -558,7 +558,7 @@ export class Variants {
   // -------------------------------------------------------------- two variants
 
   /**
-   * Compares with the picked variant, otherwise with the shown one; without either, this one is picked. Where exactly two
+   * Compares with the picked variant, otherwise with the shown one; without either, this one is picked. If exactly two
    * are kept, each is compared with the other at once.
    */
   compareWith(id: number): void {
