@@ -28,8 +28,8 @@ export class SceneFile {
   /** As it came from the server; null while nothing is open. */
   raw: SceneJson | null = null;
   map: MapJson | null = null;
-  /** Hash by which the server knows the map. */
-  mapRef: string | null = null;
+  /** Hash by which the server knows the map: the list of scenes may come after the scene. */
+  mapHash: () => string | null = () => null;
   /** Does the server know this scene by its id? */
   stored = false;
   /** Variants whose motion is to be kept. */
@@ -43,9 +43,15 @@ export class SceneFile {
   adopt(json: SceneJson, map: MapJson, stored: boolean): void {
     this.raw = json;
     this.map = map;
-    this.mapRef = null;
+    this.mapHash = () => null;
     this.stored = stored;
     this.noteStored(json);
+  }
+
+  /** The map as a request carries it: its hash where the server knows it, else the whole map. */
+  sentMap(): SceneJson['map'] {
+    const hash = this.mapHash();
+    return hash ? { ref: hash } : this.map!;
   }
 
   /** Does the server hold a scene of these road users under the id of this one? */
@@ -63,8 +69,7 @@ export class SceneFile {
   /** The scene for a question about its motions: by name where the server holds it, else with its cast. */
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
-    const map = this.mapRef ? { ref: this.mapRef } : this.map!;
-    return { scene: { ...this.raw!, agents: castJson(scene), map, generated: null } };
+    return { scene: { ...this.raw!, agents: castJson(scene), map: this.sentMap(), generated: null } };
   }
 
   hadConditions(id: string): boolean {
@@ -74,17 +79,14 @@ export class SceneFile {
   /** The committed document as it is now; null while nothing is open. */
   snapshot(): Snapshot | null {
     const committed = this.session.document.committed.peek();
-    const { raw, map, mapRef } = this;
+    const { raw, map } = this;
     if (!committed || !raw) return null;
     const { scene } = committed;
     const generated = this.answers();
     const takes = generated ? this.variantTakes() : [];
     let written: SceneJson | null = null;
     const body = (): SceneJson =>
-      (written ??= withVariants(
-        writeScene(raw, scene, generated, mapRef ? { ref: mapRef } : (map ?? undefined)),
-        takes,
-      ));
+      (written ??= withVariants(writeScene(raw, scene, generated, this.sentMap() ?? undefined), takes));
     return { committed, map, body, complete: () => (map ? { ...body(), map } : body()) };
   }
 

@@ -78,12 +78,18 @@ export class Importing {
       READING_MS,
     );
     for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
-    await this.list.refresh().catch(() => undefined);
-    notices.hide();
     const good = verdicts.flatMap((v) => v.scenes);
-    if (good.length) await this.library.open(good[0].id);
+    await this.#openFirst(good);
+    notices.hide();
     if (good.length === 1 && verdicts.every((v) => v.ok)) this.#sayImported(verdicts[0], '', verdicts);
     else this.#verdicts.value = verdicts;
+  }
+
+  /** Opens the first of them while the list of scenes is fetched. */
+  async #openFirst(scenes: readonly ImportedScene[]): Promise<void> {
+    const listed = this.list.refresh().catch(() => undefined);
+    if (scenes.length) await this.library.open(scenes[0].id);
+    await listed;
   }
 
   /** One scene is on screen: a word is enough, with the way to what was assumed. */
@@ -118,9 +124,8 @@ export class Importing {
 
   async #replace(v: FileVerdict, make: () => Promise<FileVerdict>): Promise<void> {
     const now = await make();
-    await this.list.refresh().catch(() => undefined);
     const rest = (this.#verdicts.peek() ?? []).map((o) => (o === v ? now : o));
-    if (now.scenes.length) await this.library.open(now.scenes[0].id);
+    await this.#openFirst(now.scenes);
     if (now.ok && rest.every((o) => o.ok)) {
       this.close();
       const without = v.without ? TEXTS.without(v.without.join(', ')) : '';
