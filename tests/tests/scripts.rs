@@ -129,8 +129,8 @@ fn records(folder: &Path, licence: &str) -> String {
     let (input, out) = (folder.join("street.json"), folder.join("vehicle.records"));
     std::fs::write(&input, scene.to_string()).unwrap();
     let (input, out) = (input.to_str().unwrap().to_owned(), out.to_str().unwrap().to_owned());
-    ends(&["prepare", &input, "--expert", "vehicle", "-o", &out], 0);
-    ends(&["prepare", &input, "--expert", "vehicle", "-o", &out], 8);
+    ends(&["lab", "prepare", &input, "--expert", "vehicle", "-o", &out], 0);
+    ends(&["lab", "prepare", &input, "--expert", "vehicle", "-o", &out], 8);
     out
 }
 
@@ -141,8 +141,19 @@ fn licences_travel_and_wrong_data_is_refused() {
     let records = records(folder.path(), "waymo-nc");
     let weights = at("vehicle.safetensors");
     let train = |expert: &str, more: &[&str]| -> Vec<String> {
-        let flags =
-            ["train", &records, "--stage", "initializer", "--expert", expert, "--batch", "4", "-o", &weights];
+        let flags = [
+            "lab",
+            "train",
+            &records,
+            "--stage",
+            "initializer",
+            "--expert",
+            expert,
+            "--batch",
+            "4",
+            "-o",
+            &weights,
+        ];
         flags.iter().chain(more).map(|flag| (*flag).to_owned()).collect()
     };
     let ends_of = |flags: Vec<String>, code: i32| {
@@ -181,7 +192,8 @@ fn a_stopped_training_keeps_its_checkpoint_and_no_half_files() {
     let folder = tempfile::tempdir().unwrap();
     let records = records(folder.path(), "cc0");
     let weights = folder.path().join("w.safetensors");
-    let train = ["train", &records, "--stage", "initializer", "--expert", "vehicle", "--steps", "100000"];
+    let train =
+        ["lab", "train", &records, "--stage", "initializer", "--expert", "vehicle", "--steps", "100000"];
     let mut child = Command::new(program())
         .args(train)
         .args(["--batch", "4", "-o"])
@@ -219,7 +231,7 @@ fn the_paper_is_reproduced_by_one_command() {
     let out = folder.path().join("paper").display().to_string();
     let own = demo();
     let run = |more: &[&str], code: i32| {
-        let mut arguments = vec!["reproduce", "--test", &own, "--least-agents", "2", "-o", &out];
+        let mut arguments = vec!["lab", "reproduce", "--test", &own, "--least-agents", "2", "-o", &out];
         arguments.extend(data.iter().map(String::as_str));
         arguments.extend(["--epochs", "0.1,0.1,0.1", "--batch", "8"]);
         arguments.extend(more);

@@ -12,7 +12,7 @@ const NAME: &str = "dragtraffic";
 /// Flags of `completions`.
 #[derive(Args, Clone, Debug)]
 pub struct CompletionsArgs {
-    /// Whose: bash, zsh, fish, elvish, powershell.
+    /// Shell to complete for.
     #[arg(value_enum)]
     shell: Shell,
 }
@@ -20,10 +20,10 @@ pub struct CompletionsArgs {
 /// Flags of `man`.
 #[derive(Args, Clone, Debug)]
 pub struct ManArgs {
-    /// Folder for a page of the program and of each command; the program's goes to stdout without it.
+    /// Folder for one page per command. Default: the page of the program, on standard output.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Overwrite pages.
+    /// Overwrite existing pages.
     #[arg(long)]
     force: bool,
 }

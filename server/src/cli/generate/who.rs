@@ -62,7 +62,7 @@ pub fn ids(
                 .collect(),
         };
         if meant.is_empty() {
-            return Err(Failure::usage(format!("{flag}: nobody in the scene is {}", who.words())));
+            return Err(Failure::usage(format!("{flag}: no road user of the scene is {}", who.words())));
         }
         for id in meant {
             if !ids.contains(&id) {
@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(meant(&["car", "@all"]).unwrap(), None);
         assert_eq!(
             meant(&["@cyclists"]).unwrap_err().message,
-            "--agents: nobody in the scene is a cyclist at the start"
+            "--agents: no road user of the scene is a cyclist at the start"
         );
         assert!("@everybody".parse::<AgentSelector>().unwrap_err().contains("@moving"));
     }
