@@ -3,14 +3,14 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { toldIn } from '../src/model/base/units';
 import { messageText } from '../src/model/words/message-text';
-import { SENTENCES as FILES } from '../src/texts/file-messages';
-import { german as germanFiles } from '../src/texts/german/file-messages';
-import { german as germanMaps } from '../src/texts/german/map-messages';
-import { german } from '../src/texts/german/messages';
-import { SENTENCES as MAPS } from '../src/texts/map-messages';
-import { german as germanProblems } from '../src/texts/german/problem-messages';
-import { SENTENCES as PROBLEMS } from '../src/texts/problem-messages';
-import { SENTENCES } from '../src/texts/messages';
+import { SENTENCES as FILES } from '../src/texts/messages/file-messages';
+import { german as germanFiles } from '../src/texts/german/messages/file-messages';
+import { german as germanMaps } from '../src/texts/german/messages/map-messages';
+import { german } from '../src/texts/german/messages/messages';
+import { SENTENCES as MAPS } from '../src/texts/messages/map-messages';
+import { german as germanProblems } from '../src/texts/german/messages/problem-messages';
+import { SENTENCES as PROBLEMS } from '../src/texts/messages/problem-messages';
+import { SENTENCES } from '../src/texts/messages/messages';
 
 const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
 const together = (...tables: { readonly sentences: object }[]): object =>

@@ -2,9 +2,9 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { ACTIONS, actionForKey } from '../src/actions/registry';
-import { HELPS } from '../src/texts/helps';
-import { TEXTS as PALETTE } from '../src/texts/palette';
-import { german as GERMAN } from '../src/texts/german/palette';
+import { HELPS } from '../src/texts/desk/helps';
+import { TEXTS as PALETTE } from '../src/texts/desk/palette';
+import { german as GERMAN } from '../src/texts/german/desk/palette';
 import type { Action } from '../src/actions/action';
 import { caps, keyOf } from '../src/actions/keys';
 

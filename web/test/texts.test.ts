@@ -8,12 +8,11 @@ import { table } from '../src/texts/table';
 import type { Word, Words } from '../src/texts/words';
 import { ENGLISH, tapping } from '../src/texts/tapping';
 
-const modules = import.meta.glob<Record<string, unknown>>('../src/texts/*.ts', { eager: true });
-const NO_TABLES = /^(language|table|words|marked|tapping|german(-.*)?)$/;
+const modules = import.meta.glob<Record<string, unknown>>(['../src/texts/*/*.ts', '!**/german/**'], { eager: true });
 const areas = new Map<string, Words>();
 for (const [path, module] of Object.entries(modules)) {
   const name = /([\w-]+)\.ts$/.exec(path)![1];
-  if (!NO_TABLES.test(name)) areas.set(name, Object.values(module)[0] as Words);
+  areas.set(name, Object.values(module)[0] as Words);
 }
 
 /** All texts of an area, each with its path. */

@@ -1,13 +1,14 @@
 // Tables of texts (src/texts) have keys that say what they are for. In the build a letter or two does: a script has
 // hundreds of them, each twice. Only tables by the name of TEXTS are so treated.
 import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
 import type { Plugin } from 'vite';
 
 /** A key at the start of its line, in a table as the formatter leaves it. */
 const KEY = /^ {2}(\w+):/gm;
-const TABLE = /\/src\/texts\/([\w-]+)\.ts$/;
-const GERMAN = /\/src\/texts\/german\/([\w-]+)\.ts$/;
-const IMPORT = /import (?:type )?\{ TEXTS(?: as (\w+))? \} from '[./]*\/(?:texts\/)?([\w-]+)';/g;
+/** A table by its path: the room and the name of it, in English or in German. */
+const TABLE = /\/src\/texts\/(?:german\/)?([\w-]+\/[\w-]+)(?:\.ts)?$/;
+const IMPORT = /import (?:type )?\{ TEXTS(?: as (\w+))? \} from '([^']+)';/g;
 
 const LETTERS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ';
 const short = (i: number): string =>
@@ -34,12 +35,12 @@ export function shortKeys(): Plugin {
     apply: 'build',
     enforce: 'pre',
     transform(code, id) {
-      const table = TABLE.exec(id) ?? GERMAN.exec(id);
+      const table = TABLE.exec(id);
       if (table && /^ *\.\.\.|\{ \.\.\./m.test(code)) this.error(`${id}: write a table out, its keys become others`);
       if (table && /\bTEXTS\b/.test(code)) return shortened(code, table[1], (why) => this.error(why));
       let out = code;
-      for (const [, as, area] of code.matchAll(IMPORT)) {
-        const keys = keysOf(area);
+      for (const [, as, from] of code.matchAll(IMPORT)) {
+        const keys = keysOf(TABLE.exec(resolve(id, '..', from))![1]);
         if (new RegExp(`\\b${as ?? 'TEXTS'}\\[`).test(code))
           this.error(`${id}: give a table that is indexed a name of its own`);
         out = out.replace(new RegExp(`\\b${as ?? 'TEXTS'}\\.(\\w+)`, 'g'), (all, key: string) => {

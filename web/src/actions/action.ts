@@ -4,9 +4,9 @@ import { canChange, canMove } from '../model/document/scene';
 import { freeOnes } from '../edit/copying';
 import type { Command } from '../model/document/commands';
 import type { Part } from '../edit/editor';
-import type { Help } from '../texts/helps';
+import type { Help } from '../texts/desk/helps';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 /** In the order of the shortcut sheet. */
 export const GROUPS = [

@@ -1,7 +1,7 @@
 // The search for a case: somebody is tried with other numbers until what is looked for happens.
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 /** Id of the case that is looked at; null where none is. */
 const shown = (c: Context): number | null => c.searching.open.value?.shown.value ?? null;

@@ -1,5 +1,5 @@
 // Edit: copies, removal, locks, kinds, names; what single road users do while others change.
-import type { Help } from '../texts/helps';
+import type { Help } from '../texts/desk/helps';
 import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/base/kinds';
 import type { Others } from '../model/document/scene';
 import { doing } from '../model/document/scene';
@@ -7,7 +7,7 @@ import { lockedWords, removeSelected } from '../edit/copying';
 import * as several from '../edit/several';
 import { hasAgent, hasScene, hasSome, inGroup, onSome, type Action } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 type Plain = Omit<Action, 'group'>;
 

@@ -3,7 +3,7 @@ import { inGroup } from './action';
 import { nextSpeedUnit } from '../model/base/units';
 import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 import { LANGUAGES, nextLanguage, speak } from '../texts/language';
 
 /** Steps of a map that is being made are its own. */

@@ -10,8 +10,8 @@ import { clearGoals } from '../edit/several';
 import { addVia, removeVia, roomForVia } from '../edit/vias';
 import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
-import { TEXTS as PINS } from '../texts/pins';
+import { TEXTS } from '../texts/desk/actions';
+import { TEXTS as PINS } from '../texts/editing/pins';
 
 const LARGEST_NEW_SEED = 9999;
 

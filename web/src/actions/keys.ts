@@ -1,7 +1,7 @@
 // Keys in one spelling: `Ctrl+Shift+Z`. Shifted signs are read as Shift plus the plain sign, so that a table of
 // shortcuts can be shown as it is typed.
 
-import { KEYS } from '../texts/keys';
+import { KEYS } from '../texts/desk/keys';
 
 const SHIFTED: Record<string, string> = { '{': '[', '}': ']', ':': ';', '"': "'", '<': ',', '>': '.', _: '-' };
 const NAMES: Record<string, string> = {

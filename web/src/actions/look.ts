@@ -1,5 +1,5 @@
 // Select and look: tools, who is selected, the view, the layers.
-import type { Help } from '../texts/helps';
+import type { Help } from '../texts/desk/helps';
 import { nearestLanes } from '../model/document/lanemap';
 import { canChange, startPose, type Agent } from '../model/document/scene';
 import { knowsLimits } from '../draw/ground';
@@ -10,7 +10,7 @@ import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
 import type { Context } from './context';
 import { AROUND_M, placesOfSelected, turning } from './turning';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 /** The closest that "zoom to" goes. */
 const CLOSEST = 22;

@@ -1,5 +1,5 @@
 // Move: the start or the goal of the selected road user, by keys.
-import type { Help } from '../texts/helps';
+import type { Help } from '../texts/desk/helps';
 import type { Agent } from '../model/document/scene';
 import type { Command } from '../model/document/commands';
 import type { View } from '../draw/view';
@@ -10,7 +10,7 @@ import * as several from '../edit/several';
 import { rad } from '../model/base/geometry';
 import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 type Move = (e: Editor, a: Agent, part: Part, v: View) => Command | null;
 /** The same for several; a way of moving that has none is for one alone. */

@@ -4,7 +4,7 @@ import { TOOLS } from '../edit/gestures/tools';
 import { placeGhost } from '../edit/gestures/placing';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 const tools = TOOLS.flatMap((t) => ('places' in t ? [t] : [])).map(({ name, label, key, icon, help }) => ({
   id: `tool-${name}`,

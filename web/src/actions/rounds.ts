@@ -3,8 +3,8 @@ import { LETTERS } from '../model/document/futures';
 import { canChange } from '../model/document/scene';
 import { hasFree, inGroup, type Action } from './action';
 import type { Context } from './context';
-import { TEXTS as PAGE } from '../texts/page';
-import { TEXTS } from '../texts/actions';
+import { TEXTS as PAGE } from '../texts/desk/page';
+import { TEXTS } from '../texts/desk/actions';
 
 const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
 const hasCards = (c: Context): true | string =>

@@ -1,10 +1,10 @@
 // Scene: the list, new ones and copies, files in and out, what was done.
-import type { Help } from '../texts/helps';
+import type { Help } from '../texts/desk/helps';
 import type { Others } from '../model/document/scene';
 import { resetAll, setOthers } from '../model/document/commands';
 import { hasScene, inGroup, type Action } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> => ({
   id: `others-${mode}`,

@@ -6,8 +6,8 @@ import { setLength, setReplan } from '../model/document/commands';
 import { STEP_S } from '../model/base/motion';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
-import { TEXTS as COUNTS } from '../texts/thresholds';
+import { TEXTS } from '../texts/desk/actions';
+import { TEXTS as COUNTS } from '../texts/panels/thresholds';
 
 function stepBy(c: Context, frames: number): void {
   c.editor.playhead.pause();

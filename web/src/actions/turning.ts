@@ -7,7 +7,7 @@ import { poseShown } from '../edit/frame';
 import { lanesFor } from '../edit/snap';
 import { hasScene, type Action } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 const STEP_RAD = rad(15);
 const QUARTER_RAD = rad(90);

@@ -2,7 +2,7 @@
 import type { Moment } from '../model/words/comparison';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
-import { TEXTS } from '../texts/actions';
+import { TEXTS } from '../texts/desk/actions';
 
 const isOpen = (c: Context): boolean => c.variants.open.value;
 /** Text about a road user is meant while one is selected and no card has the focus. */

@@ -1,7 +1,7 @@
 // The browser's clipboard. Keys reach it by its own events, which need no permission; menus go by what is allowed.
 import type { Vec } from '../model/base/geometry';
 import type { Context } from '../actions/context';
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 
 const isText = (el: EventTarget | null): boolean =>
   el instanceof HTMLInputElement || el instanceof HTMLTextAreaElement || !getSelection()?.isCollapsed;

@@ -8,7 +8,7 @@ import { useApp } from './parts/app-context';
 import { ActionButton } from './parts/buttons';
 import { usePressBeside } from './parts/hooks';
 import { Icon } from './parts/icons';
-import { TEXTS } from '../texts/context-menu';
+import { TEXTS } from '../texts/desk/context-menu';
 
 /** Ids of actions; null draws a line, a list with a name is a menu of its own. */
 type Entry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };

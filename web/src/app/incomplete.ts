@@ -1,7 +1,7 @@
 // What is said where a part of the page did not come.
 
 /** The words for a part, and for all of them. */
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 
 export const NOT_LOADED = TEXTS.thisPartOfThe;
 const NOT_COMPLETE = TEXTS.theEditorDid;

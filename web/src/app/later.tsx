@@ -5,7 +5,7 @@ import type { ComponentProps, ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { NOT_LOADED } from './incomplete';
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 
 /** Counts the attempts, so that each has an address of its own. */
 let attempts = 0;

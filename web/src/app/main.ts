@@ -19,7 +19,7 @@ import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { BrowserStepStore, PassingStepStore } from '../net/step-store';
 import { recall } from '../net/storage';
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 import { LANGUAGE } from '../texts/language';
 import { followForm, insetBesideSheet } from './frame';
 import { lookAtOpened, lookWhereItWas } from './look';

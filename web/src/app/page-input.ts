@@ -4,7 +4,7 @@ import { keyOf } from '../actions/keys';
 import { walkEnds } from '../actions/look';
 import { actionForKey, perform } from '../actions/registry';
 import type { Action } from '../actions/action';
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 
 export function listenToPage(c: Context): void {
   let space: { panned: number } | null = null;

@@ -8,7 +8,7 @@ import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';
 import { Controls } from './parts/asking';
 import { ActionButton, IconButton } from './parts/buttons';
-import { TEXTS } from '../texts/page';
+import { TEXTS } from '../texts/desk/page';
 
 const SAVED: Record<SaveState, string> = {
   example: TEXTS.example,

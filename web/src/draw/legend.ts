@@ -5,7 +5,7 @@ import type { Pen } from './pen';
 import { scaleOf } from './scale';
 import { colours, font } from './theme';
 import type { View } from './view';
-import { TEXTS } from '../texts/places';
+import { TEXTS } from '../texts/scene/places';
 
 const [EDGE, HEIGHT, PAD, GAP, ARROW] = [12, 30, 12, 10, 16];
 

@@ -1,6 +1,6 @@
 // The generator is away: it is tried again at growing intervals, and the changes that wait for it are counted.
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 
 const RETRY_S = [1, 2, 4, 6];
 

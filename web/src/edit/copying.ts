@@ -5,7 +5,7 @@ import { wrapAngle } from '../model/base/geometry';
 import type { Editor } from './editor';
 import { addThem, copiesOf, movable, removeThem, tooMany, whoWords, withRoom } from './several';
 import { snapNewcomer } from './placing';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 
 export class Copying {
   /** What was copied here last, for pages that may not read the clipboard. */

@@ -5,7 +5,7 @@ import type { Scene } from '../model/document/scene';
 import type { Editor } from './editor';
 import type { Loss } from './outward/losses';
 import type { SceneFile } from './document/scene-file';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../texts/editing/keeping';
 
 interface Source {
   readonly editor: Editor;

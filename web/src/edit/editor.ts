@@ -26,7 +26,7 @@ import { Placement } from './placement';
 import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
 import { Deck } from './rounds/deck';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 
 /** A handle of the selected road user: of its start, of its goal, or a via point by its index. */
 export interface Keyed {

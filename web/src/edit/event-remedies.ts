@@ -7,7 +7,7 @@ import { canMove, startPose, type Agent } from '../model/document/scene';
 import { speedLabel } from '../model/base/units';
 import type { Editor } from './editor';
 import { withField, type Remedy } from './moves';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 
 /** Who starts slower comes so much later to the place, seconds. */
 const LATER_S = 2;

@@ -1,6 +1,6 @@
 // What a file is, by what is in it: its name may say something else.
 
-import { TEXTS } from '../texts/importing';
+import { TEXTS } from '../texts/files/importing';
 
 interface Mark {
   readonly bytes: readonly number[];

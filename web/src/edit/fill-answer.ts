@@ -14,7 +14,7 @@ import { ANY_SPEED, type Arm, type FillAnswer, type FillWish } from './filling';
 import { inTheWay, standing } from './room';
 import type { SceneFile } from './document/scene-file';
 import { MOST_AT_ONCE } from './several';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../texts/editing/keeping';
 
 /** Road users for each kilometre of lane, from those for each 100 m. */
 const PER_KM = 10;

@@ -8,7 +8,7 @@ import type { Answers } from './fill-answer';
 import { NO_ANSWER, type FillWish } from './filling';
 import type { SceneFile } from './document/scene-file';
 import { addThem, tooMany } from './several';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../texts/editing/keeping';
 
 /** A slider that moves asks when it rests so long. */
 const REST_MS = 80;

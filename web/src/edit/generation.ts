@@ -23,7 +23,7 @@ import type { Saving } from './document/saving';
 import type { SceneFile } from './document/scene-file';
 import { sketchFutures } from './sketch';
 import { judgedCurves, withCurves } from './speed-curve';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 
 /** A key held down asks once, when it rests. */
 const REST_MS = 80;

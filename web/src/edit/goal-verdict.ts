@@ -6,7 +6,7 @@ import { reachWords } from '../model/words/reach-words';
 import { nameIn, type Agent } from '../model/document/scene';
 import { metres } from '../model/base/units';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 /** Why a goal cannot be reached, and the nearest place that can. */
 export interface OutOfReach {

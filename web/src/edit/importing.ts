@@ -10,7 +10,7 @@ import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
 import type { Library } from './document/library';
 import { countAll, type SceneList } from './document/scene-list';
-import { TEXTS } from '../texts/importing';
+import { TEXTS } from '../texts/files/importing';
 
 export interface ImportedScene {
   readonly id: string;

@@ -14,7 +14,7 @@ import type { Editor } from './editor';
 import type { MapWish } from './layouts';
 import type { SceneCare } from './document/scene-care';
 import type { SceneFile } from './document/scene-file';
-import { TEXTS } from '../texts/keeping';
+import { TEXTS } from '../texts/editing/keeping';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
 /** Who stands farther from every lane than this does not stand on one, metres. */

@@ -16,7 +16,7 @@ import {
 import { readScene } from '../model/document/scene-reader';
 import type { Scene } from '../model/document/scene';
 import type { Arm, Layout, MapReply, Parameters, TemplateName } from '../net/types';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 import type * as Hands from './hands';
 
 /** What the server drew. */

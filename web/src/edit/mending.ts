@@ -2,7 +2,7 @@
 import { MOST_AGENTS } from '../model/base/domain';
 import { isMapRef, type MapJson, type SceneJson } from '../model/document/scene-json';
 import type { Problem } from '../net/types';
-import { TEXTS } from '../texts/imports';
+import { TEXTS } from '../texts/files/imports';
 
 export interface Mended {
   readonly scene: SceneJson;

@@ -12,7 +12,7 @@ import { inTenths, metres, seconds, speedLabel, toUnit } from '../model/base/uni
 import type { Editor, Field, Part } from './editor';
 import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 
 /** The goal where it was recorded at the goal time; null where it was not there, or did not go anywhere. */
 export function goalFromLog(a: Agent): Command | null {

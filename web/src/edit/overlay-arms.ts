@@ -12,7 +12,7 @@ import type { Editor } from './editor';
 import { knobs } from './gestures/arms';
 import { exits, stops } from './gestures/ways';
 import type { Made, Placed } from './layouts';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 const KNOB_PX = 9;
 const BUTTON_PX = 8;

@@ -12,7 +12,7 @@ import { trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;

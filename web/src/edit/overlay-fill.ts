@@ -12,7 +12,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import { armHandles, armName, type ArmHandle } from './arm-handles';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 const CORNER_PX = 8;
 const DASH = [6, 4];

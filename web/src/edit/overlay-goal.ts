@@ -12,7 +12,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor, Lag } from './editor';
 import { outOfReach, type OutOfReach } from './goal-verdict';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 export class GoalOverlay {
   /** Where the time tag was painted, for the pointer. */

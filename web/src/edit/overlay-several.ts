@@ -16,7 +16,7 @@ import type { Editor } from './editor';
 import { frameAround, type Frame } from './frame';
 import type { FillOverlay } from './overlay-fill';
 import type { Ghosts } from './placing';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 const CORNER_PX = 8;
 /** Beyond so many each one's own way would hide the others'. */

@@ -11,7 +11,7 @@ import type { SpeedPoint } from '../model/document/profile';
 import type { Agent } from '../model/document/scene';
 import { seconds } from '../model/base/units';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 /** The bar is longer than the box is wide, and lies before its front. */
 const WIDER = 1.7;

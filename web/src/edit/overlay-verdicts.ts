@@ -15,7 +15,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { roadWay } from './ways-out';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 /** More places than these are counted, not named. */
 const NAMED = 3;

@@ -9,7 +9,7 @@ import { metres, seconds } from '../model/base/units';
 import { passed } from '../model/document/vias';
 import type { Editor } from './editor';
 import { verdictsHold } from './goal-verdict';
-import { TEXTS } from '../texts/via';
+import { TEXTS } from '../texts/editing/via';
 
 /** Diamonds of those that are missed are hollow, and say by how much. */
 export function paintVias(g: Pen, labels: Labels, v: View, e: Editor, a: Agent): void {

@@ -29,7 +29,7 @@ import { VerdictOverlay } from './overlay-verdicts';
 import { paintVias } from './overlay-via';
 import { pinsApart } from './pins';
 import { saidOf } from './rounds/said';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];

@@ -21,7 +21,7 @@ import type { Stage } from '../draw/stage';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { laneWords } from './snap';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 const REACT_MS = 320;
 

@@ -6,7 +6,7 @@ import type { Command } from '../model/document/commands';
 import type { Motion } from '../model/base/motion';
 import type { Agent, Pin } from '../model/document/scene';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/pins';
+import { TEXTS } from '../texts/editing/pins';
 
 export interface ShownPin {
   readonly pin: Pin;

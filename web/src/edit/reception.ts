@@ -30,7 +30,7 @@ import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
 import { Rest } from './rest';
 import { figure } from '../model/base/units';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 import { LANGUAGE } from '../texts/language';
 
 /** What an answer may set off; the generation does it. */

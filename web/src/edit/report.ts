@@ -7,7 +7,7 @@ import { num, seconds } from '../model/base/units';
 import { headline } from '../model/words/verdict-words';
 import type { Step } from './document/step';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 
 /** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */
 export function outcome(

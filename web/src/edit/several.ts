@@ -27,7 +27,7 @@ import { shiftedVias } from '../model/document/vias';
 import { fixedWords } from './moves';
 import { freeShift, standing } from './room';
 import { shifted } from '../model/document/newcomer';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 import { inSentence } from '../texts/language';
 
 /** The server works out the motion of no more at once. */

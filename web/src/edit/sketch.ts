@@ -6,7 +6,7 @@ import { pathTo } from '../model/physics/reach';
 import type { Futures } from '../model/document/futures';
 import type { Motion } from '../model/base/motion';
 import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/document/scene';
-import { TEXTS } from '../texts/hud';
+import { TEXTS } from '../texts/desk/hud';
 
 export function sketchFutures(scene: Scene, a: Agent): Futures | null {
   const start = startPose(a);

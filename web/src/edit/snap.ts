@@ -3,7 +3,7 @@ import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/b
 import { armWords } from '../model/words/arm-names';
 import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../model/document/scene';
-import { TEXTS } from '../texts/picture';
+import { TEXTS } from '../texts/editing/picture';
 
 export interface Snapped {
   x: number;

@@ -22,7 +22,7 @@ import { judgedBy } from '../model/physics/verdict-updates';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/document/scene';
 import { stopPlaces, type StopPlace } from '../model/physics/stop-places';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 
 /** A front so near to where one stops stands there, metres. */
 const THERE_M = 0.6;

@@ -1,7 +1,7 @@
 // What is said of the others while the hand moves: a new one is said at once, but a verb changes and a name goes only
 // after a while of agreement, so that nobody flickers between waiting and going.
 import type { Change } from '../model/words/change-words';
-import { TEXTS } from '../texts/generation';
+import { TEXTS } from '../texts/editing/generation';
 
 /** For so long the newer answers agree before another verb is said. */
 export const AGREED_MS = 400;

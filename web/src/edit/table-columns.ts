@@ -1,6 +1,6 @@
 // Tables of others: which of their columns says what, and in which unit. The server asks where it cannot tell.
 /** A unit as people call it, and how it is told to the server. */
-import { TEXTS } from '../texts/imports';
+import { TEXTS } from '../texts/files/imports';
 
 interface Unit {
   readonly label: string;

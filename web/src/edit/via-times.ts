@@ -4,7 +4,7 @@ import type { Agent } from '../model/document/scene';
 import { nearestOn, passed, timesOf } from '../model/document/vias';
 import type { Editor } from './editor';
 import { changeVia } from './vias';
-import { TEXTS } from '../texts/via';
+import { TEXTS } from '../texts/editing/via';
 
 /** When the future in force passes it, seconds; null where nothing is known. */
 export function viaTime(e: Editor, a: Agent, i: number): number | null {

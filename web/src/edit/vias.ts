@@ -6,7 +6,7 @@ import { poseAt, type Motion } from '../model/base/motion';
 import type { Agent } from '../model/document/scene';
 import { heldTolerance, MOST_VIAS, nearestOn, placeIn, via, withNew, withVia, type Via } from '../model/document/vias';
 import type { Editor } from './editor';
-import { TEXTS } from '../texts/via';
+import { TEXTS } from '../texts/editing/via';
 
 /** So far along its path somebody gets a via point where no place was pointed at, as a share of the time. */
 const HALF_WAY = 0.5;

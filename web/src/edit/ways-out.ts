@@ -10,7 +10,7 @@ import { goes, mayCrossWords } from '../model/words/verdict-words';
 import type { Editor } from './editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
-import { TEXTS } from '../texts/moves';
+import { TEXTS } from '../texts/editing/moves';
 
 /** The way by the road: to the nearest goal that it leads to, else the future that gets to the goal by it. */
 export interface RoadWay {

@@ -9,7 +9,7 @@ import type { Editor } from './editor';
 import { eventRemedies } from './event-remedies';
 import type { Remedy } from './moves';
 import { supposition, type Supposing } from './supposing';
-import { TEXTS } from '../texts/events-panel';
+import { TEXTS } from '../texts/panels/events-panel';
 
 /** What comes of a way out: `ok` where the event is gone and nothing new comes in its place. */
 export interface Outcome {

@@ -2,7 +2,7 @@
 import type { Message } from '../model/document/message';
 import { messageText } from '../model/words/message-text';
 import { change } from '../texts/language';
-import { SENTENCES } from '../texts/problem-messages';
+import { SENTENCES } from '../texts/messages/problem-messages';
 import { faultOf } from './problem';
 import type { Problem } from './types';
 

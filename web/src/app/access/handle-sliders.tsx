@@ -3,7 +3,7 @@ import { useComputed } from '@preact/signals';
 import { canMove } from '../../model/document/scene';
 import { Later } from '../later';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/access';
+import { TEXTS } from '../../texts/desk/access';
 
 export function HandleSliders() {
   const { editor } = useApp();

@@ -10,7 +10,7 @@ import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/access';
+import { TEXTS } from '../../texts/desk/access';
 import { inSentence } from '../../texts/language';
 
 const KINDS: readonly (readonly [AgentType | 'all', string])[] = [

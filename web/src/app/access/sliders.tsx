@@ -11,8 +11,8 @@ import { heldTime, viaTime } from '../../edit/via-times';
 import { changeVia, moveVia, viaName, widenVia } from '../../edit/vias';
 import { useAgent, type LiveAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/access';
-import { TEXTS as VIA } from '../../texts/via';
+import { TEXTS } from '../../texts/desk/access';
+import { TEXTS as VIA } from '../../texts/editing/via';
 
 export function Sliders({ id }: { id: string }) {
   const agent = useAgent(id);

@@ -15,7 +15,7 @@ import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import '../../styles/variants.css';
 import '../../styles/cases.css';
-import { TEXTS } from '../../texts/cases';
+import { TEXTS } from '../../texts/editing/cases';
 
 /** Shown while the search is open alone. */
 const useCases = () => useApp().searching.open.value;

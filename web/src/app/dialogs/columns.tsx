@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/table-columns';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/imports';
+import { TEXTS } from '../../texts/files/imports';
 
 export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly string[] }) {
   const { importing } = useApp();

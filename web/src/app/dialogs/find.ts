@@ -5,11 +5,11 @@ import { KINDS, type What } from '../../model/physics/cases';
 import { KIND_WORDS } from '../../model/base/kinds';
 import { sentenceOf } from '../../model/words/case-words';
 import { ACTIONS, perform, possible } from '../../actions/registry';
-import { GROUP_TITLES } from '../../texts/groups';
-import { HELPS } from '../../texts/helps';
+import { GROUP_TITLES } from '../../texts/desk/groups';
+import { HELPS } from '../../texts/desk/helps';
 import { about } from '../scenes/drawer';
 import { dayAndTime } from '../scenes/dates';
-import { TEXTS } from '../../texts/palette';
+import { TEXTS } from '../../texts/desk/palette';
 
 export interface Entry {
   readonly label: string;

@@ -6,7 +6,7 @@ import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
-import { TEXTS } from '../../texts/imports';
+import { TEXTS } from '../../texts/files/imports';
 
 export function ImportFiles() {
   const c = useApp();

@@ -3,12 +3,12 @@ import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { messageText } from '../../model/words/message-text';
-import { SENTENCES } from '../../texts/file-messages';
+import { SENTENCES } from '../../texts/messages/file-messages';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { Columns } from './columns';
-import { TEXTS } from '../../texts/imports';
+import { TEXTS } from '../../texts/files/imports';
 
 /** More rows than these are shown when they are asked for. */
 const MOST_ROWS = 12;

@@ -6,7 +6,7 @@ import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { find, type Entry } from './find';
-import { TEXTS } from '../../texts/palette';
+import { TEXTS } from '../../texts/desk/palette';
 
 export function Palette() {
   const c = useApp();

@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 import { Modal } from '../parts/modal';
-import { TEXTS } from '../../texts/save-as';
+import { TEXTS } from '../../texts/files/save-as';
 
 export function SaveAs() {
   const { care, editor, ui } = useApp();

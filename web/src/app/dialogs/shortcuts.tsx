@@ -7,8 +7,8 @@ import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
-import { GROUP_TITLES } from '../../texts/groups';
-import { TEXTS } from '../../texts/shortcuts';
+import { GROUP_TITLES } from '../../texts/desk/groups';
+import { TEXTS } from '../../texts/desk/shortcuts';
 
 interface Line {
   readonly label: string;

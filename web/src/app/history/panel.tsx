@@ -6,7 +6,7 @@ import { useApp } from '../parts/app-context';
 import { IconButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { clock, dayAndTime } from '../scenes/dates';
-import { TEXTS } from '../../texts/history';
+import { TEXTS } from '../../texts/desk/history';
 
 /** Rows that are drawn at first; older ones when they are asked for. */
 const SHOWN = 120;

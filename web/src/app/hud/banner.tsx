@@ -4,7 +4,7 @@ import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 export function Banner() {
   const { editor, journal, library, saving, sharing } = useApp();

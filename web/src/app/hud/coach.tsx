@@ -7,7 +7,7 @@ import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
 import { Icon } from '../parts/icons';
 import { viewTick } from './view-tick';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
 /** How far the hint reaches to both sides of the middle, with all steps and with one, and up or down from its edge. */

@@ -2,11 +2,11 @@
 import { useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { actionOf, perform } from '../../actions/registry';
-import { HELPS } from '../../texts/helps';
+import { HELPS } from '../../texts/desk/helps';
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/empty';
+import { TEXTS } from '../../texts/desk/empty';
 
 const WAYS = ['place-first', 'tool-fill', 'import-log'] as const;
 

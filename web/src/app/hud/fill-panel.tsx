@@ -16,7 +16,7 @@ import { NumberField } from '../parts/number-field';
 import { Slider } from '../parts/slider';
 import { Switch } from '../parts/switch';
 import '../../styles/filling.css';
-import { TEXTS } from '../../texts/fill-panel';
+import { TEXTS } from '../../texts/panels/fill-panel';
 
 const NAMES: Record<FillKind, string> = {
   car: TEXTS.cars,

@@ -20,7 +20,7 @@ import { Thumb } from './thumb';
 import { Toast } from './toast';
 import { WayBack } from './way-back';
 import { lengthUnit } from '../../model/base/units';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 /** Those that are switched most; all are in the menu beside them. */
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;

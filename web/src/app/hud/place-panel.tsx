@@ -8,7 +8,7 @@ import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
-import { TEXTS } from '../../texts/place-panel';
+import { TEXTS } from '../../texts/panels/place-panel';
 
 const SPREADS: readonly (readonly [Spread, string, string])[] = [
   ['one', TEXTS.one, TEXTS.clickWhereIt],

@@ -11,7 +11,7 @@ import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
 import { outOfReach } from '../../edit/goal-verdict';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 interface Line {
   /** Colour of the dot; empty for all well. */

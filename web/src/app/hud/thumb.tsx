@@ -5,7 +5,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { MenuList } from '../parts/menu-list';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 /** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
 const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];

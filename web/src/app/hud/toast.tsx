@@ -1,7 +1,7 @@
 // What was done or cannot be done, for a few seconds, with a way back or on.
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 export function Toast() {
   const { editor, ui } = useApp();

@@ -5,7 +5,7 @@ import { HOME_ZOOM } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { viewTick } from './view-tick';
-import { TEXTS } from '../../texts/hud';
+import { TEXTS } from '../../texts/desk/hud';
 
 export function ScaleBar() {
   const { stage } = useApp();

@@ -20,7 +20,7 @@ import { GoalSection, StartSection } from './part-sections';
 import { ViasSection } from './vias-section';
 import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
-import { TEXTS } from '../../texts/agent';
+import { TEXTS } from '../../texts/panels/agent';
 
 // Beside it in one script: who is selected has both at once.
 export { Sliders } from '../access/sliders';

@@ -2,7 +2,7 @@
 import { useComputed, useSignal } from '@preact/signals';
 import type { Change } from '../../model/words/change-words';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/agent';
+import { TEXTS } from '../../texts/panels/agent';
 
 /** More than these are counted until somebody asks for all. */
 const LISTED = 8;

@@ -9,7 +9,7 @@ import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/curve-section';
+import { TEXTS } from '../../texts/panels/curve-section';
 import type { LiveAgent } from './use-agent';
 
 /** So long a new stop lasts, seconds. */

@@ -8,7 +8,7 @@ import type { TrafficEvent } from '../../model/words/event-words';
 import { seconds } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/inspector';
+import { TEXTS } from '../../texts/panels/inspector';
 
 /** `below` is what stands under the event that is picked. */
 export function EventList({ most = Infinity, below }: { most?: number; below?: (e: TrafficEvent) => ComponentChild }) {

@@ -16,8 +16,8 @@ import { Icon } from '../parts/icons';
 import { RemedyButton } from '../parts/remedy-button';
 import { EventList } from './event-list';
 import { ThresholdsSection, told } from './thresholds-section';
-import { TEXTS } from '../../texts/events-panel';
-import { TEXTS as COUNTS } from '../../texts/thresholds';
+import { TEXTS } from '../../texts/panels/events-panel';
+import { TEXTS as COUNTS } from '../../texts/panels/thresholds';
 
 export function EventsPanel() {
   const { editor, ui } = useApp();

@@ -16,8 +16,8 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
-import { TEXTS } from '../../texts/agent';
-import { TEXTS as PINS } from '../../texts/pins';
+import { TEXTS } from '../../texts/panels/agent';
+import { TEXTS as PINS } from '../../texts/editing/pins';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();

@@ -12,7 +12,7 @@ import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 import { verdictOn, type Verdict } from './verdict';
-import { TEXTS } from '../../texts/agent';
+import { TEXTS } from '../../texts/panels/agent';
 
 export function Hint({ agent }: { agent: LiveAgent }) {
   const c = useApp();

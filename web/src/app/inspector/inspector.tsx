@@ -3,7 +3,7 @@ import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 import { ScenePanel } from './scene-panel';
-import { TEXTS } from '../../texts/inspector';
+import { TEXTS } from '../../texts/panels/inspector';
 
 export function Inspector() {
   const { editor, rounds, searching, ui, variants } = useApp();

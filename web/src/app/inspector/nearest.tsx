@@ -5,7 +5,7 @@ import type { TrafficEvent } from '../../model/words/event-words';
 import type { Agent } from '../../model/document/scene';
 import { metres, seconds } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/several-panel';
+import { TEXTS } from '../../texts/panels/several-panel';
 
 /** Nearer than this they touch, metres. */
 const TOUCH_M = 0.005;

@@ -25,7 +25,7 @@ import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
 import { placesAlong } from '../../model/document/lanemap';
-import { TEXTS } from '../../texts/agent';
+import { TEXTS } from '../../texts/panels/agent';
 import { SAYS_WHERE } from '../../texts/language';
 
 export function StartSection({ agent }: { agent: LiveAgent }) {

@@ -10,7 +10,7 @@ import { Controls } from '../parts/asking';
 import { OTHERS_DO, useOthers } from '../parts/others';
 import { EventList } from './event-list';
 import { SceneScore } from './scene-score';
-import { TEXTS } from '../../texts/inspector';
+import { TEXTS } from '../../texts/panels/inspector';
 
 const FIRST_EVENTS = 6;
 

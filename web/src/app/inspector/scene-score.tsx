@@ -7,7 +7,7 @@ import { canChange } from '../../model/document/scene';
 import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import type { Editor } from '../../edit/editor';
-import { TEXTS } from '../../texts/inspector';
+import { TEXTS } from '../../texts/panels/inspector';
 
 export function SceneScore() {
   const { editor } = useApp();

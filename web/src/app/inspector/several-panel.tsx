@@ -16,7 +16,7 @@ import { Icon } from '../parts/icons';
 import { Nearest } from './nearest';
 import { SharedField, sharedFields, type Shared } from './shared-field';
 import { inSentence } from '../../texts/language';
-import { TEXTS } from '../../texts/several-panel';
+import { TEXTS } from '../../texts/panels/several-panel';
 
 const GROUPS: readonly (readonly [AgentType, string])[] = [
   ['pedestrian', TEXTS.onFoot],

@@ -27,7 +27,7 @@ import * as several from '../../edit/several';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-field';
-import { TEXTS } from '../../texts/several-panel';
+import { TEXTS } from '../../texts/panels/several-panel';
 
 /** What a shared field is about. Values are in the unit that is shown. */
 export interface Shared {

@@ -13,7 +13,7 @@ import { acceleration, metres, seconds, speedLabel } from '../../model/base/unit
 import { headline } from '../../model/words/verdict-words';
 import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
-import { TEXTS } from '../../texts/agent';
+import { TEXTS } from '../../texts/panels/agent';
 import { isGoalOfLog } from '../../edit/moves';
 import type { LiveAgent } from './use-agent';
 

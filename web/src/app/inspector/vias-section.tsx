@@ -12,7 +12,7 @@ import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import { placesAlong } from '../../model/document/lanemap';
 import type { Command } from '../../model/document/commands';
-import { TEXTS } from '../../texts/via';
+import { TEXTS } from '../../texts/editing/via';
 import { inSentence } from '../../texts/language';
 import type { LiveAgent } from './use-agent';
 

@@ -4,7 +4,7 @@ import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
 import { messageText } from '../../model/words/message-text';
-import { SENTENCES } from '../../texts/map-messages';
+import { SENTENCES } from '../../texts/messages/map-messages';
 import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
 import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
@@ -15,7 +15,7 @@ import { NumberField } from '../parts/number-field';
 import { Slider } from '../parts/slider';
 import { Switch } from '../parts/switch';
 import '../../styles/layouts.css';
-import { TEXTS } from '../../texts/layouts';
+import { TEXTS } from '../../texts/panels/layouts';
 import { inSentence } from '../../texts/language';
 
 /** What stands in the panel for each number, in its order; `whole` are counted. */

@@ -11,7 +11,7 @@ import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { Icon } from '../parts/icons';
 import '../../styles/layouts.css';
-import { TEXTS } from '../../texts/layouts';
+import { TEXTS } from '../../texts/panels/layouts';
 
 const SIZE = { width: 112, height: 88 };
 const PX_PER_PX = 2;

@@ -14,8 +14,8 @@ import { Flyout } from './flyout';
 import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
 import '../../styles/outward.css';
 import { resultCode } from '../../model/document/result-code';
-import { TEXTS } from '../../texts/export';
-import { TEXTS as CODE } from '../../texts/result-code';
+import { TEXTS } from '../../texts/files/export';
+import { TEXTS as CODE } from '../../texts/files/result-code';
 import { inSentence } from '../../texts/language';
 
 const SCOPES: readonly (readonly [Scope, string])[] = [

@@ -14,7 +14,7 @@ import { paintLegend } from '../../draw/legend';
 import { opaquePen, paintOn } from '../../draw/replay';
 import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
-import { TEXTS } from '../../texts/export';
+import { TEXTS } from '../../texts/files/export';
 
 export interface Kind extends Findable {
   readonly id: string;

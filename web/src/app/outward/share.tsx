@@ -9,7 +9,7 @@ import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
-import { TEXTS } from '../../texts/share';
+import { TEXTS } from '../../texts/files/share';
 
 const COPIED_MS = 1500;
 const ALL: Parts = { futures: true, words: true, start: true };

@@ -7,8 +7,8 @@ import { useApp } from './app-context';
 import { ActionButton, IconButton } from './buttons';
 import { Slider } from './slider';
 import { resultCode } from '../../model/document/result-code';
-import { TEXTS } from '../../texts/parts';
-import { TEXTS as CODE } from '../../texts/result-code';
+import { TEXTS } from '../../texts/desk/parts';
+import { TEXTS as CODE } from '../../texts/files/result-code';
 
 export function Controls() {
   const { editor } = useApp();

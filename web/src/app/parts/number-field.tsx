@@ -15,7 +15,7 @@ import {
   toLength,
   type Quantity,
 } from '../../model/base/units';
-import { TEXTS } from '../../texts/number-field';
+import { TEXTS } from '../../texts/desk/number-field';
 
 export interface NumberFieldProps {
   label: string;

@@ -1,7 +1,7 @@
 // What the others do while one is changed.
 import { useComputed } from '@preact/signals';
 import type { Others } from '../../model/document/scene';
-import { TEXTS } from '../../texts/parts';
+import { TEXTS } from '../../texts/desk/parts';
 import { useApp } from './app-context';
 
 type Choices = readonly (readonly [string, string])[];

@@ -9,7 +9,7 @@ import type { Pictured } from '../../edit/variants/cards';
 import { LivePicture, type Album } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/rounds-panel';
+import { TEXTS } from '../../texts/panels/rounds-panel';
 
 const WORDS = { keep: TEXTS.kept, reject: TEXTS.rejected } as const;
 

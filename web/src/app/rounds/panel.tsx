@@ -10,7 +10,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/rounds.css';
-import { TEXTS } from '../../texts/rounds-panel';
+import { TEXTS } from '../../texts/panels/rounds-panel';
 
 export default function RoundsPanel() {
   const { rounds } = useApp();

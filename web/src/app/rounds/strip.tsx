@@ -13,7 +13,7 @@ import { Icon } from '../parts/icons';
 import { CardView } from './card';
 import '../../styles/variants.css';
 import '../../styles/rounds.css';
-import { TEXTS } from '../../texts/rounds-panel';
+import { TEXTS } from '../../texts/panels/rounds-panel';
 
 /** Whose futures the cards are. */
 const WHOSE = [

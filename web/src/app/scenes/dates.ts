@@ -1,7 +1,7 @@
 // When something was done, as people say it.
 
 import { LOCALE } from '../../texts/language';
-import { TEXTS } from '../../texts/scenes';
+import { TEXTS } from '../../texts/desk/scenes';
 
 const time = new Intl.DateTimeFormat(LOCALE, { hour: '2-digit', minute: '2-digit' });
 const day = new Intl.DateTimeFormat(LOCALE, { day: 'numeric', month: 'short' });

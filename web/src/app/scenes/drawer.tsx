@@ -10,7 +10,7 @@ import { ActionButton, IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { dayAndTime } from './dates';
 import { Thumbnail } from './thumbnail';
-import { TEXTS } from '../../texts/scenes';
+import { TEXTS } from '../../texts/desk/scenes';
 
 export function Drawer() {
   const { form, scenes } = useApp();

@@ -4,7 +4,7 @@ import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { about, ChooseFiles } from './drawer';
 import { Thumbnail } from './thumbnail';
-import { TEXTS } from '../../texts/empty';
+import { TEXTS } from '../../texts/desk/empty';
 
 const OFFERED = 3;
 

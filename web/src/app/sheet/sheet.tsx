@@ -10,7 +10,7 @@ import { IconButton } from '../parts/buttons';
 import { useLiveEffect } from '../parts/hooks';
 import { Icon } from '../parts/icons';
 import { Timeline } from '../timeline/timeline';
-import { TEXTS } from '../../texts/page';
+import { TEXTS } from '../../texts/desk/page';
 
 const WORDS: Record<SheetHeight, string> = { peek: TEXTS.nearlyClosed, half: TEXTS.halfOpen, full: TEXTS.fullyOpen };
 /** A grip that moved less was tapped, pixels. */

@@ -6,7 +6,7 @@ import type { Motion } from '../../model/base/motion';
 import { untracked } from '@preact/signals';
 import type { Agent } from '../../model/document/scene';
 import type { Context } from '../../actions/context';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 /** Pixels left of the plot, right of it, for the events above and for the seconds below. */
 export const X0 = 52;

@@ -7,7 +7,7 @@ import { canMove } from '../../model/document/scene';
 import { metres, num, speedLabel, type SpeedUnit } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
-import { TEXTS } from '../../texts/point-fields';
+import { TEXTS } from '../../texts/panels/point-fields';
 
 export function CurveMisfit() {
   const { editor } = useApp();

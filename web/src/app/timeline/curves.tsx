@@ -10,7 +10,7 @@ import type { Editor } from '../../edit/editor';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
 import { eventShown, severalShown, X0, type Axes, type Line } from './axes';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
   const c = useApp();

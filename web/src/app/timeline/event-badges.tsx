@@ -4,7 +4,7 @@ import { counted } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
 import { useApp } from '../parts/app-context';
 import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
 const FILL = { collision: '--collision', rule: '--near', near: '--near', short: '--surface-3' } as const;

@@ -4,7 +4,7 @@ import { counted } from '../../model/physics/events';
 import { num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { eventsShown, LANE, markedSpan, X0, type Axes } from './axes';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 /** Seconds marked behind the curves at least. */
 const MARKED_S = { collision: 0.3, rule: 0.3, near: 0.8 } as const;

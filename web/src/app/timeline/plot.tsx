@@ -13,7 +13,7 @@ import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor, variants }: Context): unknown => [

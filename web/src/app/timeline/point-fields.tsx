@@ -7,7 +7,7 @@ import { useApp } from '../parts/app-context';
 import { CurveMisfit } from './curve-misfit';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
-import { TEXTS } from '../../texts/point-fields';
+import { TEXTS } from '../../texts/panels/point-fields';
 
 /** Braking is marked from here on, m/s². */
 const HARD_MPS2 = 4;

@@ -5,7 +5,7 @@ import { fromUnit, inTenths, num, speedLabel, toUnit } from '../../model/base/un
 import type { SpeedPoint } from '../../model/document/profile';
 import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 /** Above the ground a point sticks to it, below it one pulls a hold out of it, pixels. */
 const STICK_PX = 6;

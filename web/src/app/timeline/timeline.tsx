@@ -7,7 +7,7 @@ import { IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { useOthers } from '../parts/others';
 import { Plot } from './plot';
-import { TEXTS } from '../../texts/timeline';
+import { TEXTS } from '../../texts/panels/timeline';
 
 export function Timeline() {
   const { form } = useApp();

@@ -8,7 +8,7 @@ import type { Card, Pictured } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { LivePicture, type Album } from './live-picture';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 
 const MARKS: Record<TrafficEvent['kind'], readonly [colour: string, word: string]> = {
   collision: ['collision', TEXTS.collision],

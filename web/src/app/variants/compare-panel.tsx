@@ -7,7 +7,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { WhoseSpeed } from './whose-speed';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function ComparePanel() {
   const c = useApp();

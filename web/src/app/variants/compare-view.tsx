@@ -20,7 +20,7 @@ import type { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { verdictOf } from './card';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function CompareView() {
   const c = useApp();

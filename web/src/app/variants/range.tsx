@@ -4,7 +4,7 @@ import { fromUnit, inTenths, num, type Quantity, toUnit } from '../../model/base
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 
 const BY: readonly (readonly [Over, string])[] = [
   ['start', TEXTS.bySpeedAtThe],

@@ -14,7 +14,7 @@ import { CardView, verdictOf } from './card';
 import { LivePicture, type Album } from './live-picture';
 import { Range, RangePick } from './range';
 import '../../styles/variants.css';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 import '../../styles/cases.css';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [

@@ -1,7 +1,7 @@
 // Whose speed the timeline shows, in the one variant and in the other.
 import type { Compared } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
-import { TEXTS } from '../../texts/variants-panel';
+import { TEXTS } from '../../texts/panels/variants-panel';
 
 export function WhoseSpeed({ now }: { now: Compared }) {
   const { variants } = useApp();

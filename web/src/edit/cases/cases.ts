@@ -15,7 +15,7 @@ import { stateOfVariant, takeVariant } from '../../model/document/variants';
 import { Away, Refused } from '../../net/client';
 import type { Beside, Editor, Tries } from '../editor';
 import { Stopped, type Maker, type Take } from '../variants/making';
-import { TEXTS } from '../../texts/cases';
+import { TEXTS } from '../../texts/editing/cases';
 
 /** What was found: what everybody does, the moment that it is about, and how many more were like it. */
 export interface Case {

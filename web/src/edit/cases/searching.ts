@@ -4,7 +4,7 @@ import type { What } from '../../model/physics/cases';
 import type { Editor } from '../editor';
 import type { Maker } from '../variants/making';
 import type { Cases } from './cases';
-import { TEXTS } from '../../texts/generation';
+import { TEXTS } from '../../texts/editing/generation';
 
 export class Searching {
   readonly #now = signal<Cases | null>(null);

@@ -13,7 +13,7 @@ import { sceneKey, shortFor, type Scene } from '../../model/document/scene';
 import type { GeneratedJson } from '../../model/document/scene-json';
 import { ofAgents, variantsJson } from '../../model/document/scene-writer';
 import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
-import { TEXTS } from '../../texts/keeping';
+import { TEXTS } from '../../texts/editing/keeping';
 
 /** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
 export type Keeping = 'kept' | 'full' | 'off';

@@ -15,7 +15,7 @@ import { atMost, type Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 import type { Session } from './session';
-import { TEXTS } from '../../texts/keeping';
+import { TEXTS } from '../../texts/editing/keeping';
 
 const WELCOME_BACK_MS = 9000;
 /** Less than a tab that waits for its turn has patience. */

@@ -8,7 +8,7 @@ import type { Library } from './library';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 import type { Session } from './session';
-import { TEXTS } from '../../texts/keeping';
+import { TEXTS } from '../../texts/editing/keeping';
 
 /** So long a deleted scene can be brought back from the toast. */
 const UNDELETE_MS = 20_000;

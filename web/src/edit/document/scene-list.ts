@@ -3,7 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Client } from '../../net/client';
 import { keep, recall } from '../../net/storage';
 import type { SceneListItem } from '../../net/types';
-import { TEXTS } from '../../texts/reading';
+import { TEXTS } from '../../texts/scene/reading';
 
 /** Examples in the order in which they are best met, last first. */
 const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-roundabout', 'demo-crossing'];

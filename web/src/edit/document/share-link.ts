@@ -3,7 +3,7 @@ import type { SceneJson } from '../../model/document/scene-json';
 import type { Camera } from '../../model/document/history';
 import { pack, PackError, unpack } from '../../model/document/pack';
 import { MARK } from './share-mark';
-import { TEXTS } from '../../texts/share';
+import { TEXTS } from '../../texts/files/share';
 
 /** Longer links are cut by mail programs and chats. */
 export const MOST_LINK_BYTES = 60 * 1024;

@@ -9,7 +9,7 @@ import type { SceneFile } from './scene-file';
 import type { Session } from './session';
 import type { ShownAt } from './share-link';
 import { isShareLink } from './share-mark';
-import { TEXTS } from '../../texts/keeping';
+import { TEXTS } from '../../texts/editing/keeping';
 
 /** What of a scene goes into the link. */
 export interface Parts {

@@ -9,7 +9,7 @@ import type { Chart, State } from './chart';
 import { Panning } from './panning';
 import type { Press } from './pressed';
 import type { Tool } from './tools';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 import { Connecting, stops, wayAt } from './ways';
 
 /** The knob of an arm lies so far out from its stop line, its lane buttons and those that take lanes away, metres. */

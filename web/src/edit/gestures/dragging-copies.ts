@@ -6,7 +6,7 @@ import { ghostsFor, snapNewcomer } from '../placing';
 import { addThem, copiesOf, tooMany, whoWords } from '../several';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 export class DraggingCopies implements State {
   readonly name = 'dragging copies';

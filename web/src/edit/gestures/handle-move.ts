@@ -14,7 +14,7 @@ import type { Modifiers } from './chart';
 import type { Move } from './dragging-handle';
 import type { Press } from './pressed';
 import { Resistance } from './resistance';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 /** Pixels of drag on the time tag for one second. */
 const PX_PER_SECOND = 40;

@@ -4,7 +4,7 @@ import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import { click } from './select';
 import { Sweeping } from './sweeping';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 /** The line takes a further point after so many metres; it has this many at most. */
 const STEP_M = 0.3;

@@ -1,7 +1,7 @@
 // A line is drawn and its length shown.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 class Measuring implements State {
   readonly name = 'measuring';

@@ -1,7 +1,7 @@
 // The picture moves with the pointer.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 export class Panning implements State {
   readonly name = 'panning';

@@ -11,7 +11,7 @@ import { addThem, tooMany } from '../several';
 import { shifted } from '../../model/document/newcomer';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 /** The ghost of somebody of a kind under the pointer. */
 export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading?: number): void => {

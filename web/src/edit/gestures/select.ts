@@ -17,7 +17,7 @@ import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
 import type { Press } from './pressed';
 import { rectangle, Sweeping } from './sweeping';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 import { ViaMove } from './via-move';
 
 /** How far ahead of a road user without futures its goal is taken to be, in metres. */

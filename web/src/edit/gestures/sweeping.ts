@@ -5,7 +5,7 @@ import { kindsWords } from '../../model/base/kinds';
 import { poseShown } from '../frame';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 /** Makes the outline longer, or anew, for the newest place. */
 export type Outline = (from: Vec, to: Vec, before: readonly Vec[], v: View) => readonly Vec[];

@@ -2,7 +2,7 @@
 // palette entry and line in the shortcut sheet are made from it.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
-import type { Help } from '../../texts/helps';
+import type { Help } from '../../texts/desk/helps';
 import type { PlacedKind } from '../../model/base/kinds';
 import { FILL } from './filling';
 import { LASSO } from './lasso';

@@ -6,7 +6,7 @@ import { canMove, startPose, type Agent } from '../../model/document/scene';
 import type { Part } from '../editor';
 import type { Chart, State } from './chart';
 import { Pinching, turnOf } from './pinching';
-import { TEXTS } from '../../texts/gestures';
+import { TEXTS } from '../../texts/desk/gestures';
 
 /** The middle of the two fingers lies so near to what they turn, pixels. */
 const NEAR_PX = 44;

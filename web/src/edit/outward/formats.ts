@@ -1,6 +1,6 @@
 // The kinds of file that the server writes and reads, by what people want of them, in plain words.
 import type { FormatInfo } from '../../net/types';
-import { TEXTS } from '../../texts/formats';
+import { TEXTS } from '../../texts/files/formats';
 
 /** What a file out of here is for. */
 export type Wish = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';

@@ -1,7 +1,7 @@
 // What a file cannot hold of a scene, in plain words and with the numbers of that scene.
 import { num } from '../../model/base/units';
 import type { Scene } from '../../model/document/scene';
-import { TEXTS } from '../../texts/losses';
+import { TEXTS } from '../../texts/files/losses';
 import { countWords } from '../../model/base/kinds';
 
 export interface Loss {

@@ -1,5 +1,5 @@
 // The scene as a GIF: what the picture shows, ten times a second, for slides and mails that play no film.
-import { TEXTS } from '../../texts/export';
+import { TEXTS } from '../../texts/files/export';
 import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import type { Picture } from './gif.worker';

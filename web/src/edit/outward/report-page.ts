@@ -10,8 +10,8 @@ import { canChange, changedByHand, hasGoal, startPose, type Agent, type Scene } 
 import { num, seconds, speedLabel, type SpeedUnit, walkingUnit } from '../../model/base/units';
 import { LANGUAGE } from '../../texts/language';
 import { resultCode } from '../../model/document/result-code';
-import { TEXTS } from '../../texts/report-page';
-import { TEXTS as CODE } from '../../texts/result-code';
+import { TEXTS } from '../../texts/files/report-page';
+import { TEXTS as CODE } from '../../texts/files/result-code';
 
 export interface ReportOf {
   readonly scene: Scene;

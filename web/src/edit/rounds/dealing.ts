@@ -13,7 +13,7 @@ import type { FinalEvent } from '../../net/types';
 import { motionAfter, naming } from '../motion-after';
 import type { Take } from '../variants/making';
 import type { OneHand, SceneHand } from './deck';
-import { TEXTS } from '../../texts/rounds';
+import { TEXTS } from '../../texts/editing/rounds';
 
 type Made<T> = Omit<T, 'print' | 'asked' | 'round'>;
 

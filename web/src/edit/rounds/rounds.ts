@@ -26,7 +26,7 @@ import { handOf, sceneTaken } from './dealing';
 import type { Take } from '../variants/making';
 import type { Dealt } from '../variants/variants';
 import { saidOf, subjectOf } from './said';
-import { TEXTS } from '../../texts/rounds';
+import { TEXTS } from '../../texts/editing/rounds';
 
 /** What is wished, as far as it is known. */
 export interface Wished {

@@ -17,7 +17,7 @@ import { motionAfter, rejudged } from '../motion-after';
 import { followed, scoreOf } from '../scoring';
 import type { Questions, Wanted } from '../question';
 import type { SceneFile } from '../document/scene-file';
-import { TEXTS } from '../../texts/variants';
+import { TEXTS } from '../../texts/editing/variants';
 
 /** A document and what everybody does in it. */
 export interface Take {

@@ -43,7 +43,7 @@ import {
   type WholeCard,
 } from './cards';
 import { Maker, Stopped, subjectOf, type Take } from './making';
-import { TEXTS } from '../../texts/variants';
+import { TEXTS } from '../../texts/editing/variants';
 
 /** What an export is about: the scene as it is, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';

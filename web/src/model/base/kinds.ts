@@ -1,5 +1,5 @@
 // What can be placed: the kinds with their types, names and usual sizes.
-import { TEXTS } from '../../texts/kinds';
+import { TEXTS } from '../../texts/scene/kinds';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
 export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';

@@ -1,7 +1,7 @@
 // Numbers as people read and type them. Inside the program everything is SI.
 import { signal } from '@preact/signals-core';
 import { LANGUAGE } from '../../texts/language';
-import { TEXTS } from '../../texts/places';
+import { TEXTS } from '../../texts/scene/places';
 import { deg } from './geometry';
 
 export type SpeedUnit = 'km/h' | 'm/s' | 'mph' | 'ft/s';

@@ -19,7 +19,7 @@ import {
   withRoster,
 } from './scene';
 import type { Profile } from './profile';
-import { TEXTS } from '../../texts/steps';
+import { TEXTS } from '../../texts/scene/steps';
 
 export interface Command {
   readonly name: string;

@@ -4,7 +4,7 @@ import { patchAgents, patchScene, type Command } from './commands';
 import { answerTo, following, MOST_ANSWERS, MOST_WISHES, NO_FEEDBACK, SAME_M, sameTrait, traitOf } from './feedback';
 import type { Answer, Asked, Feedback, Places, Trait, Verdict, Wish } from './feedback';
 import type { Agent, Scene } from './scene';
-import { TEXTS } from '../../texts/feedback';
+import { TEXTS } from '../../texts/scene/feedback';
 
 type Schemas = components['schemas'];
 

@@ -1,7 +1,7 @@
 // Templates of maps in the order in which they are offered, and the ranges of their parameters.
 import domain from '../../../../assets/domain.json';
 import type { components } from '../base/api';
-import { TEXTS } from '../../texts/layouts';
+import { TEXTS } from '../../texts/panels/layouts';
 
 export type TemplateName = components['schemas']['Template'];
 

@@ -2,7 +2,7 @@
 // what is unpacked equals what was packed, to the last bit.
 
 /** Marks of packed values; no member of a scene begins so. */
-import { TEXTS } from '../../texts/reading';
+import { TEXTS } from '../../texts/scene/reading';
 
 const COLUMN = '$c',
   POINTS = '$p';

@@ -16,7 +16,7 @@ import { patchAgents, type AgentPatch, type Command } from './commands';
 import { shortFor, AT_GOAL_M, startPose, type Agent, type Pin, type Scene } from './scene';
 import { passed } from './vias';
 import type { AgentType } from '../base/kinds';
-import { TEXTS } from '../../texts/pins';
+import { TEXTS } from '../../texts/editing/pins';
 
 /** So many a road user has at most: with six beside them more are not told apart on the picture. */
 export const MOST_PINS = 3;

@@ -45,7 +45,7 @@ import { readThresholds } from './thresholds';
 import { readVias } from './vias';
 import { askedOf, MOST_VARIANTS } from './variants';
 import { readProfile } from './profile';
-import { TEXTS } from '../../texts/reading';
+import { TEXTS } from '../../texts/scene/reading';
 
 export class SceneError extends Error {}
 

@@ -2,7 +2,7 @@
 import { patchScene, type Command } from './commands';
 import { THRESHOLDS } from '../base/domain';
 import { NO_THRESHOLDS, type Scene, type Thresholds } from './scene';
-import { TEXTS } from '../../texts/thresholds';
+import { TEXTS } from '../../texts/panels/thresholds';
 
 /** Those that the editor offers, in the order in which they are shown. */
 export const OFFERED = ['gap_m', 'ttc_s', 'harsh_brake_mps2', 'harsh_lateral_mps2'] as const;

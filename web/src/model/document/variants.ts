@@ -11,7 +11,7 @@ import {
   type Agent,
   type Scene,
 } from './scene';
-import { TEXTS } from '../../texts/variants';
+import { TEXTS } from '../../texts/editing/variants';
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
 export const MOST_NEW = 10;

@@ -2,7 +2,7 @@
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
 import { alongOf, lineOf } from './speed-profile';
 import type { Path } from '../document/profile';
-import { TEXTS } from '../../texts/places';
+import { TEXTS } from '../../texts/scene/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 
 /** A place along a way, in metres from its beginning, to which the front comes. */

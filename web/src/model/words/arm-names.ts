@@ -1,7 +1,7 @@
 // What a lane is called at a junction: by its arm, and by what it does there. Where there is no junction, or more than
 // one, compass words say more.
 import { pointAt, type Vec } from '../base/geometry';
-import { TEXTS } from '../../texts/places';
+import { TEXTS } from '../../texts/scene/places';
 import { turnOf, type Lane, type LaneMap } from '../document/lanemap';
 
 /** A turn is one from here on, radians. */

@@ -3,7 +3,7 @@ import { KINDS, type Moment, type Sought, type What } from '../physics/cases';
 import type { Pose } from '../base/geometry';
 import { startPose, type Agent, type Scene } from '../document/scene';
 import { acceleration, metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
-import { TEXTS } from '../../texts/cases';
+import { TEXTS } from '../../texts/editing/cases';
 
 export const KIND_WORDS: Readonly<Record<What, string>> = {
   near: TEXTS.nearMiss,

@@ -5,7 +5,7 @@ import { distances, poseAtStep, STEP_S, type Motion } from '../base/motion';
 import { num, metres, speedText, walkingUnit, type SpeedUnit } from '../base/units';
 import { changesBetween, furthest, type MotionChange } from '../physics/changes';
 import type { Reaction } from '../physics/reaction';
-import { TEXTS } from '../../texts/reactions';
+import { TEXTS } from '../../texts/scene/reactions';
 
 export interface Change extends MotionChange {
   /** `waits 2 s for Car 7` */

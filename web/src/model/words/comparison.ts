@@ -10,7 +10,7 @@ import { poseAt, STEP_S, type Motion } from '../base/motion';
 import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from '../document/scene';
 import { metres, num, seconds } from '../base/units';
-import { TEXTS } from '../../texts/parting';
+import { TEXTS } from '../../texts/scene/parting';
 
 export interface Side {
   /** What it is called in a sentence: its number. */

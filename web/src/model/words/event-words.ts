@@ -9,7 +9,7 @@ import { acceleration, metres, num, seconds, speedLabel, walkingUnit, type Speed
 import { counted, eventsIn, eventsOfFuture, type SceneEvent } from '../physics/events';
 import { motionOf } from '../physics/playback';
 import { placeWord } from './verdict-words';
-import { TEXTS } from '../../texts/events';
+import { TEXTS } from '../../texts/scene/events';
 
 export interface TrafficEvent extends SceneEvent {
   /** The road users. */

@@ -1,7 +1,7 @@
 // What was said of futures as a table: a line an answer, a column a feature.
 import type { Answer, Feedback } from '../document/feedback';
 import { whyWords } from './feedback-words';
-import { TEXTS } from '../../texts/feedback';
+import { TEXTS } from '../../texts/scene/feedback';
 
 type NameOf = (id: string) => string | null;
 

@@ -11,7 +11,7 @@ import {
   speedText,
   type SpeedUnit,
 } from '../base/units';
-import { TEXTS } from '../../texts/feedback';
+import { TEXTS } from '../../texts/scene/feedback';
 import { inSentence } from '../../texts/language';
 
 type NameOf = (id: string) => string | null;

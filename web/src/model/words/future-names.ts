@@ -14,8 +14,8 @@ import {
   STEP_S,
   type Motion,
 } from '../base/motion';
-import { TEXTS as KINDS } from '../../texts/kinds';
-import { TEXTS } from '../../texts/names';
+import { TEXTS as KINDS } from '../../texts/scene/kinds';
+import { TEXTS } from '../../texts/scene/names';
 
 /** What a name is made from. */
 export interface Nameable {

@@ -2,7 +2,7 @@
 import { acceleration, metres, num, seconds, speedInUse } from '../base/units';
 import type { Message } from '../document/message';
 import { armTitle } from './arm-names';
-import { SENTENCES } from '../../texts/messages';
+import { SENTENCES } from '../../texts/messages/messages';
 import type { Values } from '../../texts/table';
 
 /** Sentences by code, and the words of values that name a thing of a list. */

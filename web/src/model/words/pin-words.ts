@@ -2,7 +2,7 @@
 import { pinMisfit } from '../document/pins';
 import type { Agent, Pin } from '../document/scene';
 import { metres, speedLabel, type SpeedUnit } from '../base/units';
-import { TEXTS } from '../../texts/pins';
+import { TEXTS } from '../../texts/editing/pins';
 
 /** `12 m from the goal`; null for a pinned future that fits. */
 export function misfit(a: Agent, pin: Pin, unit: SpeedUnit): string | null {

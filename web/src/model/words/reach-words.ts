@@ -6,7 +6,7 @@ import type { Pose, Vec } from '../base/geometry';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
 import { messageText } from './message-text';
-import { TEXTS } from '../../texts/reach';
+import { TEXTS } from '../../texts/scene/reach';
 
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
 export function reachWords(

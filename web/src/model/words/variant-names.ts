@@ -10,7 +10,7 @@ import type { Agent, Scene, VariantState } from '../document/scene';
 import { valueOf, type Over } from '../physics/sweep';
 import { num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { motionOf } from '../physics/playback';
-import { TEXTS } from '../../texts/variants';
+import { TEXTS } from '../../texts/editing/variants';
 
 export interface Nameless {
   readonly id: number;

@@ -15,7 +15,7 @@ import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
 import { acceleration, metres, seconds } from '../base/units';
-import { TEXTS } from '../../texts/verdicts';
+import { TEXTS } from '../../texts/scene/verdicts';
 
 export type NameOf = (id: string) => string | null;
 

@@ -1,0 +1,30 @@
+import type { TEXTS } from '../../desk/gestures';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  makeAMap: 'Karte zeichnen',
+  roadUser: 'Verkehrsteilnehmer',
+  copyOf: (whoWords) => `Kopie von ${whoWords}`,
+  fillAnArea: 'Fläche füllen',
+  goalHeading: 'Richtung am Ziel',
+  heading: 'Richtung',
+  goalSpeed: 'Tempo am Ziel',
+  speed: 'Tempo',
+  ofChanged: (word, name) => `${word} von ${name} geändert`,
+  startOfMoved: (name) => `Start von ${name} verschoben`,
+  goalTimeOfChanged: (name) => `Zeit am Ziel von ${name} geändert`,
+  lasso: 'Lasso',
+  measure: 'Messen',
+  moveThePicture: 'Bild verschieben',
+  orFurtherOn: (far) => `, oder ${far} weiter vorn`,
+  somebody: 'Jemand',
+  standsHerePut: (name, where) => `${name} steht hier. Trotzdem hier einsetzen${where}?`,
+  furtherOn: 'Weiter vorn',
+  putHere: 'Hierher',
+  ofFit: (n, countWords) => `${n} von ${countWords} passen`,
+  thereIsNoRoom: 'Hier ist kein Platz.',
+  ofPlacedNoRoom: (count, countWords) => `${count} von ${countWords} eingesetzt, mehr Platz ist nicht`,
+  placeA: (kind: string) => `Einsetzen: ${kind}`,
+  selectAndDrag: 'Auswählen und ziehen',
+  selected: (who: string) => `${who} ausgewählt.`,
+};

@@ -1,0 +1,25 @@
+import type { TEXTS } from '../../desk/scenes';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  today: (clock: string) => `heute ${clock}`,
+  yesterday: (clock: string) => `gestern ${clock}`,
+  scenes: 'Szenen',
+  findAScene: 'Szene suchen',
+  dropSceneFiles: 'Dateien hierher ziehen',
+  chooseFiles: 'Dateien wählen',
+  whatCanBeRead: 'was ist lesbar?',
+  noSceneOfThat: 'Keine Szene mit diesem Namen.',
+  loading: 'Lädt …',
+  recent: 'Zuletzt',
+  mine: 'Eigene',
+  examples: 'Beispiele',
+  recorded: 'Aufgezeichnet',
+  newName: 'Neuer Name',
+  roadUsers: (n: number) => `${n} Teilnehmer`,
+  nobodyYet: 'noch niemand',
+  or: 'oder ',
+  recordedWithin: 'Aufnahme',
+  example: 'Beispiel',
+  own: 'eigene',
+};

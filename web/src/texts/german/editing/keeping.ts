@@ -1,0 +1,58 @@
+import type { TEXTS } from '../../editing/keeping';
+import { plural } from '../plural';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  theGenerator: 'Der Generator antwortet nicht.',
+  theGeneratorWorks: (most_at_once) =>
+    `Der Generator berechnet ${most_at_once} auf einmal. Für mehr eine Fläche nach der anderen füllen.`,
+  thereIsNoRoom: 'Hier ist kein Platz.',
+  roadUsersPlaced: (count, reason) => `${count} Verkehrsteilnehmer eingesetzt. ${reason}`,
+  theServerIsNot: 'Der Server antwortet nicht.',
+  theMapIsPutAway: 'Die Karte wurde weggelegt.',
+  goOnWithIt: 'Weitermachen',
+  newMap: 'Neue Karte',
+  noLongerStand: (count, lost) =>
+    plural(count, {
+      one: `${count} steht nicht mehr auf einer Spur: ${lost}.`,
+      other: `${count} stehen nicht mehr auf einer Spur: ${lost}.`,
+    }),
+  otherMap: (base) => `${base}, andere Karte`,
+  theSceneCould: 'Die Szene ließ sich nicht laden. Der Server antwortet nicht.',
+  changedElsewhere: 'Anderswo geändert',
+  startFresh: 'Neu beginnen',
+  yourChangesFrom: 'Die Änderungen vom letzten Mal sind wieder da.',
+  thisSceneIsOpen: 'Diese Szene ist in einem anderen Tab offen. Hier ist sie nur zum Lesen.',
+  editHere: 'Hier bearbeiten',
+  theOtherVersion: 'Andere Fassung genommen',
+  theMapIsInIt: (free) => `„${free}“: die Karte ist da. Sie sichert sich selbst.`,
+  newScene: 'Neue Szene',
+  nobodyIsOnIt: (name: string) => `„${name}“: noch ist niemand darauf. Sie sichert sich selbst.`,
+  copy: (name: string) => `${name}, Kopie`,
+  edited: (name: string) => `${name}, bearbeitet`,
+  savedAsItSaves: (name: string) => `Gesichert als „${name}“. Sie sichert sich ab jetzt selbst.`,
+  notSaved: 'Nicht gesichert',
+  scene: 'Szene',
+  copyOf: (name: string) => `${name}, Kopie`,
+  open: 'Öffnen',
+  copiedAs: (name: string) => `Kopiert als „${name}“.`,
+  notCopied: 'Nicht kopiert',
+  notRenamed: 'Nicht umbenannt',
+  undo: 'Rückgängig',
+  deleted: (name: string) => `„${name}“ gelöscht.`,
+  notDeleted: 'Nicht gelöscht',
+  isBack: (body) => `„${body}“ ist wieder da.`,
+  notBroughtBack: 'Nicht zurückgeholt',
+  theServerIsNotAnswering: 'der Server antwortet nicht. Was hier ist, ist auf diesem Rechner gesichert.',
+  notExported: (whyNot) => `Nicht exportiert: ${whyNot}`,
+  theServerIsNotThere: 'der Server antwortet nicht.',
+  files: (count) => `${count} Dateien`,
+  savedWithout: (n, what) =>
+    plural(n, { one: `${what} gesichert, mit ${n} Verlust.`, other: `${what} gesichert, mit ${n} Verlusten.` }),
+  saved: (what) => `${what} gesichert.`,
+  thereIsNoWhole: 'In diesem Link ist keine ganze Szene.',
+  sharedScene: 'Geteilte Szene',
+  thisSceneCame: 'Diese Szene kam mit einem Link. Hier ist sie nur zum Lesen.',
+  makeACopy: 'Kopie anlegen',
+  theHandlesOf: 'Die Griffe der Karte wurden nicht geladen. Neu öffnen, wenn das Netz wieder da ist.',
+};

@@ -1,0 +1,30 @@
+import type { TEXTS } from '../../files/share';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  share: 'Teilen',
+  shareALink: 'Link teilen',
+  theLinkHolds: 'Der Link enthält die ganze Szene und öffnet sie nur zum Lesen. Wer ihn hat, wählt',
+  makeACopy: 'Kopie anlegen',
+  link: 'Link',
+  tooLargeForA: 'Zu groß für einen Link',
+  packing: 'Packt …',
+  copied: 'Kopiert',
+  copy: 'Kopieren',
+  ofKb: (bytes, most_link_bytes) => `${bytes} von ${most_link_bytes} KB`,
+  leaveAPartOut: 'Einen Teil weglassen, oder als Datei sichern und diese schicken.',
+  thisSceneIsToo: 'Diese Szene ist zu groß für einen Link.',
+  chosenFuture: 'Gewählte Zukunft und Ziele',
+  nameAndNotes: 'Name und Notizen',
+  startTheFilm: (time) => `Film bei ${time} s beginnen`,
+  withWhatIsIn: 'mit dem jetzigen Bild',
+  history: 'Verlauf',
+  staysHereToo: 'bleibt hier: zu groß für einen Link',
+  noAccountNothing: 'Kein Konto, nichts wird hochgeladen.',
+  saveAsFile: 'Als Datei sichern',
+  theLinkIsLonger: 'Der Link ist länger als jeder, der hier entsteht.',
+  theLinkWasMade: 'Der Link stammt aus einer anderen Version dieses Programms.',
+  noScene: 'keine Szene',
+  theLinkIsNot: 'Der Link ist unvollständig. Vielleicht wurde er unterwegs gekürzt.',
+  theLinkHoldsMore: 'Der Link enthält mehr, als eine Szene darf.',
+};

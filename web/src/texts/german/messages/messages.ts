@@ -1,0 +1,33 @@
+import type { SENTENCES } from '../../messages/messages';
+import type { Said, Values } from '../../table';
+
+export const german: Said<typeof SENTENCES> = {
+  since: (time, sentence) => `Ab ${time}: ${sentence}`,
+  lists: { kind: { vehicle: 'dieses Fahrzeug', cyclist: 'dieses Fahrrad', pedestrian: 'diese Person' } },
+  sentences: {
+    'goal-too-far': (v: Values) =>
+      `Zu weit für ${v.time_s}. Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} kommt ${v.kind} aus ${v.start_mps} höchstens ${v.most_m} weit.`,
+    'goal-too-fast': (v: Values) =>
+      `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+    'goal-above-top-speed': (v: Values) =>
+      `Schneller, als ${v.kind} fahren oder gehen kann.${v.need_mps && ` Nötig wären ${v.need_mps}.`}`,
+    'goal-too-near': (v: Values) =>
+      `So bald ist Anhalten nicht möglich. Aus ${v.start_mps} sind ${v.least_m} nötig, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+    'goal-too-slow': (v: Values) =>
+      `So starkes Bremsen ist in ${v.time_s} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+    'goal-too-tight': (v: Values) => `Zu eng bei diesem Tempo.${v.need_mps2 && ` Nötig wären quer ${v.need_mps2}.`}`,
+    'goal-turn-too-tight': (v: Values) => `Die Kurve ist für ${v.kind} zu eng.`,
+    'goal-blocked': (v: Values) =>
+      `Im Weg für ${v.kind}: Verkehrsteilnehmer ${v.agent}. Der Halt liegt ${v.short_m} vor dem Ziel.`,
+    'goal-blocked-by-traffic': (v: Values) =>
+      `Im Weg für ${v.kind}: ein anderer Verkehrsteilnehmer. Der Halt liegt ${v.short_m} vor dem Ziel.`,
+    'goal-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um das Ziel ist keine Spur.`,
+    'goal-beyond-top-speed': (v: Values) => `${v.goal_m} in ${v.time_s} ist schneller als die Höchstgeschwindigkeit.`,
+    'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,
+    'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,
+    'via-missed': (v: Values) =>
+      `Zwischenpunkt ${v.number} wird bei ${v.time_s} um ${v.distance_m} verfehlt; die Toleranz ist ${v.tolerance_m}.`,
+    'motion-ends': (v: Values) =>
+      `Die bekannte Bewegung endet bei ${v.time_s}; es geht geradeaus mit gleichem Tempo weiter.`,
+  },
+};

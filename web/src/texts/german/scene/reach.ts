@@ -1,0 +1,32 @@
+import type { TEXTS } from '../../scene/reach';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  somebody: 'Jemand',
+  isInTheWay: (who) => `Im Weg: ${who}`,
+  haltsShort: (short: string) => `Hält ${short} davor.`,
+  outOfReachIn: (time: string) => `In ${time} s nicht erreichbar`,
+  theNearestReachable: 'Gezeigt wird der nächste erreichbare Punkt.',
+  thisCar: 'dieses Auto',
+  thisTruck: 'dieser Lkw',
+  thisBus: 'dieser Bus',
+  thisMotorcycle: 'dieses Motorrad',
+  thisCyclist: 'dieser Radfahrer',
+  thisPerson: 'dieser Mensch',
+  tooFarFor: (t: string) => `Zu weit für ${t}`,
+  theGoalIsAway: (along) => `Das Ziel ist die Spur entlang ${along} entfernt. `,
+  theGoalIsAwayStraight: (along: string) => `Das Ziel ist ${along} entfernt. `,
+  inFromGetsAt: (t, v, who, max) => `In ${t} kommt ${who} aus ${v} höchstens ${max} weit.`,
+  cannotStopThat: 'Anhalten geht so bald nicht',
+  fromItNeedsThe: (v, min, along) => `Aus ${v} braucht es ${min}, das Ziel ist ${along} entfernt.`,
+  tooTightAtThis: 'Zu eng bei diesem Tempo',
+  wouldDo: (ok: string) => `${ok} ginge.`,
+  reachable: 'Erreichbar',
+  in: (along, t, mean, walk) => `${along} in ${t}: ${mean}${walk}`,
+  onAverageIsEnough: (mean: string) => `${mean} im Mittel reichen.`,
+  aStroll: ', ein Bummel.',
+  aNormalWalk: ', ein normaler Gang.',
+  aBriskWalk: ', ein zügiger Gang.',
+  running: ', gerannt.',
+  it: 'es',
+};

@@ -1,0 +1,19 @@
+import type { TEXTS } from '../../scene/reading';
+import type { Said } from '../../table';
+
+const EXAMPLES: Readonly<Record<string, string>> = {
+  'demo-crossing': 'Rosastraße / 5. Straße',
+  'demo-roundabout': 'Kreisverkehr, 4 Arme',
+  'demo-residential': 'Schulstraße',
+  'demo-arterial': 'Marktstraße am Abend',
+  'demo-motorway': 'Einfahrt auf den Ring',
+};
+
+export const german: Said<typeof TEXTS> = {
+  aColumnIsBroken: 'eine Spalte ist defekt',
+  thisIsNotAScene: 'Das ist keine Szene: es fehlt die Liste der Verkehrsteilnehmer.',
+  thisSceneWas: (version) => `Diese Szene wurde mit einer neueren Version (${version}) gesichert. Lesbar ist bis 1.`,
+  theMapOfThis: 'Die Karte dieser Szene ist nicht hier.',
+  untitled: 'Ohne Titel',
+  sceneName: (id: string, name: string) => EXAMPLES[id] ?? name,
+};

@@ -1,0 +1,12 @@
+import { table } from '../table';
+
+export const TEXTS = table('reading', {
+  aColumnIsBroken: 'a column is broken',
+  thisIsNotAScene: 'This is not a scene: it has no list of road users.',
+  thisSceneWas: (version: undefined | number) =>
+    `This scene was saved by a newer version (${version}). This one reads up to 1.`,
+  theMapOfThis: 'The map of this scene is not here.',
+  untitled: 'Untitled',
+  /** What a scene is called in this language: examples have a name in each. */
+  sceneName: (_id: string, name: string) => name,
+});

@@ -1,0 +1,27 @@
+import { table } from '../table';
+
+export const TEXTS = table('steps', {
+  start: 'Start',
+  ofChanged: (what: string, name: string) => `${what} of ${name} changed`,
+  goal: 'Goal',
+  ofMoved: (what: string, name: string) => `${what} of ${name} moved`,
+  moved: (name: string) => `${name} moved`,
+  sizeOfChanged: (name: string) => `Size of ${name} changed`,
+  backToTheMost: (name: string) => `${name} back to the most likely future`,
+  futureChosen: (letter: string, name: string) => `Future ${letter} chosen for ${name}`,
+  futureOfARound: (letter: string, name: string) => `Future ${letter} of a round taken for ${name}`,
+  speedCurveOf: (name: string) => `Speed curve of ${name} cleared`,
+  speedCurveOfChanged: (name: string) => `Speed curve of ${name} changed`,
+  goalOfCleared: (name: string) => `Goal of ${name} cleared`,
+  backToTheLog: (name: string) => `${name} back to the log`,
+  everybodyBack: 'Everybody back to the log',
+  seed: (seed: number) => `Seed ${seed}`,
+  diversity: (diversity: number) => `Diversity ${diversity}%`,
+  othersReact: 'Others react',
+  othersReplay: 'Others replay the log',
+  othersHoldStill: 'Others hold still',
+  plannedAnewEach: (replan: number) => `Planned anew each ${replan} s`,
+  everybodyWorked: 'Everybody worked out anew',
+  sWorkedOut: (length: number) => `${length} s worked out`,
+  renamedTo: (name: string) => `Renamed to ${name}`,
+});
