@@ -43,7 +43,10 @@ fn edits_chain() {
     assert_eq!(before["6"], after["6"], "6 keeps its future");
     assert!(after["7"].is_object());
     assert_eq!(json_of(&second)["generated"]["stale"], false);
-    ends(&["generate", &first, "--agents", "7", "--seed", "7", "--forget", "-o", &third], 0);
+    ends(
+        &["generate", &first, "--agents", "7", "--seed", "7", "--kept-futures", "forgotten", "-o", &third],
+        0,
+    );
     assert!(agents(&third)["6"].is_null() && agents(&third)["7"].is_object());
 
     let server = Server::start(&[]).unwrap();
@@ -101,21 +104,21 @@ fn devices_pipes_and_links_are_not_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     for flags in [&[][..], &["--force"]] {
-        ends(&[&["export", &demo(), "--format", "womd", "-o", "/dev/null"], flags].concat(), 0);
+        ends(&[&["export", &demo(), "--to", "womd", "-o", "/dev/null"], flags].concat(), 0);
         assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     }
     let (target, link) = (at("target"), at("link"));
     std::fs::write(&target, "old").unwrap();
     symlink(&target, &link).unwrap();
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &link], 8);
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &link, "--force"], 0);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &link], 8);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &link, "--force"], 0);
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(json_of(&target)["format"], "dragtraffic.scene");
     let pipe = at("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let end = pipe.clone();
     let reader = std::thread::spawn(move || Command::new("cat").arg(end).output().unwrap());
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &pipe, "--force"], 0);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &pipe, "--force"], 0);
     let read: Value = serde_json::from_slice(&reader.join().unwrap().stdout).unwrap();
     assert_eq!(read["format"], "dragtraffic.scene");
     assert!(std::fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());

@@ -82,7 +82,7 @@ enum Command {
     #[command(visible_aliases = ["import", "export"], after_help = examples!("dragtraffic convert record.tfrecord.gz --index 0 -o scene.json", "dragtraffic convert 'runs/*.json' --to csv -o motion.csv"))]
     Convert(convert::ConvertArgs),
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
-    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --samples all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
+    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --sample all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
     Score(score::ScoreArgs),
     /// Copy the saved scenes of a server, even while it runs.
     #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
@@ -117,7 +117,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
-            if let Some(message) = of_the_lab(&error) {
+            if let Some(message) = of_the_lab(&error).or_else(|| renamed(&error)) {
                 output::complain(&message);
                 return ExitCode::from(code);
             }
@@ -176,6 +176,21 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
         }
     }
     Ok(())
+}
+
+/// Flags of earlier versions, and those that say the same now.
+const RENAMED: [(&str, &str); 4] = [
+    ("--forget", "--kept-futures forgotten"),
+    ("--replan", "--replan-interval"),
+    ("--format", "--to"),
+    ("--samples", "--sample"),
+];
+
+/// The hint for a flag of an earlier version.
+fn renamed(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg) else { return None };
+    let (old, new) = RENAMED.iter().find(|(old, _)| old == flag)?;
+    (error.kind() == ErrorKind::UnknownArgument).then(|| format!("{old} is {new} now"))
 }
 
 /// The hint for a command of the lab that stands outside of `lab`, or that this program lacks.

@@ -84,7 +84,9 @@ pub struct GenerateRequest {
     /// With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
     /// reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
     pub hold: bool,
-    /// Replace the scene's own conditions of these road users, whole.
+    /// Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
+    /// size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
+    /// a future of it.
     pub conditions: Members<ConditionsDoc>,
     /// Road users put in for this call.
     pub add_agents: Vec<AgentDoc>,
@@ -99,9 +101,10 @@ pub struct GenerateRequest {
     pub revision: Option<u64>,
     /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
     pub background: bool,
-    /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
-    /// has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
-    /// give way to each other there.
+    /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
+    /// user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
+    /// motion, and where it ends before the last window (`horizon_s` above 9, or `replan_interval_s`), they plan on
+    /// from there. Without such a road user the answer has no futures, and the warning `nothing-generated`.
     #[schemars(with = "AgentChoice")]
     pub agents: Option<AgentChoice>,
     /// Who else answers to them.

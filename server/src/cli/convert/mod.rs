@@ -28,7 +28,7 @@ pub struct ConvertArgs {
     /// scenes (womd, csv) take all of them in one file.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
-    #[arg(long, alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable, help = format!("Format of the output: {}", ids(|info| info.export)))]
+    #[arg(long, value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable, help = format!("Format of the output: {}", ids(|info| info.export)))]
     to: &'static str,
     #[arg(long, value_name = "FORMAT", value_parser = readable, help = format!("Format of the input; recognised from its content when absent: {}", ids(|info| info.import)))]
     from: Option<&'static str>,

@@ -15,6 +15,7 @@ use super::score::figures::FigureFilter;
 use super::values::{For, for_one, index, one_of, seeds, whole, within};
 use super::{Common, Exit, Failure};
 use api::GenerateRequest;
+use api::generate::request::KeptFutures;
 use api::limits;
 use asked::AskedGoal;
 use clap::Args;
@@ -93,10 +94,10 @@ pub struct GenerateArgs {
     /// All conditions of a road user from a JSON file, in the form of the HTTP API.
     #[arg(long, value_name = "ID=FILE.json", value_parser = for_one(file), help_heading = ROAD_USERS)]
     condition: Vec<For<PathBuf>>,
-    /// Forget the futures that the scene has from earlier calls: whoever is not asked for goes back to its log.
-    /// Without it they are planned around and stay.
-    #[arg(long, help_heading = ROAD_USERS)]
-    forget: bool,
+    /// Futures of earlier calls, of road users that are not generated: answered keeps them in the answer, omitted plans
+    /// around them without answering them, forgotten drops them before planning.
+    #[arg(long, value_name = "WHAT", default_value = "answered", value_parser = kept_futures, help_heading = ROAD_USERS)]
+    kept_futures: KeptFutures,
 
     /// Seed of the random draws; equal seeds give equal answers.
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = GenerateRequest::default().seed, value_parser = whole(0, MAX_SAFE_INTEGER), help_heading = DRAWING)]
@@ -120,11 +121,15 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = GenerateRequest::default().start_s, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
     at: f64,
     /// Time between two plans: 3, 6 or 9 s. Default: 9.
-    #[arg(long, alias = "replan", value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
+    #[arg(long, value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
     replan_interval: Option<f64>,
     /// Scale of the noise, 0 to 2. With 0, all seeds give the most probable answer.
     #[arg(long, value_name = "SCALE", default_value_t = GenerateRequest::default().diversity, value_parser = within(0.0, limits::DIVERSITY, ""), help_heading = DRAWING)]
     diversity: f64,
+}
+
+fn kept_futures(text: &str) -> Result<KeptFutures, String> {
+    serde_json::from_value(text.into()).map_err(|_| "answered, omitted or forgotten expected".to_owned())
 }
 
 fn agent_type(text: &str) -> Result<AgentType, String> {

@@ -15,11 +15,13 @@ pub enum AgentSelector {
     Kind(AgentType),
     /// The recording vehicle.
     Ego,
+    /// No road user.
+    Nobody,
     /// This one.
     Id(String),
 }
 
-const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego";
+const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego, @none";
 
 impl FromStr for AgentSelector {
     type Err = String;
@@ -32,6 +34,7 @@ impl FromStr for AgentSelector {
             "@pedestrians" => Ok(Self::Kind(AgentType::Pedestrian)),
             "@cyclists" => Ok(Self::Kind(AgentType::Cyclist)),
             "@ego" => Ok(Self::Ego),
+            "@none" => Ok(Self::Nobody),
             _ if text.starts_with('@') => Err(format!("an id or one of {WORDS} expected")),
             "" => Err("an id expected".into()),
             id => Ok(Self::Id(id.to_owned())),
@@ -55,6 +58,7 @@ pub fn ids(
         let there = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other);
         let meant: Vec<String> = match who {
             AgentSelector::All => return Ok(None),
+            AgentSelector::Nobody => continue,
             AgentSelector::Id(id) => vec![id.clone()],
             _ => there
                 .filter(|agent| who.means(scene, agent, start_step))
@@ -82,6 +86,7 @@ impl AgentSelector {
             Self::Moving => state.speed_mps() > STANDING_MPS,
             Self::Kind(kind) => shown.agent_type == *kind,
             Self::Ego => agent.role.as_deref() == Some("ego"),
+            Self::Nobody => false,
             Self::Id(id) => agent.id == *id,
         }
     }
@@ -94,6 +99,7 @@ impl AgentSelector {
             Self::Kind(AgentType::Cyclist) => "a cyclist at the start".into(),
             Self::Kind(_) => "a vehicle at the start".into(),
             Self::Ego => "the ego".into(),
+            Self::Nobody => "none".into(),
             Self::Id(id) => format!("\"{id}\""),
         }
     }

@@ -30,7 +30,7 @@ pub struct ScoreArgs {
     inputs: Inputs,
     /// Samples to score: chosen, all, a number counted from 0, or FIRST..LAST (both included).
     #[arg(long, value_name = "WHICH", default_value = "chosen", value_parser = which)]
-    samples: Which,
+    sample: Which,
     /// Keep only samples that satisfy this condition, such as 'min_ttc_s < 1.5 && collisions == 0'. Terms: a
     /// figure of the score, or actor.FIGURE for the generated road user; a list counts its entries that are
     /// not in the recording. Operators: < <= > >= == != && || ! ( ). A comparison with a missing figure is
@@ -121,7 +121,7 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
     let mut scored = Scored { text: String::new(), rows: Vec::new(), held: 0, looked_at: 0 };
     source.each(&Reading::default(), &mut |item| {
         let drivable = Drivable::new(&item.scene.map);
-        for (number, sample) in picked(&item.scene, &args.samples) {
+        for (number, sample) in picked(&item.scene, &args.sample) {
             scored.looked_at += 1;
             let input = ScoreInput::of_sample(&item.scene, sample, &drivable);
             let score = scene::score::score(&args.counting.applied(input));
@@ -132,7 +132,7 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
             }
             scored.held += 1;
             let several = item.scene.generated.as_ref().is_some_and(|g| g.samples.len() > 1);
-            let number = number.filter(|_| several || args.samples != Which::Chosen);
+            let number = number.filter(|_| several || args.sample != Which::Chosen);
             if args.csv.is_some() {
                 scored.rows.push(table::row(&source.shown(), &item, number, &figures));
             }
