@@ -174,7 +174,7 @@ class Scene:
     def to_frame(self) -> pandas.DataFrame:
         """A long table of all motion in the frame of the scene, one row for each road user, future and step:
         ``source`` is ``log`` or ``generated``, futures have ``sample``, ``mode`` and ``probability``, ``chosen`` are
-        those that are shown, and ``valid`` is false where nobody saw the road user. Needs pandas."""
+        those that are shown, and ``valid`` is false where the road user was not seen. Needs pandas."""
         import pandas
 
         # Tables have the frame of the source; without an origin that is the scene's own.

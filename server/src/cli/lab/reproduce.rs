@@ -87,7 +87,7 @@ pub struct ReproduceArgs {
 enum Only {
     /// Tables I and II.
     Tables,
-    /// Creating, editing, correcting, and cases (a) to (d), with the weights as they are shipped.
+    /// Creating, editing, correcting, and the cases (a) to (d), with the shipped weights.
     Figure,
 }
 
