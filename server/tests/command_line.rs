@@ -58,7 +58,10 @@ fn global_options_stand_in_one_line_of_each_command() {
     let line = help(&["score", "--help"]);
     let line = line.lines().find(|line| line.starts_with("Global options:")).unwrap();
     let options = described.lines().filter_map(|line| line.trim_start().strip_prefix('-'));
-    let names: Vec<&str> = options.filter_map(|option| option.split([',', ' ']).next()).collect();
+    let names: Vec<&str> = options
+        .filter_map(|option| option.split([',', ' ']).next())
+        .filter(|name| !name.is_empty())
+        .collect();
     assert!(names.len() == 5, "{names:?}");
     for name in names {
         assert!(line.contains(&format!("-{name}")), "{name}: {line}");

@@ -47,14 +47,17 @@ pub fn man(args: ManArgs) -> Result<(), Failure> {
     whole.build();
     let Some(path) = &args.output else { return output::print(&page(whole, NAME)?) };
     let folder = Folder::new(path, args.force)?;
-    let commands: Vec<Command> =
-        whole.get_subcommands().filter(|command| command.get_name() != "help").cloned().collect();
-    folder.write(&format!("{NAME}.1"), &page(whole, NAME)?)?;
-    for command in commands {
-        let name = format!("{NAME}-{}", command.get_name());
-        folder.write(&format!("{name}.1"), &page(command, &name)?)?;
+    pages(whole, NAME, &folder)
+}
+
+/// Writes the page of a command and those of its own commands.
+fn pages(command: Command, name: &str, folder: &Folder) -> Result<(), Failure> {
+    let own = command.get_subcommands().filter(|own| own.get_name() != "help").cloned();
+    for own in own.collect::<Vec<_>>() {
+        let name = format!("{name}-{}", own.get_name());
+        pages(own, &name, folder)?;
     }
-    Ok(())
+    folder.write(&format!("{name}.1"), &page(command, name)?).map(drop)
 }
 
 /// A page as roff. It has no date: equal programs give equal pages.

@@ -248,7 +248,7 @@ impl Sum {
     fn words(&self, template: Option<Template>, args: &GenerateArgs) -> String {
         let Self { all, kept, unfit } = self;
         let name = template.map_or_else(String::new, |template| format!("{}: ", template.name()));
-        let unfit = if *unfit > 0 { format!(", {unfit} where no road user fits") } else { String::new() };
+        let unfit = if *unfit > 0 { format!(", {unfit} without a fitting road user") } else { String::new() };
         match &args.filter {
             Some(filter) => format!("{name}{kept} of {all} hold {}{unfit}", filter.text()),
             None => format!("{name}{kept} of {all} made{unfit}"),
