@@ -1,6 +1,8 @@
 //! The program starts and knows its commands. (Having a test here also makes `cargo test --workspace`
 //! build the program, which the end-to-end tests then use.)
 
+#![allow(clippy::unwrap_used, reason = "a failed test panics")]
+
 use std::process::Command;
 
 fn help(arguments: &[&str]) -> String {
