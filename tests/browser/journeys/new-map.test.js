@@ -28,7 +28,7 @@ journeys('new map', (stage) => {
   it('a crossing: turned, with stop signs, used, filled, and a car dragged over it', { timeout: 180_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    await e.key('Control+n');
+    await e.key('Shift+T');
     await e.page.waitForSelector('.templates');
     await e.page.click('[data-template="roundabout"]');
     await drawn(e);

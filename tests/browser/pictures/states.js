@@ -96,7 +96,7 @@ async function acrossMedian(e) {
 
 /** The knob of the arm to the north of a new crossing is in a hand that turns it. */
 async function turningAnArm(e) {
-  await e.key('Control+n');
+  await e.key('Shift+T');
   await e.page.click('[data-template="four-arms"]');
   await e.settled();
   await e.key(']');
@@ -490,7 +490,7 @@ export const STATES = [
     'layers',
     async (e) => {
       const car = await selected(e);
-      for (const key of ['Shift+M', 'Shift+H', 'Shift+C']) await e.key(key);
+      for (const key of ['Shift+T', 'Shift+H', 'Shift+C']) await e.key(key);
       await e.page.locator('[data-menu="layers"]').click();
       await e.page.waitForSelector('.menu');
       return car;

@@ -61,7 +61,8 @@ export const scene = inGroup('scene', [
   {
     id: 'new-map',
     label: TEXTS.newMap,
-    keys: ['Ctrl+N'],
+    // Browsers keep Ctrl+N for a window of their own.
+    keys: ['Shift+T', 'Ctrl+N'],
     icon: 'plus',
     help: 'crossingsRoundabouts',
     run: (c) => c.maker.begin(),

@@ -32,7 +32,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   const target = e.target as HTMLElement;
   const input = target instanceof HTMLInputElement ? target : null;
   if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
-  if (input && input.type !== 'range' && a.context !== 'always' && !undoesInField(input, a)) return true;
+  if (input && input.type !== 'range' && a.context !== 'always' && !leavesField(input, e, a)) return true;
   if (ui.dialog.peek() && a.context !== 'always') return true;
   // Tab walks through road users from the picture, once; elsewhere, and at its end, it is the browser's.
   const inList = target.closest('[data-group="users"]') !== null;
@@ -43,9 +43,11 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging && !a.onOffer;
 }
 
-/** In a number field undo is the browser's only while something is typed that has not been taken over. */
-const undoesInField = (input: HTMLInputElement, a: Action): boolean =>
-  (a.id === 'undo' || a.id === 'redo') && !!input.dataset.field && !('typed' in input.dataset);
+/** A number field keeps undo and Space only while it holds typed text that is not yet applied. */
+const leavesField = (input: HTMLInputElement, e: KeyboardEvent, a: Action): boolean =>
+  (a.id === 'undo' || a.id === 'redo' || (a.id === 'play' && e.key === ' ')) &&
+  !!input.dataset.field &&
+  !('typed' in input.dataset);
 
 /** A button's own keys. In the list of road users they select, and after that Enter goes on to the inspector. */
 function pressesButton(button: HTMLButtonElement, e: KeyboardEvent, selected: string | null): boolean {

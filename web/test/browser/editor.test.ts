@@ -359,11 +359,17 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Control+z');
     expect(await d.value('goal-time')).toBe(9);
     expect(await focus()).toBe('goal-time');
+    const plays = () => d.page.locator('[data-action="play"]').getAttribute('aria-pressed');
+    // Space plays from a field whose number is applied.
+    await d.key('Space');
+    expect(await plays()).toBe('true');
+    await d.key('Space');
+    expect(await d.value('goal-time')).toBe(9);
     // After a click with the mouse Space plays.
     await d.page.locator('.fu[data-future="C"]').click();
     await d.settled();
     await d.key('Space');
-    expect(await d.page.locator('[data-action="play"]').getAttribute('aria-pressed')).toBe('true');
+    expect(await plays()).toBe('true');
     await d.key('Space');
     // Nothing is said about futures when nobody is selected.
     await d.page.locator('.card.chipbar .btn').first().focus();

@@ -55,7 +55,7 @@ function Card({ scene }: { scene: string }) {
         <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
           {TEXTS.newMap}
         </button>{' '}
-        <KeyCaps of="Ctrl+N" /> {TEXTS.insteadOfThis}
+        <KeyCaps of="Shift+T" /> {TEXTS.insteadOfThis}
         <span class="everything">
           {' · '}
           <KeyCaps of="Ctrl+K" /> {TEXTS.forEverything}
