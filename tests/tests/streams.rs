@@ -198,6 +198,11 @@ fn twenty_seconds_are_planned_window_after_window() {
     let record = server.post("/v1/export?format=womd", &scene).unwrap();
     assert_eq!(record.status, 200, "{}", record.text());
     assert!(record.header("dragtraffic-loss").contains("long-record"));
+    let losses: Value = serde_json::from_str(record.header("dragtraffic-losses")).unwrap();
+    let long = losses.as_array().unwrap().iter().find(|loss| loss["code"] == "long-record").unwrap();
+    assert_eq!(long["message"]["code"], "loss-longer");
+    let steps = |name: &str| long["message"]["values"][name].as_f64().unwrap();
+    assert!(steps("steps") > steps("known"), "{long}");
     let again = Request::new("POST", "/v1/import?dry_run=true&format=womd")
         .header("content-type", "application/octet-stream")
         .body(record.body.clone());

@@ -12,7 +12,12 @@ import { german as germanProblems } from '../src/texts/german/messages/problem-m
 import { SENTENCES as PROBLEMS } from '../src/texts/messages/problem-messages';
 import { SENTENCES } from '../src/texts/messages/messages';
 
-const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
+const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as {
+  code: string;
+  english: string;
+  one?: string;
+  values: string[];
+}[];
 const together = (...tables: { readonly sentences: object }[]): object =>
   Object.assign({}, ...tables.map((table) => table.sentences));
 const LANGUAGES = {
@@ -34,6 +39,22 @@ describe('sentences of the server', () => {
     expect(Object.keys(sentences).sort()).toEqual(kinds.map((kind) => kind.code).sort());
     const differing = kinds.filter(({ code, values }) => asked(sentences[code]).join() !== [...values].sort().join());
     expect(differing.map((kind) => kind.code)).toEqual([]);
+  });
+
+  it.each([
+    ['english', []],
+    // One word for one and for many.
+    ['german', ['loss-users-over-room', 'too-many-regenerated']],
+  ])('stand in the singular for one thing, in %s', (language, same) => {
+    const sentence = (code: string, one: string): string => {
+      const counted = code.startsWith('signals-made') ? 'junctions' : 'count';
+      const written = LANGUAGES[language][code] as (values: Record<string, string>) => string;
+      return written(new Proxy({}, { get: (_, name) => (name === counted ? one : `<${String(name)}>`) }));
+    };
+    const counted = kinds.filter((kind) => kind.one && kind.one !== kind.english).map((kind) => kind.code);
+    expect(counted.length).toBeGreaterThan(40);
+    const alike = counted.filter((code) => sentence(code, '1') === sentence(code, '2').replace('2', '1'));
+    expect(alike.sort()).toEqual(same);
   });
 
   it('come with lengths and speeds in the units of the page', () => {
@@ -61,7 +82,7 @@ describe('sentences of the server', () => {
       'North and North-west 2 conflict and have green at the same time',
     );
     expect(messageText({ code: 'ids-suffixed', values: { count: 3, subject: 'road-users' } }, '', FILES)).toBe(
-      '3 road users repeat an id and got a suffix',
+      '3 repeated ids of road users got a suffix',
     );
   });
 

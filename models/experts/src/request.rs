@@ -389,6 +389,10 @@ pub enum WarningCode {
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
+    /// A condition of this call concerns a road user that is not regenerated.
+    ConditionUnused,
+    /// No road user was named, and none has to continue beyond its known motion.
+    NothingGenerated,
 }
 
 impl WarningCode {
@@ -401,6 +405,8 @@ impl WarningCode {
             Self::StartOverlaps => "start-overlaps",
             Self::Extrapolated => "extrapolated",
             Self::ViaMissed => "via-missed",
+            Self::ConditionUnused => "condition-unused",
+            Self::NothingGenerated => "nothing-generated",
         }
     }
 }
@@ -426,8 +432,13 @@ pub struct Warning {
 
 impl Warning {
     /// A warning about an agent.
-    pub(crate) fn of(code: WarningCode, agent: &AgentId, message: Message) -> Self {
-        Self { code, agent: Some(agent.clone()), detail: message.to_string(), message }
+    pub fn of(code: WarningCode, agent: &AgentId, message: Message) -> Self {
+        Self { agent: Some(agent.clone()), ..Self::of_scene(code, message) }
+    }
+
+    /// A warning about the whole scene.
+    pub fn of_scene(code: WarningCode, message: Message) -> Self {
+        Self { code, agent: None, detail: message.to_string(), message }
     }
 }
 

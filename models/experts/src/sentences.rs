@@ -98,6 +98,12 @@ scene::messages! {
         "via-missed",
         "The future passes via point {number} {distance_m:.1} m away at {time_s:.1} s; the tolerance is \
          {tolerance_m:.1} m.";
+    condition_unused(agent: &str) =
+        "condition-unused",
+        "Road user {agent} is not regenerated: its start, goal and via points do not change its motion.";
+    nothing_generated() =
+        "nothing-generated",
+        "No road user is regenerated, and no known motion ends before the last window.";
     motion_ends(time_s: f64) =
         "motion-ends", "The known motion ends at {time_s:.1} s; the road user continues straight at its speed.";
 }

@@ -1,20 +1,50 @@
 //! What a writer cannot carry.
 
+use scene::message::Message;
+use schemars::JsonSchema;
 use serde::Serialize;
+use std::cmp::Ordering;
 
 /// One kind of loss in an exported file. Programs switch on `code`.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Loss {
     /// Such as `no-conditions`; see the constants of [`code`].
     pub code: &'static str,
-    /// For people.
+    /// The loss in English.
     pub detail: String,
+    /// The loss as data, where it has numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<Message>,
 }
 
 impl Loss {
-    /// A loss.
+    /// A loss without numbers.
     pub fn new(code: &'static str, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into() }
+        Self { code, detail: detail.into(), message: None }
+    }
+
+    /// A loss with numbers.
+    pub fn counted(code: &'static str, message: Message) -> Self {
+        Self { code, detail: message.to_string(), message: Some(message) }
+    }
+
+    fn key(&self) -> (&'static str, &str) {
+        (self.code, &self.detail)
+    }
+}
+
+impl Eq for Loss {}
+
+impl PartialOrd for Loss {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Loss {
+    /// By code, then by sentence.
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
     }
 }
 

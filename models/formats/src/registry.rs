@@ -183,3 +183,18 @@ pub fn loss_header(losses: &[Loss]) -> String {
     codes.dedup();
     codes.join(", ")
 }
+
+/// Losses with their sentences and numbers as the header `Dragtraffic-Losses` lists them: JSON in ASCII.
+pub fn losses_header(losses: &[Loss]) -> String {
+    let text = serde_json::to_string(losses).unwrap_or_default();
+    let mut ascii = String::with_capacity(text.len());
+    let mut units = [0; 2];
+    for c in text.chars() {
+        if c.is_ascii() {
+            ascii.push(c);
+        } else {
+            c.encode_utf16(&mut units).iter().for_each(|unit| ascii.push_str(&format!("\\u{unit:04x}")));
+        }
+    }
+    ascii
+}

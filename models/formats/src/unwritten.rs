@@ -2,6 +2,7 @@
 
 use crate::format::ExportedMotion;
 use crate::loss::{Loss, code};
+use crate::sentences;
 use scene::{Agent, Scene, Start};
 
 /// Users fixed something of a road user that boxes and states do not say. Types, sizes and the starts of futures are
@@ -44,8 +45,8 @@ pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
 
 /// A file of more steps than the scene has.
 pub(crate) fn length(scene: &Scene, steps: usize) -> Option<Loss> {
-    let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-    (steps > scene.time.steps).then(|| Loss::new(code::LONG_RECORD, detail))
+    let known = scene.time.steps;
+    (steps > known).then(|| Loss::counted(code::LONG_RECORD, sentences::loss_longer(steps, known)))
 }
 
 /// Name, tags, notes and the like, where a file is called `id` and has no place for them.

@@ -5,7 +5,9 @@ scene::messages! {
     no_agents_named() =
         "no-agents-named", "\"all\" or at least one id expected, or at least one road user that reacts";
     too_many_regenerated(count: usize, most: usize) =
-        "too-many-regenerated", "{count} road users to regenerate; at most {most}";
+        "too-many-regenerated",
+        [count] "{count} road user to regenerate; at most {most}",
+        "{count} road users to regenerate; at most {most}";
     too_many_points(points: usize, most: usize) =
         "too-many-points", "the reply would have {points} points; at most {most}";
     no_future_kept() =
@@ -15,7 +17,9 @@ scene::messages! {
         "more-than-a-turn", "{got} rad is more than a turn; {got} degrees are {radians} rad";
     unknown_edge() = "unknown-edge", "the id of a road edge of the map expected";
     unequal_columns(count: usize, expected: usize) =
-        "unequal-columns", "{count} values, as many as x_m ({expected}) expected";
+        "unequal-columns",
+        [count] "{count} value, as many as x_m ({expected}) expected",
+        "{count} values, as many as x_m ({expected}) expected";
     one_scene() = "one-scene", "exactly one of scene and scene_id is needed";
     changed_scene() = "changed-scene", "The stored scene is another than the one you read.";
     no_network(format: &str) = "no-network", "a file of format {format} comes without a network";

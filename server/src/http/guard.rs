@@ -72,7 +72,8 @@ impl Guard {
 pub fn allow_cross_origin(headers: &mut HeaderMap, origin: HeaderValue) {
     headers.insert(header::ACCESS_CONTROL_ALLOW_ORIGIN, origin);
     headers.append(header::VARY, HeaderValue::from_static("Origin"));
-    let exposed = "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss, Dragtraffic-Scene";
+    let exposed =
+        "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss, Dragtraffic-Losses, Dragtraffic-Scene";
     headers.insert(header::ACCESS_CONTROL_EXPOSE_HEADERS, HeaderValue::from_static(exposed));
 }
 

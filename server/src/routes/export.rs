@@ -100,6 +100,7 @@ async fn export(
     set("content-disposition", format!("attachment; filename=\"{}{}\"", file_name(&name), file.extension));
     if !file.losses.is_empty() {
         set("dragtraffic-loss", formats::registry::loss_header(&file.losses));
+        set("dragtraffic-losses", formats::registry::losses_header(&file.losses));
     }
     if let Some(licence) = licence {
         set("dragtraffic-licence", licence.chars().filter(char::is_ascii_graphic).take(64).collect());

@@ -11,12 +11,12 @@ const SCENE: &str = "assets/scenes/demo-crossing.json";
 pub fn drag() -> anyhow::Result<Outcome> {
     let mut command = Command::new(program()?);
     let output = command
-        .args(["bench", SCENE, "--http", "--quiet"])
+        .args(["lab", "bench", SCENE, "--http", "--quiet"])
         .current_dir(root())
         .stdin(Stdio::null())
         .stderr(Stdio::inherit())
         .output()?;
-    ensure!(output.status.success(), "dragtraffic bench: {}", output.status);
+    ensure!(output.status.success(), "dragtraffic lab bench: {}", output.status);
     line(&serde_json::from_slice(&output.stdout)?).map(Outcome::Told)
 }
 

@@ -203,7 +203,7 @@ export class Client {
       headers: { 'Content-Type': 'application/json' },
     });
     const name = /filename="?([^";]+)/.exec(reply.headers.get('content-disposition') ?? '')?.[1] ?? `scene.${format}`;
-    return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
+    return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-losses') };
   }
 
   /** Does anybody answer? A server that hangs takes the connection and says nothing, hence the limit. */

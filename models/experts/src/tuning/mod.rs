@@ -3,7 +3,7 @@
 //! Each says what it is, in which unit, and what it was fitted on: data, metric, date. "The 71 scenes" are the
 //! recorded scenes of the weights' card that are neither in the training data nor in its tables. All were
 //! fitted, or set by hand, between 2026-11-21 and 2026-11-26. [`Tuning::hash`] stands beside the weights' hashes
-//! in every answer; `dragtraffic eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
+//! in every answer; `dragtraffic lab eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
 //! and no call varies stands in [`fixed`], and for placement in [`placing`].
 
 use scene::ContentHash;

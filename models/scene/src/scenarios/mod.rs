@@ -17,11 +17,11 @@ use stage::Stage;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Template {
-    /// Somebody who is followed brakes to a stand.
+    /// A vehicle with a follower brakes to a stop.
     Brake,
-    /// Somebody in a neighbouring lane goes close ahead of another.
+    /// A vehicle of a neighbouring lane cuts in closely ahead of another.
     CutIn,
-    /// Somebody who would have to wait at a junction goes through it without stopping.
+    /// A vehicle that should yield drives through a junction without stopping.
     Late,
 }
 

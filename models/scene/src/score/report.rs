@@ -7,7 +7,7 @@ use super::kinematic::Kinematic;
 use super::pairs::{PairScores, PairTotals};
 use crate::{AgentId, State};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// Answer to a score request.
@@ -94,7 +94,6 @@ pub struct Stretch {
     /// Box centre where it is worst, metres.
     pub y_m: f64,
     /// Off the road and over a median: the road edge that is driven over, by its id in the map.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub edge: Option<String>,
     /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
     /// the same time, no less bad.
@@ -154,14 +153,13 @@ pub struct SceneScore {
     pub wrong_way_share: Option<f64>,
     /// Greatest values of all generated road users, and their violations together.
     pub kinematic: Option<Kinematic>,
-    /// Same as `kinematic.violations`: steps over a limit.
-    pub violations: usize,
     /// Means over the road users with fixed goal fields.
     pub goal_error: Option<GoalError>,
     /// Share of road users with fixed goal fields that meet them all.
     pub goals_reached: Option<f64>,
-    /// Means over the road users with a reference.
-    #[serde(flatten)]
+    /// Means over the road users with a reference; null without one.
+    #[serde(flatten, serialize_with = "nullable")]
+    #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
     /// Vehicles off the road, but for those over a median.
     pub off_road: Vec<Stretch>,
@@ -212,9 +210,15 @@ pub struct AgentScore {
     pub kinematic: Option<Kinematic>,
     /// Only when a goal field is fixed.
     pub goal_error: Option<GoalError>,
-    /// Only with a reference.
-    #[serde(flatten)]
+    /// Against the reference; null without one.
+    #[serde(flatten, serialize_with = "nullable")]
+    #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
+}
+
+/// Members that no reference gives a value are null, as everywhere in a score.
+fn nullable<S: Serializer>(accuracy: &Option<Accuracy>, serializer: S) -> Result<S::Ok, S::Error> {
+    accuracy.unwrap_or_default().serialize(serializer)
 }
 
 impl SceneScore {
@@ -240,7 +244,6 @@ impl SceneScore {
         self.assumed_width = input.drivable.assumed_width();
         self.wrong_way_share = share(self.wrong_way_steps, self.moving_steps);
         self.kinematic = Kinematic::over_all(agents.iter().filter_map(|a| a.kinematic.as_ref()));
-        self.violations = self.kinematic.as_ref().map_or(0, |k| k.violations);
         self.goal_error = GoalError::mean(agents.iter().filter_map(|a| a.goal_error.as_ref()));
         let goals = agents.iter().filter_map(|a| a.goal_error.as_ref());
         let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();

@@ -499,33 +499,33 @@ export interface components {
              * Format: double
              * @description Mean distance of the chosen future, metres.
              */
-            ade_m?: number | null;
+            ade_m: number | null;
             /**
              * Format: uint
              * @description Collisions it is part of and the log does not show.
              */
             collisions: number;
             /** @description Which step counted as the end. */
-            endpoint?: components["schemas"]["Endpoint"];
+            endpoint: components["schemas"]["Endpoint"];
             /** @description Only when a goal field is fixed. */
             goal_error: components["schemas"]["GoalError"] | null;
             /**
              * Format: double
              * @description Mean absolute heading error of the future that ends closest, radians.
              */
-            heading_error_rad?: number | null;
+            heading_error_rad: number | null;
             /** @description Generated motion only. */
             kinematic: components["schemas"]["Kinematic"] | null;
             /**
              * Format: double
              * @description Greatest distance of the chosen future, metres (the log ghost's figure).
              */
-            max_distance_m?: number | null;
+            max_distance_m: number | null;
             /**
              * Format: double
              * @description Least mean distance of any future, metres.
              */
-            min_ade_m?: number | null;
+            min_ade_m: number | null;
             /**
              * Format: double
              * @description As in [`SceneScore`].
@@ -535,7 +535,7 @@ export interface components {
              * Format: double
              * @description Least distance at the end of any future, metres.
              */
-            min_fde_m?: number | null;
+            min_fde_m: number | null;
             /**
              * Format: double
              * @description As in [`SceneScore`].
@@ -570,7 +570,7 @@ export interface components {
              * Format: double
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
-            speed_error_mps?: number | null;
+            speed_error_mps: number | null;
             /**
              * Format: double
              * @description Vehicles only.
@@ -1642,9 +1642,10 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
-             *     has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
-             *     give way to each other there.
+             * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
+             *     user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
+             *     motion, and where it ends before the last window (`horizon_s` above 9, or `replan_interval_s`), they plan on
+             *     from there. Without such a road user the answer has no futures, and the warning `nothing-generated`.
              */
             agents?: components["schemas"]["Who"];
             /**
@@ -1658,7 +1659,9 @@ export interface components {
              */
             client?: string | null;
             /**
-             * @description Replace the scene's own conditions of these road users, whole.
+             * @description Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
+             *     size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
+             *     a future of it.
              * @default {}
              */
             conditions?: {
@@ -1666,7 +1669,7 @@ export interface components {
             };
             /**
              * Format: double
-             * @description Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+             * @description Scale of the noise, which makes seeds differ; 0 gives the most probable answer for every seed.
              * @default 0.5
              */
             diversity?: number;
@@ -1707,7 +1710,7 @@ export interface components {
             hold?: boolean;
             /**
              * Format: double
-             * @description Seconds to generate. More than 9 is planned window after window.
+             * @description Time to generate, seconds. Beyond 9 s it is planned window after window.
              * @default 9
              */
             horizon_s?: number;
@@ -1717,13 +1720,13 @@ export interface components {
              */
             job?: string | null;
             /**
-             * @description What becomes of the futures that the scene has, of those who are not part of this call.
+             * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
              * @default answered
              */
             kept_futures?: components["schemas"]["KeptFutures"];
             /**
              * Format: uint64
-             * @description Alternatives kept per road user.
+             * @description Futures kept per road user.
              * @default 6
              */
             modes?: number;
@@ -1734,7 +1737,7 @@ export interface components {
              */
             pinned?: string[];
             /**
-             * @description Who else answers to them.
+             * @description Road users that may react to them.
              * @default false
              */
             react?: components["schemas"]["Reacting"];
@@ -1745,7 +1748,7 @@ export interface components {
             remove_agents?: string[];
             /**
              * Format: double
-             * @description Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
+             * @description Replan interval, seconds: 3, 6 or 9; null is 9. Each plan starts from the states reached.
              * @default null
              */
             replan_interval_s?: number | null;
@@ -1757,7 +1760,7 @@ export interface components {
             revision?: number | null;
             /**
              * Format: uint64
-             * @description Independent joint scenes.
+             * @description Joint samples.
              * @default 1
              */
             samples?: number;
@@ -1778,7 +1781,7 @@ export interface components {
             score?: boolean;
             /**
              * Format: uint64
-             * @description The same seed gives the same answer.
+             * @description Seed of the random draws; equal seeds give equal answers.
              * @default 0
              */
             seed?: number;
@@ -1797,7 +1800,7 @@ export interface components {
             start_s?: number;
             /**
              * Format: uint64
-             * @description Denoising steps; 0 returns the first guess.
+             * @description Refinement steps; 0 returns the first draft.
              * @default 5
              */
             steps?: number;
@@ -1960,24 +1963,24 @@ export interface components {
         } & (unknown & unknown & unknown & unknown);
         /**
          * GoalError
-         * @description Error at the goal time; a member is missing where its field was free.
+         * @description Error at the goal time; a member is null where its field was free.
          */
         GoalError: {
             /**
              * Format: double
              * @description Absolute turn from the goal heading, radians.
              */
-            heading_rad?: number | null;
+            heading_rad: number | null;
             /**
              * Format: double
              * @description Distance from the goal, metres.
              */
-            position_m?: number | null;
+            position_m: number | null;
             /**
              * Format: double
              * @description Absolute difference from the goal speed, m/s.
              */
-            speed_mps?: number | null;
+            speed_mps: number | null;
         };
         /**
          * Health
@@ -2233,7 +2236,7 @@ export interface components {
         };
         /**
          * KeptFutures
-         * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+         * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
          */
         KeptFutures: "answered" | "omitted" | "forgotten";
         /**
@@ -3828,7 +3831,7 @@ export interface components {
              * Format: double
              * @description Mean distance of the chosen future, metres.
              */
-            ade_m?: number | null;
+            ade_m: number | null;
             /** @description The map has no drivable areas, and some lane widths were assumed by type. */
             assumed_width: boolean;
             /**
@@ -3845,7 +3848,7 @@ export interface components {
             /** @description By time, then by pair. */
             collisions: components["schemas"]["Collision"][];
             /** @description Which step counted as the end. */
-            endpoint?: components["schemas"]["Endpoint"];
+            endpoint: components["schemas"]["Endpoint"];
             /** @description Means over the road users with fixed goal fields. */
             goal_error: components["schemas"]["GoalError"] | null;
             /**
@@ -3861,7 +3864,7 @@ export interface components {
              * Format: double
              * @description Mean absolute heading error of the future that ends closest, radians.
              */
-            heading_error_rad?: number | null;
+            heading_error_rad: number | null;
             /** @description Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only). */
             implausible_turns: components["schemas"]["Stretch"][];
             /** @description Greatest values of all generated road users, and their violations together. */
@@ -3870,12 +3873,12 @@ export interface components {
              * Format: double
              * @description Greatest distance of the chosen future, metres (the log ghost's figure).
              */
-            max_distance_m?: number | null;
+            max_distance_m: number | null;
             /**
              * Format: double
              * @description Least mean distance of any future, metres.
              */
-            min_ade_m?: number | null;
+            min_ade_m: number | null;
             /**
              * Format: double
              * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
@@ -3886,7 +3889,7 @@ export interface components {
              * Format: double
              * @description Least distance at the end of any future, metres.
              */
-            min_fde_m?: number | null;
+            min_fde_m: number | null;
             /**
              * Format: double
              * @description Least time to collision of any pair, seconds; none within the look-ahead.
@@ -3926,12 +3929,7 @@ export interface components {
              * Format: double
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
-            speed_error_mps?: number | null;
-            /**
-             * Format: uint
-             * @description Same as `kinematic.violations`: steps over a limit.
-             */
-            violations: number;
+            speed_error_mps: number | null;
             /** @description Vehicles against the traffic. */
             wrong_way: components["schemas"]["Stretch"][];
             /**
@@ -4139,7 +4137,7 @@ export interface components {
             /** @description Who. */
             agent: string;
             /** @description Off the road and over a median: the road edge that is driven over, by its id in the map. */
-            edge?: string | null;
+            edge: string | null;
             /**
              * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
              *     the same time, no less bad.
@@ -4552,7 +4550,7 @@ export interface components {
          * WarningCode
          * @description What is unlikely.
          */
-        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed";
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "condition-unused" | "nothing-generated";
         /**
          * Way
          * @description Which way of a trait is wished.

@@ -1,18 +1,26 @@
 // The sentences of refused requests, by their codes: see `messages.ts`.
-import { table, type Values } from '../table';
+import { plural, table, type Values } from '../table';
 
 export const SENTENCES = table('problem-messages', {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `the scene has no road user \"${v.id}\"`,
     'no-agents-named': '\"all\" or at least one id expected, or at least one road user that reacts',
-    'too-many-regenerated': (v: Values) => `${v.count} road users to regenerate; at most ${v.most}`,
+    'too-many-regenerated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user to regenerate; at most ${v.most}`,
+        other: `${v.count} road users to regenerate; at most ${v.most}`,
+      }),
     'too-many-points': (v: Values) => `the reply would have ${v.points} points; at most ${v.most}`,
     'no-future-kept': 'the scene keeps no future of this road user from the start on',
     'replan-interval': (v: Values) => `${v.got} s; null, 3, 6 or 9 expected`,
     'more-than-a-turn': (v: Values) => `${v.got} rad is more than a turn; ${v.got} degrees are ${v.radians} rad`,
     'unknown-edge': 'the id of a road edge of the map expected',
-    'unequal-columns': (v: Values) => `${v.count} values, as many as x_m (${v.expected}) expected`,
+    'unequal-columns': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} value, as many as x_m (${v.expected}) expected`,
+        other: `${v.count} values, as many as x_m (${v.expected}) expected`,
+      }),
     'one-scene': 'exactly one of scene and scene_id is needed',
     'changed-scene': 'The stored scene is another than the one you read.',
     'no-network': (v: Values) => `a file of format ${v.format} comes without a network`,

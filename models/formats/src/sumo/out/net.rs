@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::polyline::{distance_to, length, resample};
+use crate::sentences;
 use crate::sumo::map::{MAX_PIECES, SPACING_M};
 use scene::map::{Lane, LaneMap, LaneType};
 use scene::routes::assumed_speed_limit_mps;
@@ -272,16 +273,14 @@ fn connection(
 pub(super) fn losses(scene: &Scene, network: &ExportedNetwork<'_>) -> Vec<Loss> {
     let map = network.map;
     let mut losses = Vec::new();
-    let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
     let off_m = network.lines.iter().map(|line| cut_off_m(line)).fold(0.0, f64::max);
-    let detail = format!(
-        "lanes are within {off_m:.3} m of their lines when their points are set anew; stop lines and stop signs are \
-         where lanes begin and end"
-    );
-    lose(true, code::GEOMETRY_APPROXIMATED, &detail);
-    lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
+    losses.push(Loss::counted(code::GEOMETRY_APPROXIMATED, sentences::loss_lane_points(1e3 * off_m)));
     let count = network.roles.iter().filter(|role| **role == LaneRole::Lost).count();
-    lose(count > 0, code::NO_MAP, &format!("{count} lanes of no length"));
+    if count > 0 {
+        losses.push(Loss::counted(code::NO_MAP, sentences::loss_lanes_without_length(count)));
+    }
+    let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
+    lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
     lose(lines, code::NO_LINES, "painted lines and road edges: they are drawn anew beside lanes");
     lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas: they are drawn anew round lanes");

@@ -30,12 +30,12 @@ const STAY: f32 = 0.5;
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Stage {
-    /// The refiner learns to take noise off recorded residuals.
+    /// The refiner learns to remove noise from recorded residuals.
     Denoiser,
     /// The initializer learns six futures and their probabilities.
     Initializer,
-    /// The refiner learns on the initializer's own drafts, with the overlap penalty; the rest follows at
-    /// a lower rate.
+    /// The refiner learns on drafts of the initializer, with the overlap penalty; the rest follows at a lower
+    /// rate.
     Joint,
 }
 
