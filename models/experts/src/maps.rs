@@ -1,4 +1,4 @@
-//! What is worked out about a map once: shared by those who generate and those who place.
+//! Derived data of a map, computed once and shared by generation and placement.
 
 use lru::LruCache;
 use scene::routes::LaneGraph;

@@ -1,5 +1,5 @@
-//! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements, each with the few
-//! features of its surroundings that say how often somebody is there.
+//! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements. A few features of its
+//! surroundings decide how often a cell is occupied.
 
 mod build;
 
@@ -128,7 +128,7 @@ fn class(value: f64, bounds: &[f64]) -> u8 {
 }
 
 impl<'a> Cells<'a> {
-    /// Cells whose centre may lie in the region, with the features that hold at `step`.
+    /// Cells whose centre may lie in the region, with their features at `step`.
     pub(super) fn new(scene: &'a Scene, graph: &'a LaneGraph, step: usize, region: &Region) -> Self {
         let map = &scene.map;
         let edges: Vec<Polyline> =

@@ -19,7 +19,7 @@ pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, t
         return 0.0;
     }
     let drives = who.agent_type != AgentType::Cyclist;
-    // Lanes alone do not say how much room there is beside them.
+    // Lanes without road edges do not define the room beside them.
     let sides = ground.is_bounded();
     let half_width_m = (0.5 * who.size.width_m - NARROWER_M).max(0.0);
     let pieces = (to_m / STEP_M).ceil().clamp(1.0, 400.0);

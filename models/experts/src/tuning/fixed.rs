@@ -198,11 +198,11 @@ numbers! {
     }
     /// Of stop lines and signals.
     lights {
-        /// A path takes a lane from whose centre it stays within this on average, metres.
+        /// Greatest mean distance from a lane's centre at which a path is on that lane, metres.
         ON_LANE_M: f64 = 2.2;
-        /// Lanes whose distances differ by less cannot be told apart, metres.
+        /// Lanes whose distances differ by less count as equally near, metres.
         SAME_LANE_M: f64 = 0.3;
-        /// Length of path after or before a line that tells which lane is taken, metres.
+        /// Length of path before or after a line that decides which lane is taken, metres.
         TELLING_M: f64 = 20.0;
         /// Lines nearer to each other along a path are of one junction, metres.
         ONE_JUNCTION_M: f64 = 8.0;

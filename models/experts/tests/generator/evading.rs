@@ -1,5 +1,5 @@
-//! Somebody stands in the way: one goes round, or halts before it where there is no room; beyond a goal the way goes on
-//! along the lane.
+//! An agent stands in the way: the vehicle goes round it, or stops before it where there is no room. Beyond a
+//! goal it goes on along the lane.
 
 use super::crossing::{agent, street};
 use super::{GENERATOR, ask, run};

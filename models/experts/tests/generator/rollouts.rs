@@ -92,7 +92,7 @@ fn goals_of_later_windows_are_met() {
                 let resolved = &answer.resolved["1"];
                 assert!(matches!(resolved.reach, ReachReport::Reached { .. }), "{at}: {:?}", resolved.reach);
                 assert_eq!(resolved.goal.time_s.value, time_s);
-                // A heading alone is held in view only when little time is left for it.
+                // A goal with only a heading gets a subgoal only when little time is left for it.
                 let told = resolved.intermediate.iter().map(|i| i.window);
                 assert!(subset == 2 || told.eq(0..resolved.intermediate.len()), "{at}");
                 assert!(subset == 2 || !resolved.intermediate.is_empty(), "{at}");
