@@ -1,4 +1,4 @@
-//! What a motion does, by its shape and the lanes that it takes.
+//! Classifies a motion by its shape and its lanes.
 
 use super::Manoeuvre;
 use crate::geometry::{cross, direction};
@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 /// Every fifth state is looked at.
 const STRIDE: usize = 5;
-/// Who moves less stays, metres.
+/// A motion of less is a stay, metres.
 const STAYS_M: f64 = 1.0;
 /// Turning by more is a turn, radians: 34 degrees.
 const TURN_RAD: f64 = 0.6;
@@ -26,8 +26,8 @@ const MOST_LANES: usize = 64;
 /// Lane changes of one motion.
 const MOST_CHANGES: i32 = 3;
 
-/// What states on consecutive steps do. Where lanes are given, a bend of the road is no turn, and a change of lane is
-/// told.
+/// Manoeuvre of states on consecutive steps. With lanes, a bend of the road is no turn, and lane changes are
+/// recognized.
 pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGraph>) -> Option<Manoeuvre> {
     if states.is_empty() {
         return None;
