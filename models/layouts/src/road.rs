@@ -34,7 +34,7 @@ pub fn draw(road: &Road) -> MapDraft {
     let length_m = length(&axis);
     let mut draft = MapDraft::default();
     let median_m = vec![road.median_m; axis.len()];
-    // An island stands in nobody's way over the road.
+    // With a crosswalk the median is not raised, so that it does not block pedestrians.
     let raised = if road.crosswalk_m > 0.0 { 0.0 } else { f64::INFINITY };
     let plan = Plan {
         id: "road",
