@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut scenes =
         formats::registry::import(&std::fs::read(path)?, path, "auto", &ImportOptions::default())?;
     let (mut scene, _warnings) = scenes.swap_remove(0)?;
-    let agent = scene.agents.iter_mut().find(|agent| agent.id == *id).ok_or("nobody has this id")?;
+    let agent = scene.agents.iter_mut().find(|agent| agent.id == *id).ok_or("no agent has this id")?;
     agent.conditions.goal.position = Some(Vec2::new(x.parse()?, y.parse()?));
 
     let engine = Engine::built_in()?;

@@ -514,7 +514,7 @@ mod tests {
                     "{agent:?}"
                 );
                 let fixed = agent.conditions.start.position.is_some();
-                assert_eq!(fixed, first == 0, "who is there at the start has a fixed one");
+                assert_eq!(fixed, first == 0, "only an agent present at the start has a fixed one");
             }
             let start = boxes_at(&placement.agents, 0);
             for (i, a) in start.iter().enumerate() {

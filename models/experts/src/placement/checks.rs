@@ -138,7 +138,7 @@ mod tests {
         assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap");
         assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
         let across = car(10.0, 0.0, 1.0, CellKind::Lane);
-        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "nobody follows across");
+        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "a crossing vehicle has no follower");
         assert!(beside(&leader, true).is_free(&car(10.0, 2.45, 0.0, CellKind::Lane), 2.0));
         assert!(!beside(&leader, true).is_free(&car(10.0, 2.35, 0.0, CellKind::Lane), 2.0));
     }

@@ -267,7 +267,7 @@ fn reacting_road_users_have_one_track_from_the_start_too() {
     let mut request = rollout(scene.clone(), Some(&["1"]), 200, 30);
     request.react = React::Everyone;
     let answer = run(&GENERATOR, request);
-    assert!(answer.samples[0].agents.len() > 1, "somebody answers within 20 s");
+    assert!(answer.samples[0].agents.len() > 1, "an agent reacts within 20 s");
     for (id, futures) in &answer.samples[0].agents {
         let future = &futures.modes[futures.chosen];
         assert_eq!((future.first_step, future.states.len()), (1, 200), "{id}");
