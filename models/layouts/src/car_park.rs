@@ -9,7 +9,7 @@ use scene::Vec2;
 use scene::map::LaneType;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The street goes on so far beyond the drives, metres.
+/// Length of the street beyond the drives, metres.
 const BEYOND_M: f64 = 50.0;
 /// Between the street's kerb and the park, metres.
 const SETBACK_M: f64 = 10.5;

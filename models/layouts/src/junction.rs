@@ -160,7 +160,7 @@ fn corners_of(spokes: &[Spoke], corners: &[Corner]) -> Vec<(CornerPlace, [usize;
     corners.iter().filter_map(place_of).collect()
 }
 
-/// Says what the caller wants to know, in the order of the parameters.
+/// Fills the places of arms and corners in the draft, in the order of the parameters.
 pub fn finish(
     draft: &mut MapDraft,
     spokes: &[Spoke],

@@ -16,7 +16,7 @@ use scene::score::Drivable;
 use scene::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use std::sync::Arc;
 
-/// So far beyond the road's edge a corner still counts as on the road, metres.
+/// Distance beyond the road's edge within which a corner still counts as on the road, metres.
 pub const BEYOND_M: f64 = 0.1;
 
 /// A road user ready for its expert.

@@ -17,7 +17,7 @@ pub(super) struct PlannedActor {
     pub(super) plan: AgentPlan,
     /// Its motion without this call. A reacting agent keeps it unless another is in the way.
     pub(super) kept: Option<Vec<State>>,
-    /// The future that a person picked: it stays as it is.
+    /// The future that the user picked; it is not changed.
     pub(super) pinned: Option<Vec<State>>,
     /// First drafts.
     pub(super) modes: Modes,

@@ -166,7 +166,7 @@ impl Choice<'_> {
     }
 }
 
-/// Costs of pairs of options, worked out once.
+/// Costs of pairs of options, each computed once.
 struct Pairs<'a> {
     agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,

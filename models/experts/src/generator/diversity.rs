@@ -31,7 +31,7 @@ pub(super) struct DiverseModes {
 }
 
 impl DiverseModes {
-    /// Nothing is done.
+    /// No changes.
     pub(super) fn none(actor: &PlannedActor) -> Self {
         let mut steady = [false; MODES];
         steady[best(actor).index()] = true;

@@ -2,7 +2,7 @@
 
 use scene::{Agent, STANDING_MPS, STEP_S, Scene, State, Track};
 
-/// From where on nothing is known of a road user that keeps its motion.
+/// The step from which a kept motion is extrapolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Guessed {
     /// First scene step of which neither future nor log speaks.

@@ -30,7 +30,7 @@ const SHIFTS: usize = ACROSS * ALONG;
 /// Most shifts that are changed at once, aside and ahead.
 const MOST_ASIDE: i32 = 2;
 const MOST_AHEAD: i32 = 1;
-/// Steps about an instant at which boxes are looked at.
+/// Steps around an instant at which boxes are checked.
 const ABOUT: [isize; 3] = [-2, 0, 2];
 /// Goes on beyond the last place, metres.
 const TAIL_M: f64 = 20.0;

@@ -186,7 +186,7 @@ pub(super) fn leading_outlines(
     let outline = |(actor, drafts): (&PlannedActor, &Drafts)| {
         let start = &actor.plan.present.start;
         let places = if let Some(pinned) = &actor.pinned {
-            // A picked future stays as it is, whatever the drafts are.
+            // A picked future does not depend on the drafts.
             as_it_is(&actor.plan, pinned).places()
         } else if actor.rests {
             [Some((start.position(), start.heading_rad)); INSTANTS]

@@ -41,7 +41,7 @@ pub enum CellKind {
     Driveway,
 }
 
-/// Kinds of cells where a type is looked for.
+/// Kinds of cells that a type may occupy.
 pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
     match agent_type {
         AgentType::Vehicle => &[CellKind::Lane, CellKind::Kerb, CellKind::Driveway],
@@ -146,7 +146,7 @@ impl<'a> Cells<'a> {
         cells
     }
 
-    /// A type is looked for in such a cell.
+    /// A type may occupy such a cell.
     pub(super) fn may_hold(&self, cell: &MapCell, agent_type: AgentType) -> bool {
         let lane_fits = || self.graph.lanes().get(cell.line).is_some_and(|l| l.carries(agent_type));
         cell_kinds(agent_type).contains(&cell.kind) && (cell.kind != CellKind::Lane || lane_fits())

@@ -16,7 +16,7 @@ use scene::motion::{MotionModel, Target};
 use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
-/// Distance between the places of a path that are looked at, metres.
+/// Distance between the places at which a path is sampled, metres.
 const LOOK_M: f64 = 0.5;
 /// Over these two a corner of a path is rounded off, metres.
 const SPACING_M: f64 = 0.5;

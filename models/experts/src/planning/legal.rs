@@ -8,7 +8,7 @@ use scene::score::Drivable;
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Distance between the places that are looked at, metres.
+/// Distance between the places at which a path is sampled, metres.
 const STEP_M: f64 = 1.5;
 
 /// Metres of the first `to_m` of a path on which a road user would break the rules. Riders use pavements, so

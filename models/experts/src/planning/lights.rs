@@ -179,7 +179,7 @@ impl Waiting<'_> {
         }
         let due = self.target.position.map(|_| self.target.step);
         let passes_red = |p: &Progress| passes(p).filter(|step| is_red(*step) && !turns(p, *step));
-        // Lights that are green for a moment and red again are looked at a few times.
+        // A light may turn red again before the agent passes, so a few greens are tried.
         for _ in 0..3 {
             let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
             let held = match due {

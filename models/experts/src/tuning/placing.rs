@@ -16,7 +16,7 @@ numbers! {
         RAGGED_M: f64 = 15.0;
         /// A shorter lane is no way in, metres.
         SHORTEST_M: f64 = 5.0;
-        /// An arm is followed so far, metres.
+        /// Greatest length over which an arm is followed, metres.
         LONGEST_M: f64 = 3_000.0;
         /// Free traffic drives at this share of what limit and bends allow.
         FREE_SHARE: f64 = 0.95;
@@ -87,7 +87,7 @@ numbers! {
         HARDEST_MPS2: f64 = 5.0;
         /// An agent whose centre lies farther from the own path is not an obstacle, metres.
         BESIDE_M: f64 = 1.8;
-        /// Leaders are looked for so far, metres.
+        /// Greatest distance of a leader, metres.
         LOOK_M: f64 = 80.0;
     }
     /// Of `placement::parking`.
@@ -106,7 +106,7 @@ numbers! {
         KERB_M: (f64, f64) = (0.15, 0.2);
         /// Cars are not quite parallel to the kerb, radians.
         ASKEW_RAD: f64 = 0.02;
-        /// Parked cars keep so far from a junction, a stop line or a crosswalk, metres.
+        /// Least distance of parked cars from a junction, a stop line or a crosswalk, metres.
         CLEAR_M: f64 = 5.0;
         /// A driveway within this of a lane opens to it and stays free of parked cars, metres.
         DRIVEWAY_M: f64 = 14.0;

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
 
-/// Places that are looked at before the foot of a point is searched for.
+/// Places that are probed before the search for the foot of a point.
 const PROBES: usize = 12;
 
 /// Rounding that passing over pieces allows for, metres.

@@ -6,7 +6,7 @@ use crate::routes::{LaneGraph, LaneHit};
 use crate::{AgentType, State, wrap_angle};
 use std::collections::VecDeque;
 
-/// Every fifth state is looked at.
+/// Steps between the states that are compared.
 const STRIDE: usize = 5;
 /// A motion of less is a stay, metres.
 const STAYS_M: f64 = 1.0;
@@ -21,7 +21,7 @@ const AHEAD_M: f64 = 1.2;
 const ON_LANE_M: f64 = 2.5;
 /// A lane that leads elsewhere is not driven on, radians.
 const ALONG_LANE_RAD: f64 = 0.8;
-/// Lanes looked at between start and end.
+/// Most lanes that are searched between start and end.
 const MOST_LANES: usize = 64;
 /// Lane changes of one motion.
 const MOST_CHANGES: i32 = 3;

@@ -54,7 +54,7 @@ impl Other<'_> {
 }
 
 impl<'a> Judge<'a> {
-    /// `steps` are the scene steps that are looked at, the start of the motions first.
+    /// `steps` are the scene steps that are judged, the start of the motions first.
     pub fn new(map: &'a LaneMap, signals: &'a [Signal], drivable: &'a Drivable, steps: Range<usize>) -> Self {
         let input = ScoreInput {
             actors: Vec::new(),

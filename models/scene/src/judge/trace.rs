@@ -8,9 +8,9 @@ use crate::geometry::direction;
 use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::{AgentId, AgentType, STEP_S, Size, State, Vec2, wrap_angle};
 
-/// Every second step is looked at.
+/// Steps between two moments.
 pub(super) const STRIDE: usize = 2;
-/// Seconds between two moments that are looked at.
+/// Seconds between two moments.
 pub(super) const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
 /// Shared ground with a larger time shift is no relation, seconds.
 pub(super) const WINDOW_S: f64 = 6.0;
@@ -168,7 +168,7 @@ impl Trace {
         false
     }
 
-    /// The box at a moment. Made where it is looked at: most never are.
+    /// The box at a moment, computed on first use: most are never needed.
     fn outline(&self, moment: &Moment) -> OrientedBox {
         let half_m = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
         OrientedBox::facing(moment.center, half_m, moment.heading_rad, moment.forward)

@@ -78,7 +78,7 @@ pub struct JudgedCard {
 /// Box centres at every half second from the first state on, by road user, metres.
 pub type Places = BTreeMap<AgentId, Vec<Vec2>>;
 
-/// All that was said so far.
+/// All feedback so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Judged cards, the first round's first.

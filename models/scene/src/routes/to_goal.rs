@@ -18,9 +18,9 @@ pub(super) const GOAL_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
 const CLOSE_M: f64 = 1.5;
 /// Nearer goals are not worth a join, metres.
 const NO_JOIN_M: f64 = 5.0;
-/// Most goal lanes looked at.
+/// Most goal lanes.
 const MAX_GOAL_LANES: usize = 6;
-/// The same where lanes on both sides of the goal are looked at.
+/// Most goal lanes where lanes on both sides of the goal count.
 const MAX_NEAR_LANES: usize = 24;
 /// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
 const COST_PER_OFFSET: f64 = 20.0;

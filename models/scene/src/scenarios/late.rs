@@ -26,7 +26,7 @@ const SPEED_MPS: (f64, f64) = (5.0, 20.0);
 /// Mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
 const PACE: (f64, f64) = (0.6, 1.5);
 const PACE_MORE_MPS: f64 = 4.0;
-/// Others are looked at for so many steps.
+/// Steps of the other motions that are searched for a crossing.
 const LOOK_STEPS: usize = 80;
 
 /// Vehicles that would have to wait: at a line, or for another vehicle.

@@ -47,7 +47,7 @@ struct Plan {
     words: String,
 }
 
-/// Draws of figures for one road user before the next is looked at.
+/// Draws of figures for one road user before the next one is tried.
 const DRAWS: usize = 6;
 /// Most pairs among which seeds choose, the most fitting first.
 const MOST_ROLES: usize = 8;

@@ -108,7 +108,7 @@ impl Thresholds {
         Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },
     ];
 
-    /// Those out of their range, each with the value it has.
+    /// Thresholds out of their range, each with its value.
     pub fn outside(&self) -> impl Iterator<Item = (Threshold, f64)> {
         let valued = Self::ALL.map(|threshold| (threshold, (threshold.of)(self)));
         valued.into_iter().filter(|(Threshold { range: (least, most), .. }, v)| !(least..=most).contains(&v))
@@ -125,7 +125,7 @@ impl Thresholds {
     }
 }
 
-/// Which pairs are looked at.
+/// Which pairs are scored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]

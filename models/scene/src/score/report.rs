@@ -1,4 +1,4 @@
-//! The score as it is answered: these are the members of the reply to `POST /v1/score`.
+//! The reply to `POST /v1/score` and its members.
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;

@@ -7,8 +7,8 @@ use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
 use scene::score::Actor;
 use scene::{AgentType, Future, Sample};
 
-/// Most futures of a sample that all get relations. In a larger one an agent that the call does not regenerate gets
-/// them only for its shown future.
+/// Most futures of a sample that all get relations. In a larger one an agent that the call does not regenerate
+/// gets them only for its shown future.
 const FEW: usize = 60;
 
 /// All agents as they are shown, to compare futures with.

@@ -1,5 +1,5 @@
-//! The remedy for a goal that is only reachable over ground where nobody may drive: the nearest place that
-//! the road leads to in the same time.
+//! The remedy for a goal that is reached only off the road or against the traffic: the nearest place that the
+//! road leads to in the same time.
 
 use super::targets::due;
 use crate::maps::KnownMap;

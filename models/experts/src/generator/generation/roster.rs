@@ -132,12 +132,12 @@ impl Roster {
         self.parts.iter().enumerate().filter(move |(_, part)| is(**part)).map(|(i, _)| i)
     }
 
-    /// From where on nothing is known of a road user that keeps its motion.
+    /// The step from which each kept motion is extrapolated.
     pub(super) fn guesses(&self) -> impl Iterator<Item = (usize, Guessed)> {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
-    /// Nothing is known of a road user that keeps its motion from scene step `step` on.
+    /// The kept motion of a road user is extrapolated from scene step `step` on.
     fn known_until(&self, agent: usize, step: usize) -> bool {
         self.guessed[agent].is_some_and(|g| g.step <= step)
     }

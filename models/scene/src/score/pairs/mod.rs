@@ -17,7 +17,7 @@ pub(crate) use mover::{Mover, MoverState};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
 pub(super) use tally::PairTally;
 
-/// Moments looked at between two steps, the step itself counted.
+/// Moments checked from one step to the next, the step itself counted.
 pub const SUBSTEPS: usize = 4;
 
 /// What the pairs of one road user come to.

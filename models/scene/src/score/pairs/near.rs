@@ -132,7 +132,7 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(NearMissKind::Course)
 }
 
-/// The two touch within this time if both keep their speeds and turns, looked at a step apart.
+/// The two touch within this time if both keep their speeds and turn rates, checked step by step.
 pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
     let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
     let both_m = (a.moment.speed_mps + b.moment.speed_mps) * STEP_S;
