@@ -25,13 +25,13 @@ pub const MAX_SIGNALS: usize = 512;
 /// Farthest a coordinate may lie from the origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 
-/// What an answer knows of how somebody moved before.
+/// The motion of an agent before the start, as far as an answer depends on it.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Before {
     /// Hash of the recording.
     Recorded(ContentHash),
-    /// A lone state: somebody was put there.
+    /// A single state: the agent was placed there.
     Put { step: usize, position: Vec2, heading_rad: f64, speed_mps: f64 },
 }
 
@@ -146,7 +146,7 @@ impl Scene {
         }
     }
 
-    /// Checks everything that the types alone cannot promise; the only way scenes enter the program.
+    /// Checks everything that the types cannot guarantee; the only way for scenes to enter the program.
     ///
     /// # Errors
     /// Up to 32 problems, each with its place: counts over their limits, coordinates that are not
@@ -185,10 +185,10 @@ impl Scene {
         ]
     }
 
-    /// Hash of what the user made: everything that decides an answer except the generated futures,
-    /// the id and the name. Map and recordings are known by their own hashes, which clones of the scene
-    /// share. What a condition fixes counts as fixed, whatever lies below it: a scene that is asked about with conditions
-    /// beside it has the hash of the one that they are written into.
+    /// Hash of the user's part: everything that decides an answer, without the generated futures, the id and
+    /// the name. Map and recordings enter by their own hashes, which clones of the scene share. A condition
+    /// replaces the value below it: a scene with conditions passed beside it has the hash of the scene that
+    /// contains them.
     pub fn input_hash(&self) -> ContentHash {
         let agents: Vec<_> = self
             .agents

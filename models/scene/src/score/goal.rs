@@ -1,4 +1,4 @@
-//! How well a road user meets the goal it was given: fixed fields only, at the goal's time.
+//! Error of a road user at its goal: fixed fields only, at the goal's time.
 
 use super::input::{Actor, Thresholds};
 use super::report::mean;

@@ -1,4 +1,4 @@
-//! The score as it is answered: these are the members of the reply to `POST /v1/score`.
+//! The reply to `POST /v1/score` and its members.
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;
@@ -80,7 +80,7 @@ pub struct NearMiss {
 /// Something one road user does over a stretch of time.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
-    /// Who.
+    /// The road user.
     pub agent: AgentId,
     /// Scene time of the first step, seconds.
     pub time_s: f64,
@@ -103,9 +103,9 @@ pub struct Stretch {
 /// A stop line is crossed while its signal says stop.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RedLight {
-    /// Who.
+    /// The road user.
     pub agent: AgentId,
-    /// Lane whose signal says stop.
+    /// Lane of the red signal.
     pub lane: String,
     /// Scene time at which the front crosses, seconds.
     pub time_s: f64,
@@ -116,7 +116,7 @@ pub struct RedLight {
     pub in_log: bool,
 }
 
-/// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+/// Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
 ///
 /// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
 /// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
@@ -130,7 +130,7 @@ pub struct SceneScore {
     /// Share of road users in any collision, those of the log counted (the paper's scenario collision
     /// rate).
     pub collision_rate_with_log: f64,
-    /// Share of road users whose box overlaps another's at all, however little.
+    /// Share of road users with any overlap of boxes, however small.
     pub overlap_rate: f64,
     /// By time, then by pair.
     pub overlaps: Vec<BoxOverlap>,
