@@ -1,5 +1,6 @@
 //! What can be wrong with outside data, in one shape for every format.
 
+use crate::sentences;
 use scene::message::Message;
 use scene::{Scene, SceneError};
 use schemars::{JsonSchema, Schema};
@@ -89,12 +90,29 @@ pub struct FieldProblem {
     /// The value found, where it is a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub got: Option<f64>,
+    /// The fault as data, where it has a sentence of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<Message>,
 }
 
 impl FieldProblem {
     /// A fault without a range.
     pub fn new(pointer: impl Into<String>, code: &'static str, detail: impl Into<String>) -> Self {
-        Self { pointer: pointer.into(), code, detail: detail.into(), min: None, max: None, got: None }
+        Self {
+            pointer: pointer.into(),
+            code,
+            detail: detail.into(),
+            min: None,
+            max: None,
+            got: None,
+            message: None,
+        }
+    }
+
+    /// A fault with its sentence as data.
+    pub fn of(pointer: impl Into<String>, code: &'static str, message: Message) -> Self {
+        let detail = message.to_string();
+        Self { message: Some(message), ..Self::new(pointer, code, detail) }
     }
 
     /// A number outside `min..=max`.
@@ -109,6 +127,7 @@ impl FieldProblem {
             min: Some(min),
             max: Some(max),
             got: Some(got),
+            message: None,
         }
     }
 }
@@ -121,7 +140,7 @@ impl fmt::Display for FieldProblem {
 
 impl From<SceneError> for FieldProblem {
     fn from(error: SceneError) -> Self {
-        Self::new(error.at, error.code, error.reason)
+        Self { message: error.message, ..Self::new(error.at, error.code, error.reason) }
     }
 }
 
@@ -174,10 +193,15 @@ impl ReadError {
         Self { kind: RefusalKind::MalformedFile { offset }, problems: vec![problem] }
     }
 
-    /// Text that is not JSON.
-    pub fn malformed_json(line: usize, column: usize, detail: impl Into<String>) -> Self {
-        let problem = FieldProblem::new("", code::MALFORMED_JSON, detail);
-        Self { kind: RefusalKind::MalformedJson { line, column }, problems: vec![problem] }
+    /// Text that is not JSON, as the parser found it.
+    pub fn malformed_json(error: &serde_json::Error, detail: impl Into<String>) -> Self {
+        let message = sentences::json_syntax(sentences::json_fault::of(error));
+        let problem =
+            FieldProblem { message: Some(message), ..FieldProblem::new("", code::MALFORMED_JSON, detail) };
+        Self {
+            kind: RefusalKind::MalformedJson { line: error.line(), column: error.column() },
+            problems: vec![problem],
+        }
     }
 
     /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.

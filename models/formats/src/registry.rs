@@ -16,6 +16,7 @@ use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
+use crate::sentences;
 use crate::source::{Source, head};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
@@ -173,8 +174,7 @@ fn called(file: &str, info: &Info) -> String {
 /// `format-unknown`.
 pub fn unknown() -> ReadError {
     let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
-    let detail = format!("not a file of a known format ({})", known.join(", "));
-    FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into()
+    FieldProblem::of("", code::FORMAT_UNKNOWN, sentences::not_a_known_format(&known.join(", "))).into()
 }
 
 /// Loss codes as the header `Dragtraffic-Loss` lists them.

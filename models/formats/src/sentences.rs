@@ -1,4 +1,5 @@
-//! The sentences of the readers' warnings (what a reader changed, assumed or left out) and of the writers' losses.
+//! The sentences of the readers' refusals and warnings (what a reader changed, assumed or left out) and of the
+//! writers' losses.
 
 use scene::message::Word;
 
@@ -14,7 +15,35 @@ pub mod subject {
     pub const TRACKS: Word = Word { code: "tracks", english: "tracks" };
 }
 
+/// What is wrong with text that should be JSON.
+pub mod json_fault {
+    use scene::message::Word;
+
+    const FAULTS: [(&[&str], Word); 7] = [
+        (&["EOF"], Word { code: "cut-off", english: "the text is cut off" }),
+        (&["expected value", "expected ident"], Word { code: "no-value", english: "a value is missing" }),
+        (&["trailing comma"], Word { code: "comma", english: "a comma is too many" }),
+        (&["trailing characters"], Word { code: "text-after", english: "text follows after the end" }),
+        (&["key must be a string"], Word { code: "no-quotes", english: "a name has no quotes" }),
+        (&["expected "], Word { code: "no-sign", english: "a comma, colon or bracket is missing" }),
+        (&["invalid number", "number out of range"], Word { code: "number", english: "a number is invalid" }),
+    ];
+    const TEXT: Word = Word { code: "text", english: "a text is invalid" };
+
+    /// The fault that the parser names; its words are serde_json's.
+    pub(crate) fn of(error: &serde_json::Error) -> Word {
+        let words = error.to_string();
+        let named = |starts: &[&str]| starts.iter().any(|start| words.starts_with(start));
+        FAULTS.iter().find(|(starts, _)| named(starts)).map_or(TEXT, |(_, word)| *word)
+    }
+}
+
 scene::messages! {
+    json_syntax(fault: Word) = "json-syntax", "not valid JSON: {fault}";
+    not_a_known_format(formats: &str) = "not-a-known-format", "not a file of a known format ({formats})";
+    columns_missing(missing: &str, columns: &str) =
+        "columns-missing",
+        "no column {missing}; there are {columns}. A file of columns can name them (--columns, a part columns of a form)";
     agents_near_ego(found: usize, kept: usize) =
         "agents-near-ego", "{found} road users; the {kept} nearest to the ego are kept";
     agents_near_centre(found: usize, kept: usize, within_m: f64) =
@@ -40,7 +69,7 @@ scene::messages! {
         "crossing-lanelets", "Lanelets overlap too often to find the edges of the road";
     crossing_roads() = "crossing-roads", "Roads overlap too often to find their edges";
     cut_in_scenes(each_s: f64) =
-        "cut-in-scenes", "The recording is longer than a scene: it is cut in scenes of {each_s:.1} s";
+        "cut-in-scenes", "The recording is longer than a scene: it is cut into scenes of {each_s:.1} s";
     elements_unread(count: usize) =
         "elements-unread",
         [count] "{count} element has no place in a scene and is left out",
@@ -51,16 +80,16 @@ scene::messages! {
         "{count} map features of unknown kind or with too few points are left out";
     futures_unread(count: usize) =
         "futures-unread",
-        [count] "{count} possible motion is empty, impossible or beyond the limit, and is left out",
-        "{count} possible motions are empty, impossible or beyond the limit, and are left out";
+        [count] "{count} future is empty, impossible or beyond the limit, and is left out",
+        "{count} futures are empty, impossible or beyond the limit, and are left out";
     goals_beyond_first(count: usize) =
         "goals-beyond-first",
         [count] "{count} further goal of the same road user is left out",
         "{count} further goals of the same road users are left out";
     goals_are_regions(count: usize) =
         "goals-are-regions",
-        [count] "{count} goal is a region; its centre is taken",
-        "{count} goals are regions; their centres are taken";
+        [count] "{count} goal is a region; its centre is used",
+        "{count} goals are regions; their centres are used";
     headings_derived() =
         "headings-derived", "Headings are derived from the motion; a standing road user keeps its last \
          heading";
@@ -89,8 +118,8 @@ scene::messages! {
         "{count} road users had a second id and are joined: {pairs}";
     jumps(count: usize) =
         "jumps",
-        [count] "A road user was moved elsewhere {count} time; this gap stays a gap",
-        "Road users were moved elsewhere {count} times; these gaps stay gaps";
+        [count] "A road user was moved elsewhere {count} time; this gap remains",
+        "Road users were moved elsewhere {count} times; these gaps remain";
     lanelets_unusable(count: usize) =
         "lanelets-unusable",
         [count] "{count} lanelet without two sides, or not for traffic, is left out",
@@ -116,8 +145,8 @@ scene::messages! {
         "Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right";
     lines_approximated(count: usize) =
         "lines-approximated",
-        [count] "{count} painted line has a sort or colour without a word of its own",
-        "{count} painted lines have a sort or colour without a word of its own";
+        [count] "{count} painted line has a type or colour that a scene does not support",
+        "{count} painted lines have a type or colour that a scene does not support";
     loss_lane_lines(off_mm: f64, count: usize) =
         "loss-lane-lines",
         [count] "lanes are lines within {off_mm:.0} mm, and {count} begins with a way into it",
@@ -170,25 +199,25 @@ scene::messages! {
     map_heights_dropped() = "map-heights-dropped", "The network has heights; the map is flat";
     map_lacks_lanelets() = "map-lacks-lanelets", "The file has no lanelets: the scene has no map";
     map_missing() =
-        "map-missing", "No map came with the scenario (log_map_archive_*.json): the scene has no lanes";
+        "map-missing", "The scenario has no map file (log_map_archive_*.json): the scene has no lanes";
     moved_by_metadrive() =
         "moved-by-metadrive", "MetaDrive moved and turned the file; the place of the recording is unknown";
     network_missing() =
-        "network-missing", "No network came with the recording: the scene has no lanes and no signals";
+        "network-missing", "The recording has no network file: the scene has no lanes and no signals";
     now_step_moved(now: usize, steps: usize) =
-        "now-step-moved", "The current step is {now} of {steps}: the last step is taken";
+        "now-step-moved", "The current step is {now} of {steps}: the last step is used";
     obstacles_absent(count: usize) =
         "obstacles-absent",
         [count] "{count} obstacle is absent at all steps that are kept",
         "{count} obstacles are absent at all steps that are kept";
     obstacles_are_sets(count: usize) =
         "obstacles-are-sets",
-        [count] "{count} obstacle has possible areas instead of motion: its first state is kept",
-        "{count} obstacles have possible areas instead of motion: their first state is kept";
+        [count] "{count} obstacle has possible areas instead of a trajectory: its first state is kept",
+        "{count} obstacles have possible areas instead of a trajectory: their first state is kept";
     obstacles_uncertain(count: usize) =
         "obstacles-uncertain",
-        [count] "{count} obstacle has uncertain states; the centres are taken",
-        "{count} obstacles have uncertain states; the centres are taken";
+        [count] "{count} obstacle has uncertain states; the centres are used",
+        "{count} obstacles have uncertain states; the centres are used";
     obstacles_unplaced(count: usize) =
         "obstacles-unplaced",
         [count] "{count} obstacle without a place, or without a size of at most 60 m, is left out",
@@ -196,16 +225,16 @@ scene::messages! {
     parts_left_out(parts: &str) = "parts-left-out", "Left out: {parts}";
     passengers_left_out(count: usize) =
         "passengers-left-out",
-        [count] "{count} container or passenger is left out so far",
-        "{count} containers and passengers are left out so far";
+        [count] "{count} container or passenger is left out",
+        "{count} containers and passengers are left out";
     programs_beyond_last() = "programs-beyond-last", "A signal has several programs; the last one is shown";
     projection_dropped() =
         "projection-dropped", "Positions stay in the frame of the network; its projection is not kept";
     recording_heights_dropped() = "recording-heights-dropped", "The recording has heights; the scene is flat";
     shapes_boxed(count: usize) =
         "shapes-boxed",
-        [count] "{count} obstacle is no box: a box around it is taken",
-        "{count} obstacles are no boxes: boxes around them are taken";
+        [count] "{count} obstacle is not rectangular: its bounding box is used",
+        "{count} obstacles are not rectangular: their bounding boxes are used";
     signal_links_unprogrammed(count: usize) =
         "signal-links-unprogrammed",
         [count] "{count} link of a signal has no program and is left out",
@@ -249,8 +278,8 @@ scene::messages! {
         "{count} road users have the default size for the name of their type";
     sizes_assumed_car(count: usize) =
         "sizes-assumed-car",
-        [count] "{count} planning problem has no size: that of a car is taken",
-        "{count} planning problems have no size: that of a car is taken";
+        [count] "{count} planning problem has no size: the size of a car is used",
+        "{count} planning problems have no size: the size of a car is used";
     sizes_vary_median(count: usize) =
         "sizes-vary-median",
         [count] "{count} road user changes size; the median is kept",
@@ -276,7 +305,7 @@ scene::messages! {
     types_assumed() = "types-assumed", "The table has no types; all road users count as vehicles";
     types_unknown(count: usize) =
         "types-unknown",
-        [count] "{count} road user has an unknown type; it is shown and never generated",
-        "{count} road users have an unknown type; they are shown and never generated";
+        [count] "{count} road user has an unknown type; it is shown but not generated",
+        "{count} road users have an unknown type; they are shown but not generated";
     velocities_derived() = "velocities-derived", "Velocities are derived from positions and times";
 }

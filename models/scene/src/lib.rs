@@ -42,6 +42,7 @@ pub mod routes;
 pub mod scenarios;
 mod scene;
 pub mod score;
+pub mod sentences;
 pub mod shared;
 mod shown;
 pub mod signal;

@@ -1,5 +1,7 @@
 //! The whole scene and what makes one valid.
 
+use crate::message::Message;
+use crate::sentences;
 use crate::{
     Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2,
 };
@@ -121,12 +123,19 @@ pub struct SceneError {
     pub code: &'static str,
     /// What was found and what was expected.
     pub reason: String,
+    /// The same as data, where it has a sentence of its own.
+    pub message: Option<Message>,
 }
 
 impl SceneError {
     /// A problem at a JSON pointer.
     pub fn new(at: impl Into<String>, code: &'static str, reason: impl Into<String>) -> Self {
-        Self { at: at.into(), code, reason: reason.into() }
+        Self { at: at.into(), code, reason: reason.into(), message: None }
+    }
+
+    /// A problem with its sentence as data.
+    pub fn of(at: impl Into<String>, code: &'static str, message: Message) -> Self {
+        Self { at: at.into(), code, reason: message.to_string(), message: Some(message) }
     }
 }
 
@@ -297,8 +306,8 @@ impl Scene {
 
     fn check_agents(&self, problems: &mut Vec<SceneError>) {
         if self.agents.len() > MAX_AGENTS {
-            let reason = format!("{} agents; at most {MAX_AGENTS}", self.agents.len());
-            problems.push(SceneError::new("/agents", "too-many-agents", reason));
+            let message = sentences::agents_over_limit(self.agents.len(), MAX_AGENTS);
+            problems.push(SceneError::of("/agents", "too-many-agents", message));
         }
         check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
         for (i, agent) in self.agents.iter().enumerate() {
@@ -346,9 +355,9 @@ impl Scene {
 
 fn check_points(at: &str, points: &[Vec2], least: usize, problems: &mut Vec<SceneError>) {
     if points.len() < least || points.len() > MAX_POLYLINE_POINTS {
-        let reason = format!("{} points; {least} to {MAX_POLYLINE_POINTS} expected", points.len());
+        let message = sentences::points_out_of_range(points.len(), least, MAX_POLYLINE_POINTS);
         let code = if points.len() < least { "invalid-field" } else { "map-too-large" };
-        problems.push(SceneError::new(at, code, reason));
+        problems.push(SceneError::of(at, code, message));
     }
     let out = |p: &Vec2| !(p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M);
     if let Some(i) = points.iter().position(out) {

@@ -85,8 +85,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Place, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
     input.map_err(|error| unpack::fault(&error, 0))?;
-    serde_json::from_slice(&bytes)
-        .map_err(|error| ReadError::malformed_json(error.line(), error.column(), error.to_string()))
+    serde_json::from_slice(&bytes).map_err(|error| ReadError::malformed_json(&error, error.to_string()))
 }
 
 fn about(points: &[Point], origin: Vec2) -> Vec<Vec2> {

@@ -166,7 +166,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
         Ok(document) => Ok(document),
         Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
         Err(error) if error.classify() != Category::Data => {
-            Err(ReadError::malformed_json(error.line(), error.column(), plain(&error)))
+            Err(ReadError::malformed_json(&error, plain(&error)))
         }
         // The parser that tracks places is slower, and runs only for a fault.
         Err(error) => {

@@ -114,7 +114,7 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     error: &serde_json::Error,
 ) -> ReadError {
     if error.classify() != Category::Data {
-        return ReadError::malformed_json(error.line(), error.column(), reason(error));
+        return ReadError::malformed_json(error, reason(error));
     }
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),

@@ -91,7 +91,7 @@ impl Columns {
         let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
         input.map_err(|error| unpack::fault(&error, 0))?;
         let told: BTreeMap<String, Told> = serde_json::from_slice(&bytes)
-            .map_err(|error| ReadError::malformed_json(error.line(), error.column(), error.to_string()))?;
+            .map_err(|error| ReadError::malformed_json(&error, error.to_string()))?;
         let mut columns = Self::own();
         for (name, told) in told {
             let fault = |detail: String| {

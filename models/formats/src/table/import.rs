@@ -96,12 +96,8 @@ impl<'a> Scenarios<'a> {
             missing.push("time_s or step");
         }
         if !missing.is_empty() {
-            let detail = format!(
-                "no column {}; there are {}. A file of columns can name them (--columns, a part columns of a form)",
-                missing.join(", "),
-                shown(rows.names())
-            );
-            return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+            let message = sentences::columns_missing(&missing.join(", "), &shown(rows.names()));
+            return Err(FieldProblem::of("", code::CANNOT_REPRESENT, message).into());
         }
         rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
         // Notes of others under our key say nothing.

@@ -25,7 +25,7 @@ export const SENTENCES = table('file-messages', {
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
     'crossing-lanelets': 'Lanelets overlap too often to find the edges of the road',
     'crossing-roads': 'Roads overlap too often to find their edges',
-    'cut-in-scenes': (v: Values) => `The recording is longer than a scene: it is cut in scenes of ${v.each_s}`,
+    'cut-in-scenes': (v: Values) => `The recording is longer than a scene: it is cut into scenes of ${v.each_s}`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} element has no place in a scene and is left out`,
@@ -38,8 +38,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'futures-unread': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} possible motion is empty, impossible or beyond the limit, and is left out`,
-        other: `${v.count} possible motions are empty, impossible or beyond the limit, and are left out`,
+        one: `${v.count} future is empty, impossible or beyond the limit, and is left out`,
+        other: `${v.count} futures are empty, impossible or beyond the limit, and are left out`,
       }),
     'goals-beyond-first': (v: Values) =>
       plural(Number(v.count), {
@@ -48,8 +48,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'goals-are-regions': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} goal is a region; its centre is taken`,
-        other: `${v.count} goals are regions; their centres are taken`,
+        one: `${v.count} goal is a region; its centre is used`,
+        other: `${v.count} goals are regions; their centres are used`,
       }),
     'headings-derived': 'Headings are derived from the motion; a standing road user keeps its last heading',
     'headings-in-degrees': 'Headings are in degrees and were converted to radians',
@@ -81,8 +81,8 @@ export const SENTENCES = table('file-messages', {
       }),
     jumps: (v: Values) =>
       plural(Number(v.count), {
-        one: `A road user was moved elsewhere ${v.count} time; this gap stays a gap`,
-        other: `Road users were moved elsewhere ${v.count} times; these gaps stay gaps`,
+        one: `A road user was moved elsewhere ${v.count} time; this gap remains`,
+        other: `Road users were moved elsewhere ${v.count} times; these gaps remain`,
       }),
     'lanelets-unusable': (v: Values) =>
       plural(Number(v.count), {
@@ -109,8 +109,8 @@ export const SENTENCES = table('file-messages', {
     'left-hand-as-right': 'Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right',
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} painted line has a sort or colour without a word of its own`,
-        other: `${v.count} painted lines have a sort or colour without a word of its own`,
+        one: `${v.count} painted line has a type or colour that a scene does not support`,
+        other: `${v.count} painted lines have a type or colour that a scene does not support`,
       }),
     'loss-lane-lines': (v: Values) =>
       plural(Number(v.count), {
@@ -157,10 +157,10 @@ export const SENTENCES = table('file-messages', {
     'map-faults': (v: Values) => `${v.first} (and ${v.more} more)`,
     'map-heights-dropped': 'The network has heights; the map is flat',
     'map-lacks-lanelets': 'The file has no lanelets: the scene has no map',
-    'map-missing': 'No map came with the scenario (log_map_archive_*.json): the scene has no lanes',
+    'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
-    'network-missing': 'No network came with the recording: the scene has no lanes and no signals',
-    'now-step-moved': (v: Values) => `The current step is ${v.now} of ${v.steps}: the last step is taken`,
+    'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
+    'now-step-moved': (v: Values) => `The current step is ${v.now} of ${v.steps}: the last step is used`,
     'obstacles-absent': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} obstacle is absent at all steps that are kept`,
@@ -168,13 +168,13 @@ export const SENTENCES = table('file-messages', {
       }),
     'obstacles-are-sets': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} obstacle has possible areas instead of motion: its first state is kept`,
-        other: `${v.count} obstacles have possible areas instead of motion: their first state is kept`,
+        one: `${v.count} obstacle has possible areas instead of a trajectory: its first state is kept`,
+        other: `${v.count} obstacles have possible areas instead of a trajectory: their first state is kept`,
       }),
     'obstacles-uncertain': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} obstacle has uncertain states; the centres are taken`,
-        other: `${v.count} obstacles have uncertain states; the centres are taken`,
+        one: `${v.count} obstacle has uncertain states; the centres are used`,
+        other: `${v.count} obstacles have uncertain states; the centres are used`,
       }),
     'obstacles-unplaced': (v: Values) =>
       plural(Number(v.count), {
@@ -184,16 +184,16 @@ export const SENTENCES = table('file-messages', {
     'parts-left-out': (v: Values) => `Left out: ${v.parts}`,
     'passengers-left-out': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} container or passenger is left out so far`,
-        other: `${v.count} containers and passengers are left out so far`,
+        one: `${v.count} container or passenger is left out`,
+        other: `${v.count} containers and passengers are left out`,
       }),
     'programs-beyond-last': 'A signal has several programs; the last one is shown',
     'projection-dropped': 'Positions stay in the frame of the network; its projection is not kept',
     'recording-heights-dropped': 'The recording has heights; the scene is flat',
     'shapes-boxed': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} obstacle is no box: a box around it is taken`,
-        other: `${v.count} obstacles are no boxes: boxes around them are taken`,
+        one: `${v.count} obstacle is not rectangular: its bounding box is used`,
+        other: `${v.count} obstacles are not rectangular: their bounding boxes are used`,
       }),
     'signal-links-unprogrammed': (v: Values) =>
       plural(Number(v.count), {
@@ -243,8 +243,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'sizes-assumed-car': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} planning problem has no size: that of a car is taken`,
-        other: `${v.count} planning problems have no size: that of a car is taken`,
+        one: `${v.count} planning problem has no size: the size of a car is used`,
+        other: `${v.count} planning problems have no size: the size of a car is used`,
       }),
     'sizes-vary-median': (v: Values) =>
       plural(Number(v.count), {
@@ -268,8 +268,8 @@ export const SENTENCES = table('file-messages', {
     'types-assumed': 'The table has no types; all road users count as vehicles',
     'types-unknown': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} road user has an unknown type; it is shown and never generated`,
-        other: `${v.count} road users have an unknown type; they are shown and never generated`,
+        one: `${v.count} road user has an unknown type; it is shown but not generated`,
+        other: `${v.count} road users have an unknown type; they are shown but not generated`,
       }),
     'velocities-derived': 'Velocities are derived from positions and times',
   },
