@@ -1,4 +1,4 @@
-//! Kinds of file that are known and not read: who brings one is told what it is, and what to do instead.
+//! File kinds that are recognised but not read: the refusal names the kind and the alternative.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::{unpack, xml};

@@ -12,7 +12,7 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Free numbers come after those that these ids are.
+    /// Numbers free beside those that these ids already use.
     pub fn of<'a>(ids: impl Iterator<Item = &'a String>) -> Self {
         let own: HashSet<i64> = ids.filter_map(|id| number(id)).collect();
         let next = own.iter().max().map_or(1, |most| most + 1);

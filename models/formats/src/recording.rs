@@ -13,8 +13,8 @@ pub(crate) const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one scenario, of which 256 are chosen.
 pub(crate) const MAX_USERS: usize = 20_000;
 
-/// A road user at a time, in the frame of the file. What the file does not say is NaN; without a position it is
-/// known that nobody saw the road user then.
+/// State of a road user at a time, in the frame of the file. Values that the file lacks are NaN; a NaN
+/// position means that the road user was not seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RecordedState {
     pub time_s: f64,
@@ -26,7 +26,7 @@ pub(crate) struct RecordedState {
 }
 
 impl RecordedState {
-    /// Somebody saw the road user.
+    /// Whether the road user was seen.
     pub fn is_seen(&self) -> bool {
         self.at.x.is_finite() && self.at.y.is_finite()
     }

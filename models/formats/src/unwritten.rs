@@ -1,4 +1,4 @@
-//! What several writers have no place for.
+//! Losses that several writers share.
 
 use crate::format::ExportedMotion;
 use crate::loss::{Loss, code};
@@ -18,7 +18,7 @@ pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> 
     !rest.is_empty()
 }
 
-/// What users fixed, where a file has boxes and states alone.
+/// Loss of conditions, in a file that holds only boxes and states.
 pub(crate) fn conditions(scene: &Scene, motion: ExportedMotion) -> Option<Loss> {
     let lost = scene.agents.iter().any(|agent| is_fixed(scene, agent, motion));
     let detail = match motion {
@@ -54,7 +54,7 @@ pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
     lost.then(|| Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"))
 }
 
-/// Somebody said of the scene more than its name and its tags.
+/// Whether the scene has notes, a parent, extra members or a name other than its id.
 pub(crate) fn is_noted(scene: &Scene, id: &str) -> bool {
     let meta = &scene.meta;
     !meta.notes.is_empty() || meta.parent_id.is_some() || scene.name != id || !scene.extra.is_empty()

@@ -223,7 +223,7 @@ proptest! {
     }
 }
 
-/// Motion as SUMO records it: everybody that is seen, in the directions of headings.
+/// Motion as SUMO records it: every seen road user, velocities along headings.
 fn recorded(scenes: [&Scene; 2], codes: &BTreeSet<&str>) -> Result<(), TestCaseError> {
     let [before, after] = scenes;
     // Millionths of metres and of degrees in the file.

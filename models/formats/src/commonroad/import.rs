@@ -16,7 +16,7 @@ use scene::message::Message;
 use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
 use std::collections::{BTreeMap, HashSet};
 
-/// What stands before the licence in the source of a file that we wrote.
+/// Text before the licence in the source of a file written by this program.
 pub(super) const LICENCE: &str = "; licence ";
 
 /// Reads a file, plain or gzip.
@@ -163,7 +163,7 @@ fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<ImportWarning>) -> Vec<Agent>
     agents
 }
 
-/// What had to be changed or left out.
+/// Warnings about changed and dropped content.
 fn tell(
     document: &CommonRoadDocument,
     changed: &Changed,

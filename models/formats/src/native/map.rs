@@ -171,7 +171,7 @@ pub struct StopSignDoc {
     /// Unique among stop signs.
     #[schemars(schema_with = "id")]
     pub id: String,
-    /// Where it stands.
+    /// Position of the sign.
     pub position_m: PointDoc,
     /// Ids of lanes that obey it.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]

@@ -87,7 +87,7 @@ impl Array {
         self.data.get(begin..begin + dtype.size).map(|bytes| (dtype, bytes))
     }
 
-    /// Where an item lies when columns come first.
+    /// Index of an item in column-major order.
     fn by_columns(&self, mut i: usize) -> Option<usize> {
         let (mut at, mut stride) = (0, self.len());
         for n in self.shape.iter().rev() {

@@ -8,7 +8,7 @@ use scene::Vec2;
 use scene::map::{Area, LaneMap, TypedLine};
 use std::f64::consts::PI;
 
-/// Borders whose ends are nearer than this go on into each other, metres.
+/// Borders whose ends are closer than this continue each other, metres.
 const JOINED_M: f64 = 0.05;
 /// Medians are narrower than this, metres.
 const WIDEST_M: f64 = 15.0;

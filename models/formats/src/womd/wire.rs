@@ -8,7 +8,7 @@ use crate::problem::{FieldProblem, ReadError, code};
 /// Most tracks that are looked at; the nearest 256 become road users.
 pub const MAX_TRACKS: usize = 2_048;
 
-/// What a message is, as far as nesting and counting go.
+/// Message type, as far as nesting and counting need it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ScenarioMessage {
     Scenario,
@@ -50,7 +50,7 @@ impl ScenarioMessage {
         })
     }
 
-    /// How many of these a record may hold, and the refusal for more.
+    /// Most messages of this type in a record, and the refusal beyond it.
     fn limit(self) -> (usize, &'static str, &'static str) {
         match self {
             Self::Track => (MAX_TRACKS, "/tracks", code::TOO_MANY_AGENTS),
