@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Times each whole scene is asked for.
+/// Requests of each whole scene.
 const ROUNDS: usize = 3;
 /// Groups of scenes by the size of their maps.
 const MAP_SIZES: usize = 3;
@@ -152,7 +152,7 @@ fn scenes_an_hour(generator: &Generator, threads: usize, scenes: &[Scene]) -> Re
     Ok(scenes.len() as f64 * 3600.0 / started.elapsed().as_secs_f64())
 }
 
-/// Memory of this process that is in use, MB; `None` where the system does not tell.
+/// Resident memory of this process, MB; `None` if the system does not report it.
 fn resident_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

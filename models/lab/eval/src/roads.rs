@@ -1,4 +1,4 @@
-//! Whether vehicles stay on the road.
+//! Share of vehicles' states that are off the road.
 
 use super::Site;
 use super::stats::Value;
@@ -25,7 +25,7 @@ pub struct OffRoad {
 }
 
 impl OffRoad {
-    /// Of the states at steps 1 ..= 90 of an agent of the scene; nothing for who is no vehicle.
+    /// Counts the states at steps 1 ..= 90 of an agent of the scene; zero for any other type than vehicle.
     pub fn of(site: &Site<'_>, agent: usize, states: &[State]) -> Self {
         let mut out = Self::default();
         let agent = &site.scene.agents[agent];

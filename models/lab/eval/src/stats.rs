@@ -43,7 +43,7 @@ pub struct Estimate {
     pub mean: f64,
     pub low: f64,
     pub high: f64,
-    /// What was measured: the sum of the weights.
+    /// Number of measurements: the sum of the weights.
     pub samples: u64,
     /// Scenes that it was measured in.
     pub scenes: u64,
@@ -51,7 +51,7 @@ pub struct Estimate {
 
 /// Resamples of a list of scenes, the same for every figure, so that paired figures stay paired.
 pub struct Bootstrap {
-    /// How often each scene appears, one list a replicate.
+    /// Count of each scene, one list per replicate.
     counts: Vec<Vec<u16>>,
 }
 

@@ -29,16 +29,16 @@ const BOX_WIDTH_M: f64 = 0.1;
 /// Boxes kept: this share of all.
 const BOX_SHARE: f64 = 0.99;
 
-/// What to learn from.
+/// Options of the training data.
 #[derive(Clone, Debug)]
 pub struct PlacementOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
-    /// What the data are, for the weights' header, in place of what the scenes say themselves.
+    /// Description of the data for the weights' header; replaces that of the scenes.
     pub trained_on: Option<String>,
 }
 
-/// What was learned from.
+/// Counts of the training data.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct PlacementSummary {

@@ -7,9 +7,9 @@ use scene::{Agent, AgentType, HORIZON_STEPS, Scene, Vec2};
 const PLACE_M: f64 = 2.5;
 /// Within this many steps of each other.
 const APART_STEPS: usize = 30;
-/// A scene where nobody comes nearer than this is not interactive, metres.
+/// A scene is interactive only if a pair comes closer than this, metres.
 pub(super) const INTERACTIVE_M: f64 = 10.0;
-/// Who goes no farther than this takes part in nothing, metres.
+/// A road user that moves no farther than this counts in no encounter, metres.
 const MOVES_M: f64 = 2.0;
 /// Every other step is looked at.
 const STRIDE: usize = 2;

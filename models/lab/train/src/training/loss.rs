@@ -10,13 +10,13 @@ use super::route::ResidualBasis;
 
 /// Added under the root of a distance, square metres.
 const ROUND: f32 = 0.01;
-/// How much the first mode is pulled to the recording, won or lost, where a goal's position is fixed: there it is
-/// the middle of what may happen, and the answer to be shown.
+/// Weight of the first mode's pull to the recording, won or lost, if a goal's position is fixed. With such a
+/// goal the first mode is the mean future and the default answer.
 const MIDDLE: f32 = 0.3;
 /// Mean distance above which a losing mode is not pulled, metres.
 const FAR: f32 = 60.0;
 
-/// What the initializer gives for one road user.
+/// Output of the initializer for one road user.
 #[derive(Clone, Debug)]
 pub(super) struct AgentOutput {
     pub(super) residual: [[f32; RESIDUAL]; MODES],

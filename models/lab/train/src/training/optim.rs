@@ -1,4 +1,4 @@
-//! AdamW (Loshchilov and Hutter, 2019) whose moments can be saved, with a running mean of the weights.
+//! AdamW (Loshchilov and Hutter, 2019) with moments that can be saved, and a running mean of the weights.
 
 use std::collections::BTreeMap;
 
