@@ -1,4 +1,4 @@
-//! Rounds with feedback over HTTP: cards, what is said of them, the next cards.
+//! Rounds with feedback over HTTP: cards, feedback, the next cards.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 

@@ -18,14 +18,14 @@ const CHANGES: usize = 40;
 /// A fault that lasts is met by so many changes.
 const REFUSED: usize = 3;
 
-/// What a trial saw.
+/// Counts of a trial.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Report {
     /// Rounds, each with one fault or a run of them.
     pub rounds: u64,
     /// Calls that failed.
     pub failed: u64,
-    /// What the writers did.
+    /// Counts of the writers.
     pub writes: Tally,
     /// Starts that a fault prevented.
     pub starts_refused: u64,
@@ -148,11 +148,11 @@ impl Trial {
             }
         }
         self.recovers()?;
-        // What was refused may lie in the log still: a start must not mistake it for something else.
+        // The log may still hold refused changes: a start must not misread them.
         if self.random.below(6) == 0 { self.kill() } else { Ok(()) }
     }
 
-    /// The disk is full or broken for a while, and everybody can see it.
+    /// The disk is full or broken for a while, and every client sees it.
     fn at_last(&mut self) -> anyhow::Result<()> {
         let how = if self.random.below(2) == 0 { How::Full } else { How::Broken };
         self.disk.fails(Fault::lasting(how))?;
@@ -168,7 +168,7 @@ impl Trial {
         self.recovers()
     }
 
-    /// One change by somebody; true when the disk was in its way.
+    /// One change by a random writer; true if the disk refused it.
     fn change(&mut self) -> anyhow::Result<bool> {
         let at = self.random.below(WRITERS) as usize;
         let address = self.server()?.address;

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 const SCRIPTS: &str = "tests/checkers";
-/// A script whose packages cannot be had fails, where it would be passed over.
+/// With this set, a script without its packages fails instead of being skipped.
 pub static STRICT: AtomicBool = AtomicBool::new(false);
 
 /// All scripts, each in an environment of its own.
