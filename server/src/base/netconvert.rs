@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Where it is, when it is not on the path.
+/// Environment variable with its path, if it is not on PATH.
 const PLACE: &str = "DRAGTRAFFIC_NETCONVERT";
 /// The name of the network that it writes.
 const NETWORK: &str = "map.net.xml";
@@ -21,7 +21,7 @@ const TIME: Duration = Duration::from_secs(60);
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_WORDS: u64 = 2_000;
 
-/// The program, looked for anew at each call: it may be installed while we run.
+/// The program, searched at each call: it may be installed while the server runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Installed;
 
@@ -35,7 +35,7 @@ fn program() -> Option<PathBuf> {
     named.into_iter().chain(folders).find(|path| path.is_file())
 }
 
-/// What may come with a file on this machine.
+/// Companions of a file on this machine.
 pub fn companions() -> Companions {
     Companions { netconvert: Some(Arc::new(Installed)), ..Companions::default() }
 }

@@ -27,12 +27,12 @@ const FREE_EXPANSION: u64 = 1 << 20;
 /// Media types of JSON documents.
 pub const JSON: &[&str] = &["application/json", "application/vnd.dragtraffic.scene+json"];
 
-/// What reading a body takes.
+/// Resources for reading a body.
 #[derive(Clone)]
 pub struct Reading {
     /// Bounds.
     pub limits: Arc<Limits>,
-    /// Where long bodies are decoded and parsed.
+    /// Pool that decodes and parses long bodies.
     pub pool: Arc<Pool>,
     /// Room for bodies.
     pub room: Arc<Room>,

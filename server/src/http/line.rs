@@ -1,8 +1,8 @@
 //! An open line: questions over a WebSocket (RFC 6455), each of them a request like any other.
 //!
-//! A request of its own costs a browser three times the work of a message, and who drags asks sixty times a second.
-//! A question is handed to the router as the `POST` that it would have been, so that limits, refusals, counters and
-//! log are the same.
+//! A separate request costs a browser three times the work of a message, and a drag sends sixty requests a
+//! second. The server passes each one to the router as the `POST` that it replaces, so that limits, refusals,
+//! counters and log are the same.
 
 use super::net::Carrier;
 use crate::base::limits::Limits;
@@ -30,7 +30,7 @@ const WAITING: usize = 64;
 const REPLIES: usize = 64;
 /// Keeps a silent line open, and finds out when its other end has vanished.
 const PING: Duration = Duration::from_secs(30);
-/// When a client may ask again whose questions were refused, seconds.
+/// Time after which a refused client may repeat its request, seconds.
 const RETRY_AFTER_S: u64 = 1;
 /// Most of a reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
@@ -144,9 +144,9 @@ struct ReplyPiece {
 #[derive(Default)]
 struct Questions {
     tasks: JoinSet<()>,
-    /// Those whose last piece has not gone out.
+    /// Requests that have not sent their last piece.
     running: HashMap<u64, AbortHandle>,
-    /// Those that are held back, with their bodies.
+    /// Requests held back, with their bodies.
     waiting: VecDeque<(u64, String)>,
     /// The server ends: no question begins any more.
     closing: bool,
@@ -168,7 +168,7 @@ impl Questions {
         task.is_some() || self.waiting.len() < before
     }
 
-    /// Whether a piece belongs to a question that still runs. The last one frees its number.
+    /// Whether a piece belongs to a request that still runs. The last one frees its number.
     fn takes(&mut self, piece: &ReplyPiece) -> bool {
         let runs = self.running.get(&piece.ask).is_some_and(|task| task.id() == piece.task);
         if runs && piece.is_last {
@@ -177,13 +177,13 @@ impl Questions {
         runs
     }
 
-    /// The number of a question whose task has broken down, which it frees.
+    /// Frees and returns the number of a request whose task has panicked.
     fn broken(&mut self, task: task::Id) -> Option<u64> {
         let number = self.running.iter().find(|(_, running)| running.id() == task).map(|(number, _)| *number);
         number.inspect(|number| drop(self.running.remove(number)))
     }
 
-    /// Whether a question of so many bytes may wait: together they take at most twice one message's memory.
+    /// Whether a request of so many bytes may wait: together they take at most twice one message's memory.
     fn may_wait(&self, limits: &Limits) -> bool {
         let bytes: usize = self.waiting.iter().map(|(_, body)| body.len()).sum();
         self.waiting.len() < WAITING && bytes < limits.line_bytes as usize
@@ -333,7 +333,8 @@ async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let mut body = reply.into_body();
     let mut piece = next(&mut body).await;
     while !head.last {
-        // Whether it is the last is mostly known at once, and each message costs the reader a task.
+        // Usually the next piece shows at once whether this one is the last; a separate message costs the
+        // reader a task.
         let following =
             if matches!(piece, Some(Ok(_))) { next(&mut body).now_or_never() } else { Some(None) };
         head.last = matches!(following, Some(None));

@@ -138,7 +138,8 @@ pub fn scene_of(demo: &Demo, sumo_home: Option<&Path>) -> Result<Scene, DemoErro
             let Some(scene) = demo.window(&recording, start) else { continue };
             let score = demo.misfit(&scene, &recording, start);
             if best.as_ref().is_none_or(|(least, _)| score < *least) {
-                // Drop troublesome road users that do not matter for the picture.
+                // A picture shows no events: road users that cause some, and that the demo does not need, are
+                // removed.
                 let scene = demo_check::without_troublemakers(scene);
                 if demo_check::faults(&scene).is_empty() {
                     best = Some((score, scene));

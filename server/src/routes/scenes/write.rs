@@ -84,7 +84,7 @@ pub struct ScenePatch {
     notes: Option<Option<String>>,
 }
 
-/// Tells null from absence.
+/// Distinguishes null from absence.
 fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
     d: D,
 ) -> Result<Option<Option<T>>, D::Error> {
