@@ -83,7 +83,7 @@ impl Server {
     /// Starts one with an empty store.
     ///
     /// # Errors
-    /// When it does not say its address within ten seconds.
+    /// If it does not print its address within ten seconds.
     pub fn start(flags: &[&str]) -> anyhow::Result<Self> {
         Self::of(program(), flags)
     }
@@ -91,7 +91,7 @@ impl Server {
     /// Starts one of a given program with an empty store.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn of(program: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let db = folder.path().join("scenes.sqlite");
@@ -118,7 +118,7 @@ impl Server {
     /// Starts one with an empty store that keeps its access lines for [`Server::log`].
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn with_log(flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let log = std::fs::File::create(folder.path().join("log"))?;
@@ -132,7 +132,7 @@ impl Server {
     /// Starts one on a given store.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         Self::launch(Self::command(db, flags))
     }
@@ -151,7 +151,7 @@ impl Server {
     /// Starts one by a call that was made ready.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn launch(mut command: Command) -> anyhow::Result<Self> {
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
         let out = child.stdout.take().context("no stdout")?;
@@ -165,7 +165,7 @@ impl Server {
         Ok(Self { address, child, folder: None })
     }
 
-    /// Waits until `/readyz` says yes.
+    /// Waits until `/readyz` reports success.
     ///
     /// # Errors
     /// After a minute.
@@ -256,7 +256,7 @@ impl Server {
         Ok(())
     }
 
-    /// Asks it to stop and waits for the end: exit code and time taken.
+    /// Requests a stop and waits for the end: exit code and time taken.
     ///
     /// # Errors
     /// When the signal cannot be sent.

@@ -26,7 +26,7 @@ pub struct Version {
 /// Knowledge about one scene.
 #[derive(Clone, Debug, Default)]
 struct Known {
-    /// As the last answer said; `None` for a scene that is not there.
+    /// As in the last reply; `None` for a scene that does not exist.
     sure: Option<Version>,
     /// Versions that an unanswered or partly refused change may have left.
     perhaps: Vec<Option<Version>>,

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A client of a line.
 struct Line(WebSocket<TcpStream>);
 
-/// A message about a question.
+/// A message of a reply.
 #[derive(Debug)]
 struct ServerMessage {
     head: Value,
@@ -75,7 +75,7 @@ impl Line {
         }
     }
 
-    /// Everything about one question, which is the only one.
+    /// All messages of one request, which is the only one.
     fn answer(&mut self, number: u64) -> (Value, Vec<Value>) {
         let ServerMessage { head, mut lines } = self.hear();
         let mut last = head["last"] == json!(true);

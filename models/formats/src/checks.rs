@@ -84,8 +84,8 @@ fn works(scene: &Scene) {
     score(&ScoreInput::of_sample(scene, chosen, &drivable));
 }
 
-/// A record that is read writes back to an equal scene. Checksums are not looked at, so that a
-/// fuzzer gets past them.
+/// A record that is read writes back to an equal scene. Checksums are not verified, so that a fuzzer gets
+/// past them.
 ///
 /// # Panics
 /// When it does not.

@@ -56,8 +56,8 @@ pub struct ImportOptions {
     pub net: Option<Arc<dyn Source>>,
     /// For extracts of OpenStreetMap.
     pub netconvert: Option<Arc<dyn Netconvert>>,
-    /// Which columns of a table say what, for formats that take it ([`Format::takes_columns`]): a JSON object of
-    /// our names and theirs. Faults in it are reported under [`COLUMNS_POINTER`].
+    /// The column file, for formats that accept one ([`Format::takes_columns`]): a JSON object from this
+    /// program's column names to the table's. Faults in it are reported under [`COLUMNS_POINTER`].
     pub columns: Option<Arc<dyn Source>>,
 }
 

@@ -5,7 +5,7 @@ use scene::map::LaneMap;
 use scene::{Vec2, geometry};
 use std::collections::{BTreeSet, HashMap};
 
-/// Most ways through junctions that are looked at for crossing each other.
+/// Most ways through junctions that are tested for crossings.
 const MOST_CROSSING: usize = 1_500;
 /// Most pieces of lines that are held against each other: ten times what a large town needs.
 const MOST_PIECES: u64 = 100_000_000;

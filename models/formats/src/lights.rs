@@ -25,7 +25,7 @@ pub(crate) struct SignalHead {
     pub group: Option<(u32, String)>,
 }
 
-/// A signal for each head, over `steps` steps, with what has to be said of them.
+/// A signal for each head, over `steps` steps, with the warnings about them.
 pub(crate) fn signals(
     map: &LaneMap,
     mut heads: Vec<SignalHead>,

@@ -7,7 +7,7 @@ pub(crate) struct Numbers {
     own: HashSet<i64>,
     used: HashSet<i64>,
     next: i64,
-    /// Something got another number than its id says.
+    /// An id got a number other than its own.
     pub renumbered: bool,
 }
 

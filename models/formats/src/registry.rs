@@ -142,7 +142,7 @@ pub fn scenes<'a>(
     Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
-/// The name of a file without the ends of formats and of compression, which say nothing about the scene.
+/// Name of a file without the extensions of formats and compression.
 pub fn stem(name: &str) -> &str {
     let formats = FORMATS.iter().flat_map(|format| format.info().extensions);
     let ends: Vec<&str> = formats.chain(&COMPRESSED).copied().collect();

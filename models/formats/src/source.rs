@@ -52,7 +52,7 @@ impl<S: Source + ?Sized> Source for Arc<S> {
     }
 }
 
-/// The first bytes of a file, by which it is recognised; of one that says at its end what it is (Parquet), the last
+/// The first bytes of a file, by which it is recognised; for a file identified at its end (Parquet), the last
 /// ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {
     let mut head = Vec::new();

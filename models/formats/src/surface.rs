@@ -167,7 +167,7 @@ fn draw_rings(
 }
 
 fn units(p: Vec2) -> IntPoint<i32> {
-    // Saturates: bounds of the map are looked at elsewhere.
+    // Saturates: the map's bounds are checked elsewhere.
     IntPoint::new((p.x * UNITS).round() as i32, (p.y * UNITS).round() as i32)
 }
 

@@ -5,7 +5,7 @@ use crate::problem::{ReadError, code};
 use flate2::read::MultiGzDecoder;
 use std::io::{self, BufReader, Read};
 
-/// The expansion ratio is looked at after this many decoded bytes.
+/// The expansion ratio is checked after this many decoded bytes.
 const RATIO_FROM: u64 = 1 << 20;
 /// Bytes that are decoded at a time.
 const PIECE: usize = 64 << 10;

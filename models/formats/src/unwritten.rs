@@ -4,8 +4,8 @@ use crate::format::ExportedMotion;
 use crate::loss::{Loss, code};
 use scene::{Agent, Scene, Start};
 
-/// Users fixed something of a road user that boxes and states do not say. Types, sizes and the starts of futures are
-/// in these.
+/// Whether a condition fixes more than boxes and states hold. These include types, sizes and the starts of
+/// futures.
 pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> bool {
     let mut rest = agent.conditions.clone();
     if motion == ExportedMotion::Chosen {

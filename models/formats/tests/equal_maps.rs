@@ -39,7 +39,7 @@ struct Carries {
     graph: bool,
 }
 
-/// The lanes of a file, and what its reader says that the file does not have.
+/// The lanes of a file, and what the file lacks according to its reader.
 fn lanes(path: &Path) -> (Lanes, Vec<&'static str>) {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy();

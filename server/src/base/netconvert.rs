@@ -17,7 +17,7 @@ const PLACE: &str = "DRAGTRAFFIC_NETCONVERT";
 const NETWORK: &str = "map.net.xml";
 /// Longest that it may work: a town of some kilometres takes a few seconds.
 const TIME: Duration = Duration::from_secs(60);
-/// Most bytes that it may write, and that are kept of what it says.
+/// Most bytes of its output, and most bytes kept of its messages.
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_WORDS: u64 = 2_000;
 

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 
 /// Body of one type of event.
 pub trait EventBody {
-    /// Values of `event`; the first one, unless the body says otherwise.
+    /// Values of `event`; the first one, unless the body overrides it.
     const NAMES: &'static [&'static str];
     /// Description of the event for the document.
     const ABOUT: &'static str;

@@ -13,7 +13,7 @@ use futures_util::stream::unfold;
 use std::convert::Infallible;
 use std::time::Duration;
 
-/// When a stream says something.
+/// Timing of a stream.
 #[derive(Clone, Copy)]
 pub struct StreamPace {
     /// A sign of life after so long a silence.

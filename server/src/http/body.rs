@@ -49,7 +49,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// As much as the limits say.
+    /// Room for as many bodies as the limits allow.
     pub fn new(limits: &Limits) -> Self {
         let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
         let places = |number: u64| Arc::new(Semaphore::new(of(number)));
@@ -402,7 +402,7 @@ impl<'a> Unfolding<'a> {
             Encoding::Gzip => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
             Encoding::Zstd => {
                 let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(|e| undecodable(&e))?;
-                // A frame may ask for gigabytes of window; 8 MiB is what level 19 uses.
+                // A frame may request gigabytes of window; level 19 uses 8 MiB.
                 decoder.window_log_max(23).map_err(|e| undecodable(&e))?;
                 Box::new(decoder)
             }

@@ -179,7 +179,7 @@ pub async fn serve(
 ) {
     let table = Arc::new(ConnectionTable::default());
     let (closing, closed) = watch::channel(false);
-    // A stream asks again at each heartbeat, so a longer silence is the reader's.
+    // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
     let mut look = tokio::time::interval(LOOK);
     let limits = Arc::new(limits.clone());

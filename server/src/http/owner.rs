@@ -41,7 +41,7 @@ fn owner_of(_: SocketAddr, _: SocketAddr) -> Option<u32> {
     None
 }
 
-/// SOCK_DIAG_BY_FAMILY: type of questions about sockets, and of their answers.
+/// SOCK_DIAG_BY_FAMILY: type of requests about sockets, and of their replies.
 const BY_FAMILY: u16 = 20;
 
 /// A netlink header (16 bytes) and an `inet_diag_req_v2` (56) about one TCP socket in whatever state.

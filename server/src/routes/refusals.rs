@@ -8,7 +8,7 @@ use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
 use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
 
-/// Any operation: what is looked at before a handler is.
+/// Any operation: checks before its handler.
 pub const ANYWHERE: &[Code] = &[
     Code::BadHeader,
     Code::BadHost,

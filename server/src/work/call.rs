@@ -168,7 +168,7 @@ mod tests {
         pool.stop();
     }
 
-    /// Asks for work of so many milliseconds by a connection, and notes its name when it is done.
+    /// Submits work of so many milliseconds for a connection, and records its name when it is done.
     fn noted(
         pool: &Arc<Pool>,
         done: &Arc<Mutex<Vec<&'static str>>>,

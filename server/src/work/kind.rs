@@ -14,7 +14,7 @@ pub enum PoolLane {
     Patient,
     /// Small calls without a waiting caller.
     Background,
-    /// Documents, which must be read before it is known what a call asks.
+    /// Documents, which must be read before the cost of a call is known.
     Document,
 }
 

@@ -117,7 +117,7 @@ fn revision(number: u64) -> JobRequest {
 
 type Call = (Arc<End>, Handle);
 
-/// Asks for work that takes a few steps and looks between them whether it is still wanted.
+/// Submits work of a few steps that checks between them for cancellation.
 fn ask(pool: &Arc<Pool>, asked: JobRequest, step: impl Fn(&Ticket) + Send + 'static) -> Result<Call, Code> {
     let call = pool.submit(asked, |ticket| {
         let end = Arc::new(End::default());
@@ -170,7 +170,7 @@ fn close(pool: &Arc<Pool>) {
     pool.stop();
 }
 
-/// Three callers ask twice each, for one worker and two places.
+/// Three callers submit two jobs each, for one worker and two places.
 fn a_crowd(generate_s: u64) {
     let limits = Limits { running: 1, queue: 2, generate_s, ..Limits::default() };
     let pool = Pool::start(&Arc::new(limits)).unwrap();

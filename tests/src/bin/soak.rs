@@ -28,7 +28,8 @@ enum Name {
     Clients,
     /// Kills while six writers work; nothing answered is lost.
     Kills,
-    /// Calls to the disk that fail; nothing answered is lost, and the server says so, stays up and recovers.
+    /// Failing calls to the disk; the server loses no answered write, reports the fault, stays up and
+    /// recovers.
     Faults,
     /// All of it in an order drawn by the seed, which can be done again.
     Schedule,

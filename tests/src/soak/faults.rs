@@ -1,4 +1,5 @@
-//! Faults of the disk under a server at work: it says so, stays up, loses nothing, and is well when the disk is.
+//! Faults of the disk under a busy server: it reports them, stays up, loses nothing, and recovers with the
+//! disk.
 
 use super::Tell;
 use crate::faults::{Call, Disk, Fault, How};
@@ -197,7 +198,7 @@ impl Trial {
         })
     }
 
-    /// A server starts on a disk that fails: it says why it cannot, or it can.
+    /// A server starts on a failing disk: it starts, or reports why it cannot.
     fn at_the_start(&mut self) -> anyhow::Result<()> {
         self.server.take().context("no server")?.kill()?;
         let fault = Fault { before: self.random.below(6), ..Fault::drawn(&mut self.random) };

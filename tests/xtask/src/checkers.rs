@@ -1,6 +1,6 @@
-//! `checkers`: foreign programs read what we write. Each script of `tests/checkers` names the packages that it needs
-//! (PEP 723, and under `[tool.dragtraffic]` those to be had without what they ask for), is called with the program
-//! and a folder to work in, and says `N passed, N failed` in its last line.
+//! `checkers`: foreign programs read our files. Each script of `tests/checkers` names the packages that it
+//! needs (PEP 723, and under `[tool.dragtraffic]` those to install without dependencies). It receives the
+//! program and a folder to work in, and prints `N passed, N failed` as its last line.
 
 use crate::environments::Environment;
 use crate::{Outcome, program, root};

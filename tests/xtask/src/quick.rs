@@ -15,7 +15,7 @@ const MAIN: &[&str] = &["@{upstream}", "origin/main", "main"];
 /// Folders that the checks of the page look at.
 const PAGE: &[&str] = &["web", "tests/browser"];
 
-/// Runs what the changed files ask for.
+/// Runs the checks that the changed files need.
 pub fn run() -> ExitCode {
     let changed = match changed() {
         Ok(changed) => changed,

@@ -233,7 +233,7 @@ fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
     sample.map_or_else(Vec2::zeros, |sample| sample.at.map(f64::round))
 }
 
-/// The source's times, evenly from its first to its last one; nothing where it does not say them.
+/// Times of the source, evenly spaced from first to last; `None` if they are missing.
 fn timestamps(first: &First, steps: usize) -> Option<Vec<f64>> {
     let count = first.steps.max(2) - 1;
     let step_s = (first.end - first.start) * 1e-9 / count as f64;

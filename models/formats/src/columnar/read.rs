@@ -88,7 +88,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadErro
 }
 
 impl ParquetTable {
-    /// Reads a file as a whole, and looks at what it says of itself.
+    /// Opens a file and checks its metadata.
     ///
     /// # Errors
     /// `malformed-file`, `decoded-too-large`, `cannot-represent` for more columns or rows than are read.
@@ -257,7 +257,7 @@ fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<OwnedValue>) ->
             let (mut values, mut levels) = (Vec::new(), Vec::new());
             let (records, known, _) = $reader.read_records(count, Some(&mut levels), None, &mut values)?;
             let mut values = values.into_iter().take(known).map($cell);
-            // Without levels every value is there.
+            // Without levels every value is present.
             let present = (0..records).map(|i| levels.get(i).is_none_or(|level| *level > 0));
             cells.extend(
                 present.map(|there| if there { values.next() } else { None }.unwrap_or(OwnedValue::Nothing)),

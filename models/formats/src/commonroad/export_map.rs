@@ -35,7 +35,7 @@ pub(super) struct MapElements<'a> {
 }
 
 impl<'a> MapElements<'a> {
-    /// Gives numbers to all that is drawn, and says what is not; signals go on for so many steps.
+    /// Numbers all elements that are drawn and reports the rest; signals cover so many steps.
     pub fn of(scene: &'a Scene, steps: usize, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;
         let number = |lane: &'a Lane| (lane.id.as_str(), (ids.take(&lane.id), lane.points.xy.len() - 1));

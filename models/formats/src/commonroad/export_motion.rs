@@ -23,7 +23,7 @@ pub(super) struct ScenarioAgent<'a> {
     pub shown: &'a Shown<'a>,
     /// Its number in the scenario.
     pub id: i64,
-    /// Its user fixed more than boxes and states say.
+    /// The user fixed more than boxes and states can hold.
     pub is_fixed: bool,
 }
 

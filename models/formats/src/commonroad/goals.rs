@@ -56,7 +56,7 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
     });
     let time_s = time_s.filter(|time_s| *time_s > 0.0).map(|time_s| time_s.clamp(DUE_S.0, DUE_S.1));
     let heading_rad = goal.heading_rad.map(|(from, to)| {
-        // The shorter way round, unless the file says that any heading will do.
+        // The shorter way round, unless the file accepts any heading.
         wrap_angle(from + (to - from) / 2.0)
     });
     let all_round = goal.heading_rad.is_some_and(|(from, to)| to - from > 6.0);

@@ -35,7 +35,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let mut planned = HashSet::new();
     for (i, problem) in document.problems.iter().enumerate() {
         let (mut agent, is_region) = goals::agent(problem, (&map, &lanes), clock);
-        // Some files say of the same road user how it went.
+        // Some files also have the recorded track of the problem's road user.
         let driven = document.obstacles.iter().find(|obstacle| obstacle.id == problem.id);
         match driven.and_then(|obstacle| motion::agent(obstacle, clock, &mut changed)) {
             Some(driven) => {

@@ -203,7 +203,7 @@ fn ground(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) -> bool {
             continue;
         }
         let (mut right, mut left) = sides::matched(&lanelet.left.points, &lanelet.right.points);
-        // Lanelets that are said to lie side by side do not always touch.
+        // Lanelets that the file lists as adjacent do not always touch.
         for (r, l) in right.iter_mut().zip(&mut left) {
             let out = (*r - *l) / (*r - *l).norm().max(1e-9) * BESIDE_M;
             *r += out * f64::from(u8::from(lanelet.right.beside.is_some()));

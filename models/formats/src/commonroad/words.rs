@@ -94,7 +94,7 @@ pub(super) fn marking(line_type: &str) -> &'static str {
     }
 }
 
-/// Signs that say how fast one may go, of all countries that the format knows.
+/// Speed limit signs of all countries that the format knows.
 pub(super) const MAX_SPEED_SIGNS: [&str; 10] =
     ["274", "274.1", "R2-1", "r301", "3.24", "R15", "C43", "B14", "B31", "\u{3a1}-32"];
 /// Signs at which one stops.
@@ -145,7 +145,7 @@ pub(super) fn road_user(word: &str) -> (AgentType, Subtype) {
     found.map_or((AgentType::Other, Subtype::Unknown), |(_, agent_type, subtype)| (*agent_type, *subtype))
 }
 
-/// The word for a road user, and whether it says all.
+/// Word of a road user, and whether it keeps the subtype.
 pub(super) fn road_user_word(agent_type: AgentType, subtype: Subtype) -> (&'static str, bool) {
     let of_type = || ROAD_USERS.iter().filter(|(_, known, _)| *known == agent_type);
     let exact = of_type().find(|(.., known)| *known == subtype);

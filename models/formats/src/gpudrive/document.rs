@@ -12,7 +12,7 @@ use std::fmt;
 
 /// Most bytes of a file once decompressed.
 const MAX_BYTES: u64 = 64 << 20;
-/// Most road users that are looked at.
+/// Most road users that are read.
 pub(super) const MAX_OBJECTS: usize = 2_048;
 /// Most points of a line.
 const MAX_LINE: usize = 100_000;

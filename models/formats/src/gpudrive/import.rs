@@ -18,7 +18,8 @@ use std::f64::consts::TAU;
 const LEAST_SIZE_M: f64 = 0.05;
 /// Above this speed motion follows the heading, m/s.
 const MOVES_MPS: f64 = 2.0;
-/// So many states say how headings are meant, when their mean cosine to the motion is above this.
+/// Least number of moving states, and least mean cosine of heading and motion, that decide the unit of
+/// headings.
 const ENOUGH: i32 = 10;
 const ALONG: f64 = 0.9;
 /// Numbers of the map elements by kind: where the words of lines and edges begin.

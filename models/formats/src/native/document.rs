@@ -176,7 +176,7 @@ pub struct SceneDoc {
     pub extra: Members<AnyDoc>,
 }
 
-/// Schema of "other members only under `x_` keys", which serde's flatten cannot say.
+/// Schema of "other members only under `x_` keys", which serde's flatten cannot express.
 fn only_x_members(schema: &mut Schema) {
     schema.insert("additionalProperties".into(), false.into());
     schema.insert("patternProperties".into(), serde_json::json!({"^x_": true}));

@@ -24,7 +24,7 @@ struct ScenarioEntity<'a> {
     name: String,
     agent: &'a Agent,
     shown: Shown<'a>,
-    /// Steps at which it is there, one at least.
+    /// Steps with a state, at least one.
     states: Vec<(usize, State)>,
 }
 
@@ -108,7 +108,7 @@ fn header(scene: &Scene, out: &mut Markup) {
     out.close();
 }
 
-/// Road users that are there at some step, each with a name of its own.
+/// Road users with a state at some step, each with a unique name.
 fn road_users<'a>(
     scene: &'a Scene,
     options: &ExportOptions,

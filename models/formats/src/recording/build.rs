@@ -53,7 +53,7 @@ pub(crate) struct RecordedFuture {
     pub samples: Vec<RecordedState>,
 }
 
-/// All that a file says of a scenario.
+/// Content of a scenario in a file.
 #[derive(Default)]
 pub(crate) struct Recording {
     pub said: Said,
@@ -113,7 +113,7 @@ impl PreparedRecording {
         let windowed = steps > MAX_STEPS;
         let mut list: Vec<usize> = vec![0];
         if windowed {
-            // Those in which anybody is seen: pauses may be as long as they like.
+            // Only windows with a road user: pauses may have any length.
             let window_s = RECORDED_STEPS as f64 * STEP_S;
             let at =
                 |s: &RecordedState| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
@@ -355,7 +355,7 @@ fn can_be(state: &State) -> bool {
     state.position().amax() <= 2.0 * MAX_COORDINATE_M && state.velocity().amax() <= MAX_SPEED_MPS
 }
 
-/// One answer for several road users; probabilities that are not said are even.
+/// One sample for several road users; missing probabilities are even.
 fn answer(agents: Futures<'_>) -> scene::Sample {
     let of_agent = |mut list: Vec<(&RecordedFuture, Future)>| {
         list.sort_by_key(|(drawn, _)| drawn.mode);

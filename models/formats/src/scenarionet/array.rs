@@ -73,7 +73,7 @@ impl Array {
         self.shape.iter().try_fold(1, |all: usize, n| all.checked_mul(*n)).unwrap_or(usize::MAX)
     }
 
-    /// Its bytes are as many as its shape says.
+    /// Its number of bytes matches its shape.
     pub fn is_whole(&self) -> bool {
         let bytes = self.dtype.and_then(|dtype| self.len().checked_mul(dtype.size));
         self.len() <= MAX_ITEMS && bytes == Some(self.data.len())

@@ -20,7 +20,7 @@ use std::io::Read;
 
 /// Most bytes of a file once decompressed.
 const MAX_BYTES: u64 = 64 << 20;
-/// Most road users that are looked at.
+/// Most road users that are read.
 const MAX_TRACKS: usize = 2_048;
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;

@@ -216,7 +216,7 @@ impl<'a> Machine<'a> {
         if place >= MAX_MEMO {
             return Err(self.too_many(MAX_MEMO, "things to remember"));
         }
-        // Places come one after another; a far one may not ask for all before it.
+        // Memo indices are consecutive; a large one must not allocate all before it.
         if place > self.memo.len() + 1024 {
             return Err(self.broken("a place of the memory out of turn"));
         }

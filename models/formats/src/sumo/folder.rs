@@ -17,7 +17,7 @@ use zip::ZipArchive;
 
 /// Memory per byte of the zip until it is a scene, bytes.
 const FOLDER_MEMORY: u64 = 4;
-/// Most files of a zip that are looked at.
+/// Most files of a zip that are read.
 const MAX_FILES: usize = 1_000;
 /// Position of the first file's name in a zip: its length, and its beginning.
 const NAME_LENGTH: std::ops::Range<usize> = 26..28;

@@ -41,7 +41,7 @@ struct FcdAgent {
 /// Persons and vehicles may share an id.
 type Key = (String, bool);
 
-/// Scenes of a recording, one a window in which anybody is seen.
+/// Scenes of a recording, one per window with at least one road user.
 pub(super) struct Windows<'a> {
     rows: FcdRows<'a>,
     common: FcdContext,

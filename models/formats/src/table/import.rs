@@ -104,7 +104,7 @@ impl<'a> Scenarios<'a> {
             return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
         }
         rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
-        // Notes of others under our key say nothing.
+        // Notes of another program under our key are ignored.
         let notes =
             rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
         Ok(Self {

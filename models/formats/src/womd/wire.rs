@@ -1,6 +1,6 @@
-//! A look over a record's protobuf bytes before they become structs: every length fits, and no
-//! repeated message is more frequent than a scene can use. A two-byte message becomes a struct of up
-//! to a hundred bytes, so without this a small file could ask for gigabytes.
+//! A look over a record's protobuf bytes before they become structs: every length fits, and no repeated
+//! message is more frequent than a scene can use. A two-byte message becomes a struct of up to a hundred
+//! bytes, so without this check a small file could allocate gigabytes.
 
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ReadError, code};

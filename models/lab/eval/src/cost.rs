@@ -116,7 +116,7 @@ fn points(map: &LaneMap) -> usize {
     lanes.chain(map.road_edges.iter().map(|edge| edge.points.xy.len())).sum()
 }
 
-/// Road users that are there at the first step, moving ones first.
+/// Road users present at the first step, moving ones first.
 fn movable(scene: &Scene, most: usize) -> BTreeSet<AgentId> {
     let mut all: Vec<&scene::Agent> =
         scene.agents.iter().filter(|a| a.agent_type != AgentType::Other && a.state_at(0).is_some()).collect();

@@ -27,7 +27,7 @@ pub struct CropReport {
 pub struct EvalReport {
     /// Seed.
     pub seed: u64,
-    /// Scenes looked at.
+    /// Scenes evaluated.
     pub scenes: usize,
     /// Effect of the crop before the evaluation; `None` without a crop.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -14,11 +14,11 @@ const PAST_EDGE_M: f64 = 0.1;
 /// Steps that a vehicle spends off the road: of every third step at which its log is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OffRoad {
-    /// Steps looked at.
+    /// Steps evaluated.
     pub steps: f64,
     /// Those more than 2.5 m off every lane.
     pub off_lanes: f64,
-    /// Steps looked at where the map has edges.
+    /// Steps evaluated where the map has edges.
     pub edge_steps: f64,
     /// Those with a corner past a road edge.
     pub past_edges: f64,

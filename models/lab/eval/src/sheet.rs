@@ -101,7 +101,7 @@ pub struct Sheet {
     pub title: String,
     /// Sentences under the heading: protocol, units.
     pub notes: Vec<String>,
-    /// Names of the columns that say what a line is about.
+    /// Names of the columns with a row's keys.
     pub keys: Vec<String>,
     /// Names of the columns of figures, with units.
     pub columns: Vec<String>,

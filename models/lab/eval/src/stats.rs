@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn scenes_not_values_are_resampled() {
-        // A thousand equal values a scene say no more than one.
+        // A thousand equal values per scene carry no more information than one.
         let few = Bootstrap::new(20, 1).estimate((0..20).map(|s| Value::new(s, s as f64))).unwrap();
         let many: Vec<Value> = (0..20_000).map(|i| Value::new(i % 20, (i % 20) as f64)).collect();
         let many = Bootstrap::new(20, 1).estimate(many).unwrap();

@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 /// Most road users of one call.
 const MOST: usize = 128;
-/// Every third step is looked at, the start left out.
+/// Every third step is evaluated, without the start.
 pub const STRIDE: usize = 3;
-/// Moments looked at.
+/// Number of evaluated moments.
 pub const MOMENTS: usize = HORIZON_STEPS / STRIDE;
 /// Intersection over union above which the paper calls it a collision.
 pub const PAPER_IOU: f64 = 0.02;
-/// A goal this near a road user's start asks for no motion, metres.
+/// A goal this near a road user's start requires no motion, metres.
 const IN_PLACE_M: f64 = 0.3;
 /// A log that leaves its place by less than this stands, metres.
 const STANDING_M: f64 = 2.0;

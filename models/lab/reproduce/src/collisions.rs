@@ -21,7 +21,7 @@ const METHODS: [Method; 4] = [Method::Mixture, Method::Paper, Method::OursTraine
 /// Options of Table II.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CollisionOptions {
-    /// Intersection over union above which two boxes collide; the paper does not say its own.
+    /// Intersection over union above which two boxes collide; the paper does not state its own.
     pub iou: f64,
     /// Scenes chosen for pedestrians and for cyclists, at most.
     pub most: [usize; 2],

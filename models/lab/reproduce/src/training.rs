@@ -51,7 +51,7 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// The paper's: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it says 0.0004, which would be no decay).
+    /// The paper's: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it states 0.0004, which would be no decay).
     /// It gives no batch size, and no separate length for the initializer, which takes that of the other
     /// regressors.
     pub const PAPER: Self = Self {

@@ -13,7 +13,7 @@ use scene::{AgentType, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Steps of a window that are looked at; between them the traffic has moved on.
+/// Steps of a window that are read; they lie far enough apart for the traffic to move on.
 const STEPS: [usize; 3] = [0, 45, 90];
 /// Sweeps over the factors; each step is exact for one feature, and they settle quickly.
 const SWEEPS: usize = 60;
@@ -261,7 +261,7 @@ impl Sums {
     }
 }
 
-/// Three digits are what the data say.
+/// The data support three digits.
 fn short(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;

@@ -69,7 +69,7 @@ fn writable(app: &App, id: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Merge patch of what people say about a scene.
+/// Merge patch of a scene's metadata.
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ScenePatch {

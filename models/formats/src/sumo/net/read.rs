@@ -198,7 +198,7 @@ fn edge(element: &Element) -> Result<Option<NetEdge>, SumoError> {
     }))
 }
 
-/// A lane; its place in the network is for the caller to say.
+/// A lane; the caller knows its position in the network.
 fn lane(element: &Element, function: EdgeFunction, heights: &mut bool) -> Result<NetLane, SumoError> {
     let has_width = element.get("width").is_some();
     Ok(NetLane {

@@ -1,5 +1,5 @@
-//! Table 1: how far futures are from what really happened, one road user at a time, nothing known of
-//! anybody's future but the goal that is stated.
+//! Table 1: distance of futures from the recorded motion, one road user at a time. The only known future is
+//! the stated goal.
 
 mod sheets;
 

@@ -53,7 +53,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Least time to collision; `None` where it was not looked at.
+    /// Least time to collision; `None` if it was not evaluated.
     pub(super) fn time_to_collision_s(&self) -> Option<f64> {
         self.values[TIME_TO_COLLISION].iter().copied().reduce(f64::min)
     }

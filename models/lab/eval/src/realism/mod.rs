@@ -103,7 +103,7 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasur
     let rollouts = roller.rollouts(site, seed)?;
     let seen: Vec<Vec<Motion>> = rollouts.iter().map(|m| observe(site, &edges, m, &cases)).collect();
     let mut motions: [Vec<f64>; 3] = Default::default();
-    // A few rollouts say enough about distributions.
+    // A few rollouts suffice to compare distributions.
     for (case, motion) in seen.iter().take(4).flat_map(|rollout| site.cases.iter().zip(rollout)) {
         if case.agent_type == scene::AgentType::Vehicle {
             for (all, values) in motions.iter_mut().zip(motion.felt()) {

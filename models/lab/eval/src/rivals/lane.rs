@@ -17,7 +17,7 @@ const TIME_GAP_S: f64 = 1.5;
 const STANDING_GAP_M: f64 = 2.0;
 /// Hardest braking, m/s2.
 const HARDEST: f64 = 8.0;
-/// A light that asks for more braking is driven through, m/s2.
+/// A light that requires more braking than this is driven through, m/s2.
 const TOO_LATE: f64 = 5.0;
 
 /// Obstacle ahead: gap from the own front to its bumper now, metres, and its speed, m/s.

@@ -107,7 +107,7 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
     })
 }
 
-/// A map without anybody, then road users on it, then their motion.
+/// A map without road users, then placed road users, then their motion.
 fn creating(site: &Site<'_>, engine: &Engine, seed: u64) -> Result<Panel> {
     let mut scene = site.blind.clone();
     let middle = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego")).or(scene.agents.first());

@@ -47,7 +47,7 @@ struct OfFile {
     free: Vec<CaseRecords>,
 }
 
-/// Reads all files; writes the records and says what there is. Places of `test` are never learned from.
+/// Reads all files; writes the records and returns the sets. Places of `test` are never learned from.
 ///
 /// # Errors
 /// When nothing can be read, records cannot be written, or the run is stopped.

@@ -11,7 +11,7 @@ const APART_STEPS: usize = 30;
 pub(super) const INTERACTIVE_M: f64 = 10.0;
 /// A road user that moves no farther than this counts in no encounter, metres.
 const MOVES_M: f64 = 2.0;
-/// Every other step is looked at.
+/// Every other step is checked.
 const STRIDE: usize = 2;
 
 /// Of pairs of a road user of this type and one of another type that both move, in the first 9 s of the log: how many

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 /// Counts of records and of exclusions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PrepareReport {
-    /// Files looked at.
+    /// Files read.
     pub files: usize,
     /// Scenes read from them.
     pub scenes: usize,
@@ -49,7 +49,7 @@ pub struct LeftOut {
     pub too_short: usize,
     /// Standing road users that were not drawn.
     pub standing: usize,
-    /// Those not looked at because the scene has its share.
+    /// Road users skipped because the scene has its share.
     pub over_the_scenes_limit: usize,
     /// Road users beyond the limit of records in all.
     pub over_the_files_limit: usize,

@@ -142,8 +142,8 @@ pub(super) fn initial(
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
 }
 
-/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores say how
-/// often each mode comes nearest. Which answer to show is another question: the choice asks for the least
+/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores
+/// estimate how often each mode comes nearest. The choice of the shown answer is separate: it takes the least
 /// expected distance.
 pub(crate) fn index(score: &[f32; MODES], best: usize) -> (f32, [f32; MODES]) {
     let given = softmax(score);

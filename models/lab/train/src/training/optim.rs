@@ -35,7 +35,7 @@ pub(super) struct AdamW {
 }
 
 impl AdamW {
-    /// At rest; `share` says with which share of the rate a parameter learns.
+    /// At rest; `share` is the share of the rate with which a parameter learns.
     pub(super) fn new(vars: &BTreeMap<String, Var>, share: impl Fn(&str) -> f64) -> Result<Self, TrainError> {
         let mut moments = BTreeMap::new();
         for (name, var) in vars {
