@@ -12,7 +12,7 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Numbers free beside those that these ids already use.
+    /// Reserves the numbers of these ids; free numbers start after the largest.
     pub fn of<'a>(ids: impl Iterator<Item = &'a String>) -> Self {
         let own: HashSet<i64> = ids.filter_map(|id| number(id)).collect();
         let next = own.iter().max().map_or(1, |most| most + 1);
