@@ -130,7 +130,7 @@ fn a_goal_says_who_is_regenerated() {
     let file: Value = serde_json::from_slice(&printed(&flags)).unwrap();
     assert_eq!(file["generated"]["samples"][0]["agents"], sent["samples"][0]["agents"]);
     assert_eq!(file["generated"]["request"], sent["generated"]["request"]);
-    // A start alone sends nobody anywhere: all are regenerated, as without conditions.
+    // A start without a goal selects no road user: all are regenerated, as without conditions.
     let body = json!({"scene": demo(), "conditions": {"6": {"start": {"speed_mps": 3.0}}}, "steps": 0});
     let (request, _) = opened::<GenerateRequest>(&body);
     assert!(matches!(request.chosen_agents(), AgentChoice::All(_)));

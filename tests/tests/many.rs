@@ -89,7 +89,7 @@ fn the_documented_task_runs_and_repeats() {
         assert_eq!(scene["generated"]["request"]["agents"], json!([row["actor"]]));
         assert_eq!(scene["generated"]["seed"].to_string(), row["seed"]);
     }
-    // What was written holds when it is scored again.
+    // The written scenes satisfy the filter when they are scored again.
     let (text, told) =
         ends(first, &["score", "found", "--where", "!(actor.min_ttc_s < 1.5 && collisions == 0)"], 0);
     assert!(text.is_empty() && told.contains(&format!("0 of {} hold", rows.len())), "{text}{told}");
@@ -293,7 +293,7 @@ fn many_files_have_one_verdict_each() {
     );
     assert_eq!(ends(folder.path(), &["-q", "convert", "in", "--to", "csv", "-o", "t.csv"], 0).1, "");
     assert_eq!(std::fs::read_to_string(at("t.csv")).unwrap(), csv);
-    // One bad file fails alone, and is told by its name.
+    // One bad file fails without the others, and the message names it.
     std::fs::write(at("in/bad.json"), "{").unwrap();
     let (text, told) = ends(folder.path(), &["score", "in", "--csv", "scores.csv"], 4);
     assert!(
@@ -305,7 +305,7 @@ fn many_files_have_one_verdict_each() {
     assert!(told.contains("1 of 7 files failed"), "{told}");
     ends(folder.path(), &["score", "in/bad.json"], 3);
     ends(folder.path(), &["score", "nothing/*.json"], 3);
-    // Who is not in every scene.
+    // A road user that some scenes lack.
     let told =
         ends(folder.path(), &["generate", "in/s*.json", "--agents", "3", "--seeds", "2", "-o", "gen/"], 4).1;
     assert!(told.contains("s1, seed 0: --agents: the scene has no road user \"3\""), "{told}");

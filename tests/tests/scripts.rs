@@ -65,7 +65,7 @@ fn edits_chain() {
     ask["kept_futures"] = json!("forgotten");
     let forgotten = answer(&ask);
     assert_eq!(forgotten["samples"][0]["agents"], agents(&third));
-    // What is said of 6 anew is not what its future answers.
+    // A new condition on road user 6 makes its kept future stale.
     ask["kept_futures"] = json!("answered");
     ask["conditions"] = json!({"6": {"goal": {"speed_mps": 3.0}}});
     assert_eq!(answer(&ask)["generated"]["stale"], true);

@@ -1,4 +1,4 @@
-//! What can be wrong with outside data, in one shape for every format.
+//! Faults of outside data, in one shape for every format.
 
 use crate::sentences;
 use scene::message::Message;
@@ -38,8 +38,8 @@ pub fn pointer_token(text: &str) -> String {
     text.replace('~', "~0").replace('/', "~1")
 }
 
-/// Says in a schema of something written that members which may be absent are never null there: they are
-/// left out instead. For types whose optional members are all skipped when there is none.
+/// Transform for the schema of output types: optional members are omitted, never null. For types that skip
+/// every `None` member.
 pub fn never_null(schema: &mut Schema) {
     let required: Vec<String> = schema
         .get("required")
@@ -79,7 +79,7 @@ pub struct FieldProblem {
     pub pointer: String,
     /// A word that programs can switch on.
     pub code: &'static str,
-    /// What was found and what was expected, for people.
+    /// Value found and value expected, for people.
     pub detail: String,
     /// Least value allowed, where that is the fault.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,7 +117,7 @@ impl FieldProblem {
 
     /// A number outside `min..=max`.
     pub fn range(pointer: impl Into<String>, min: f64, max: f64, got: f64) -> Self {
-        // A number of hundreds of digits helps nobody.
+        // A number with hundreds of digits is unreadable.
         let found = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
         let detail = format!("{found} found, {min} to {max} expected");
         Self {
@@ -144,7 +144,7 @@ impl From<SceneError> for FieldProblem {
     }
 }
 
-/// What sort of refusal it is; decides the HTTP status.
+/// Kind of refusal; decides the HTTP status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RefusalKind {
     /// The text is not JSON (400). Both count from one.
@@ -156,7 +156,7 @@ pub enum RefusalKind {
     },
     /// A binary file is broken at this byte of its decoded form (400).
     MalformedFile {
-        /// Where.
+        /// Byte offset.
         offset: u64,
     },
     /// The decoded form is larger than allowed (413).

@@ -100,7 +100,7 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     if let Some((BY_CONTENT.., format)) = best {
         return Ok(format);
     }
-    // What a file holds says more than what it is called.
+    // Content counts more than the file name.
     let ends: Vec<&str> = FORMATS.iter().flat_map(|format| format.info().extensions).copied().collect();
     if let Some(refusal) = kinds::refusal(bytes, name, &ends) {
         return Err(refusal);
@@ -121,7 +121,7 @@ pub fn import(
     Ok(scenes(&bytes, name, format, options)?.collect())
 }
 
-/// The same, one scene after another: each is read when it is asked for.
+/// The same, lazily: each scene is read on demand.
 ///
 /// # Errors
 /// `format-unknown`.
@@ -143,7 +143,7 @@ pub fn scenes<'a>(
     Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
-/// The name of a file without the ends of formats and of compression, which say nothing about the scene.
+/// Name of a file without the extensions of formats and compression.
 pub fn stem(name: &str) -> &str {
     let formats = FORMATS.iter().flat_map(|format| format.info().extensions);
     let ends: Vec<&str> = formats.chain(&COMPRESSED).copied().collect();
@@ -163,7 +163,7 @@ fn without(name: &str, end: &str) -> Option<usize> {
     behind.eq_ignore_ascii_case(end).then_some(length)
 }
 
-/// What a scene is called that its file gives no name: as the file, else as what the format is of.
+/// Name of a scene without one in its file: the file's name, else what the format holds.
 fn called(file: &str, info: &Info) -> String {
     let file: String = file.chars().filter(|c| !c.is_control()).collect();
     let stem = stem(file.rsplit(['/', '\\']).next().unwrap_or_default()).trim();

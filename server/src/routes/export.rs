@@ -28,7 +28,7 @@ pub struct ExportParams {
     format: String,
     /// Which sample of the generated futures; the chosen one when absent.
     sample: Option<usize>,
-    /// `chosen` futures, or the `log` alone.
+    /// `chosen` futures, or only the `log`.
     #[param(default = "chosen", value_type = String, pattern = "^(chosen|log)$")]
     mode: MotionChoice,
 }

@@ -19,7 +19,7 @@ const SPACING_M: f64 = 2.0;
 /// Lanes are followed this far beyond their ends where edges of the ground are looked for, metres: the ground is cut
 /// off where the map ends, and that is no kerb.
 const BEYOND_M: f64 = 2.0;
-/// Lines whose ends are as near as this are one, metres.
+/// Lines whose ends are at most this far apart are the same line, metres.
 const SAME_M: f64 = 0.05;
 
 #[derive(Clone, Copy, Deserialize)]
@@ -257,7 +257,7 @@ fn link(segments: &[&Segment], map: &mut LaneMap) {
     }
 }
 
-/// Draws the painted sides of lanes, each once, and says whom they bound.
+/// Draws the painted sides of lanes, each once, and links them to the lanes that they bound.
 fn paint(segments: &[&Segment], origin: Vec2, map: &mut LaneMap) {
     // A line is the side of two lanes: it is known by its ends, in either order.
     let mut drawn: HashMap<[(i64, i64); 2], String> = HashMap::new();

@@ -192,10 +192,10 @@ pub struct AgentDoc {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub height_m: Option<f64>,
-    /// What was recorded; empty when absent.
+    /// Recorded track; empty when absent.
     #[serde(default)]
     pub track: TrackDoc,
-    /// What the user fixed.
+    /// Conditions fixed by the user.
     #[serde(default)]
     pub conditions: ConditionsDoc,
 }

@@ -89,7 +89,7 @@ fn header(scene: &Scene, out: &mut Markup) {
     out.close();
 }
 
-/// What stands and lies beside roads, by road.
+/// Objects beside each road.
 #[derive(Default)]
 struct Roadside {
     /// Lights: position among the scene's, where traffic stops.

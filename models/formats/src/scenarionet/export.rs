@@ -14,7 +14,7 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Version of the scenario's description.
 const VERSION: &str = "MetaDrive v0.4.3";
-/// What the data set is called.
+/// Name of the data set.
 const DATASET: &str = "dragtraffic";
 
 /// Writes a scene, in its own frame; where that lies is in the metadata.
@@ -82,7 +82,7 @@ fn metadata(scene: &Scene, steps: usize, id: &str, w: &mut PickleWriter) {
     });
 }
 
-/// What the format has no word for and readers of it pass over.
+/// Members that the format lacks and other readers ignore.
 fn own(scene: &Scene, w: &mut PickleWriter) {
     let meta = &scene.meta;
     w.dict(|w| {

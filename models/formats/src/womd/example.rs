@@ -24,7 +24,7 @@ const PAST: usize = NOW_STEP;
 const FUTURE: usize = 80;
 /// Distance of points of roads at least, metres; twice as far as long as there is no room for them.
 const SPACING_M: f64 = 0.5;
-/// What stands where there is nothing.
+/// Value of an empty slot.
 const NOTHING: f32 = -1.0;
 /// Numbers of kinds of points: the first of painted lines and of edges, and those of signs and areas.
 const FIRST_LINE: i64 = 5;
@@ -147,7 +147,7 @@ fn is_valid(state: &&ObjectState) -> bool {
     state.valid == Some(true)
 }
 
-/// Tracks that there is room for: the ego, those to be predicted, and who is nearest to them.
+/// Tracks that fit the record: the ego, those to be predicted, and the nearest to them.
 fn kept(scenario: &Scenario, now: usize, losses: &mut BTreeSet<Loss>) -> Vec<usize> {
     let tracks = &scenario.tracks;
     if tracks.len() <= ROOM.0 {
@@ -309,7 +309,7 @@ impl MapLine {
         self.kind >= STOP_SIGN
     }
 
-    /// How many points it has at a spacing.
+    /// Number of points at a spacing.
     fn count(&self, spacing_m: f64) -> usize {
         if self.is_area() || self.points.len() < 2 {
             return self.points.len();
@@ -341,7 +341,7 @@ fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>
     let lines: Vec<MapLine> = features.iter().filter_map(MapLine::of).collect();
     let count = |spacing_m: f64| lines.iter().map(|line| line.count(spacing_m)).sum::<usize>();
     let mut spacing_m = SPACING_M;
-    // Beyond some spacing each line has its two ends alone.
+    // At a large enough spacing each line has only its two ends.
     while count(spacing_m) > ROOM.2 && spacing_m < 1e6 {
         spacing_m *= 2.0;
     }

@@ -108,7 +108,7 @@ fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>)
     ScenarioRollouts { scenario_id: Some(record_id(scene).clone()), joint_scenes }
 }
 
-/// The 80 steps behind the present one of somebody who is there now.
+/// The 80 steps after the present one, for a road user that is present.
 fn rollout(
     scene: &Scene,
     agent: &Agent,

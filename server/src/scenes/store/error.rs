@@ -1,4 +1,4 @@
-//! What can go wrong with the store, and what callers are told.
+//! Errors of the store, and their messages to callers.
 
 use super::migrations;
 use crate::base::problem::Refusal;

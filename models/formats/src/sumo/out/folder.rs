@@ -54,7 +54,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     Ok(Exported { bytes: pack::zip(&files)?, losses: losses.into_iter().collect() })
 }
 
-/// What `sumo -c` runs: as long as the scene, in its steps.
+/// Configuration for `sumo -c`: length and step of the scene.
 fn configuration(name: &str, steps: usize) -> Vec<u8> {
     let mut out = Markup::new();
     out.open("configuration", &[]);
