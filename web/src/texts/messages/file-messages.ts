@@ -2,11 +2,24 @@
 import { plural, table, type Values } from '../table';
 
 export const SENTENCES = table('file-messages', {
-  lists: { subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' } },
+  lists: {
+    fault: {
+      'cut-off': 'the file is cut off',
+      'no-value': 'a value is missing',
+      'no-sign': 'a comma, colon or bracket is missing',
+      comma: 'one comma too many',
+      'text-after': 'text follows after the end',
+      'no-quotes': 'a name has no quotes',
+      number: 'a number is invalid',
+      text: 'a text is invalid',
+    },
+    subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' },
+  },
   sentences: {
     'agents-near-ego': (v: Values) => `${v.found} road users; the ${v.kept} nearest to the ego are kept`,
     'agents-near-centre': (v: Values) =>
       `${v.found} road users; the ${v.kept} nearest to their centre are kept, within ${v.within_m} of the origin`,
+    'agents-over-limit': (v: Values) => `The scene has ${v.agents} road users; at most ${v.most}.`,
     'agents-with-used-id': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} obstacle with the id of another obstacle is left out`,
@@ -22,6 +35,8 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} drivable area reaches farther than ${v.within_m} from the centre and is left out`,
         other: `${v.count} drivable areas reach farther than ${v.within_m} from the centre and are left out`,
       }),
+    'columns-missing': (v: Values) =>
+      `No column ${v.missing}; there are ${v.columns}. A file of columns can name them.`,
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
     'crossing-lanelets': 'Lanelets overlap too often to find the edges of the road',
     'crossing-roads': 'Roads overlap too often to find their edges',
@@ -99,6 +114,7 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} lane open to no road user (rails, strips) is left out`,
         other: `${v.count} lanes open to no road user (rails, strips) are left out`,
       }),
+    'json-syntax': (v: Values) => `Not valid JSON: ${v.fault}.`,
     'lane-links-derived': 'The file does not link its lanes: a lane that ends where another one begins is linked to it',
     'lane-segments-unusable': (v: Values) =>
       plural(Number(v.count), {
@@ -160,6 +176,7 @@ export const SENTENCES = table('file-messages', {
     'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
     'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
+    'not-a-known-format': (v: Values) => `Not a file of a known format (${v.formats}).`,
     'now-step-moved': (v: Values) => `The current step is ${v.now} of ${v.steps}: the last step is used`,
     'obstacles-absent': (v: Values) =>
       plural(Number(v.count), {
@@ -186,6 +203,11 @@ export const SENTENCES = table('file-messages', {
       plural(Number(v.count), {
         one: `${v.count} container or passenger is left out`,
         other: `${v.count} containers and passengers are left out`,
+      }),
+    'points-out-of-range': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} point; ${v.least} to ${v.most} expected`,
+        other: `${v.count} points; ${v.least} to ${v.most} expected`,
       }),
     'programs-beyond-last': 'A signal has several programs; the last one is shown',
     'projection-dropped': 'Positions stay in the frame of the network; its projection is not kept',

@@ -17,11 +17,9 @@ export const SENTENCES = table('messages', {
       `Cannot stop that soon. Braking from ${v.start_mps} takes ${v.least_m}; the goal is ${v.goal_m} away.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
     'goal-too-slow': (v: Values) =>
       `Cannot brake that much in ${v.time_s}.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
-    'goal-too-tight': (v: Values) =>
-      `Too tight at this speed.${v.need_mps2 && ` Required: ${v.need_mps2} sideways.`}`,
+    'goal-too-tight': (v: Values) => `Too tight at this speed.${v.need_mps2 && ` Required: ${v.need_mps2} sideways.`}`,
     'goal-turn-too-tight': (v: Values) => `The turn is too tight for ${v.kind}.`,
-    'goal-blocked': (v: Values) =>
-      `Road user ${v.agent} blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
+    'goal-blocked': (v: Values) => `Road user ${v.agent} blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
     'goal-blocked-by-traffic': (v: Values) =>
       `Another road user blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
     'goal-off-road': (v: Values) => `There is no lane within ${v.within_m} of the goal.`,

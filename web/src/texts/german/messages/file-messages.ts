@@ -4,12 +4,23 @@ import { plural } from '../plural';
 
 export const german: Said<typeof SENTENCES> = {
   lists: {
+    fault: {
+      'cut-off': 'die Datei bricht ab',
+      'no-value': 'es fehlt ein Wert',
+      'no-sign': 'es fehlt ein Komma, ein Doppelpunkt oder eine Klammer',
+      comma: 'ein Komma zu viel',
+      'text-after': 'nach dem Ende folgt weiterer Text',
+      'no-quotes': 'ein Name steht ohne Anführungszeichen',
+      number: 'eine Zahl ist ungültig',
+      text: 'ein Text ist ungültig',
+    },
     subject: { 'road-users': 'Verkehrsteilnehmer', 'map-features': 'Kartenelemente', tracks: 'Trajektorien' },
   },
   sentences: {
     'agents-near-ego': (v: Values) => `${v.found} Verkehrsteilnehmer; die ${v.kept} nächsten am Ego-Fahrzeug bleiben`,
     'agents-near-centre': (v: Values) =>
       `${v.found} Verkehrsteilnehmer; die ${v.kept} nächsten an ihrer Mitte bleiben, bis ${v.within_m} um den Ursprung`,
+    'agents-over-limit': (v: Values) => `Die Szene hat ${v.agents} Verkehrsteilnehmer; höchstens ${v.most}.`,
     'agents-with-used-id': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Hindernis mit der Kennung eines anderen entfällt`,
@@ -25,6 +36,8 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} befahrbare Fläche reicht weiter als ${v.within_m} von der Mitte und entfällt`,
         other: `${v.count} befahrbare Flächen reichen weiter als ${v.within_m} von der Mitte und entfallen`,
       }),
+    'columns-missing': (v: Values) =>
+      `Keine Spalte ${v.missing}; vorhanden sind ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
     'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-lanelets': 'Lanelets überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-roads': 'Straßen überlappen sich zu oft, um ihre Ränder zu bestimmen',
@@ -103,6 +116,7 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} Spur, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfällt`,
         other: `${v.count} Spuren, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfallen`,
       }),
+    'json-syntax': (v: Values) => `Kein gültiges JSON: ${v.fault}.`,
     'lane-links-derived':
       'Die Datei verbindet ihre Spuren nicht: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden',
     'lane-segments-unusable': (v: Values) =>
@@ -165,6 +179,7 @@ export const german: Said<typeof SENTENCES> = {
     'map-missing': 'Zum Szenario kam keine Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
     'moved-by-metadrive': 'MetaDrive hat die Datei verschoben und gedreht; der Ort der Aufzeichnung ist unbekannt',
     'network-missing': 'Zur Aufzeichnung kam kein Netz: Die Szene hat weder Spuren noch Ampeln',
+    'not-a-known-format': (v: Values) => `Keine Datei eines bekannten Formats (${v.formats}).`,
     'now-step-moved': (v: Values) => `Der aktuelle Schritt ist ${v.now} von ${v.steps}: Genommen wird der letzte`,
     'obstacles-absent': (v: Values) =>
       plural(Number(v.count), {
@@ -191,6 +206,11 @@ export const german: Said<typeof SENTENCES> = {
       plural(Number(v.count), {
         one: `${v.count} Container oder Fahrgast entfällt bisher`,
         other: `${v.count} Container und Fahrgäste entfallen bisher`,
+      }),
+    'points-out-of-range': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Punkt; ${v.least} bis ${v.most} erwartet`,
+        other: `${v.count} Punkte; ${v.least} bis ${v.most} erwartet`,
       }),
     'programs-beyond-last': 'Eine Ampel hat mehrere Programme; gezeigt wird das letzte',
     'projection-dropped': 'Orte bleiben im Bezugssystem des Netzes; seine Projektion geht verloren',
