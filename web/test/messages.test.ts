@@ -61,11 +61,11 @@ describe('sentences of the server', () => {
     const far = { time_s: 4, goal_m: 61, start_mps: 13.9, kind: 'vehicle', most_m: 48.2 };
     const text = () => messageText({ code: 'goal-too-far', values: far });
     expect(text()).toBe(
-      'Too far for 4.0 s. The goal is 61 m away. In 4.0 s from 50 km/h this vehicle gets 48 m at most.',
+      'Too far for 4.0 s. The goal is 61 m away. From 50 km/h, this vehicle covers at most 48 m in 4.0 s.',
     );
     toldIn('mph');
     expect(text()).toBe(
-      'Too far for 4.0 s. The goal is 200 ft away. In 4.0 s from 31 mph this vehicle gets 158 ft at most.',
+      'Too far for 4.0 s. The goal is 200 ft away. From 31 mph, this vehicle covers at most 158 ft in 4.0 s.',
     );
     toldIn('km/h');
     const walking = messageText({ code: 'goal-too-fast', values: { time_s: 2, start_mps: 1.4, kind: 'pedestrian' } });
@@ -75,7 +75,7 @@ describe('sentences of the server', () => {
   it('say since when they hold, and name arms and lists in the words of the page', () => {
     const values = { since_s: 9, kind: 'cyclist' };
     expect(messageText({ code: 'goal-turn-too-tight', values })).toBe(
-      'From 9.0 s on: Too tight a turn for this cyclist.',
+      'From 9.0 s on: The turn is too tight for this cyclist.',
     );
     const arms = { first: 'North', second: 'North-west 2' };
     expect(messageText({ code: 'greens-conflict', values: arms }, '', MAPS)).toBe(

@@ -291,7 +291,7 @@ scene::messages! {
     steps_beyond_limit(length_s: f64, kept: usize) =
         "steps-beyond-limit", "The file lasts {length_s:.1} s; the first {kept} steps of 0.1 s are kept";
     steps_coarse(apart_s: f64, filled_s: f64) =
-        "steps-coarse", "Time steps are {apart_s:.1} s apart; gaps longer than {filled_s} s stay gaps";
+        "steps-coarse", "Time steps are {apart_s:.1} s apart; gaps longer than {filled_s} s remain";
     stop_points_vary() = "stop-points-vary", "A signal has several stop points; its first one is kept";
     time_resampled(apart_s: f64, step_s: f64) =
         "time-resampled", "Rows are {apart_s:.3} s apart; states are computed every {step_s} s";

@@ -90,7 +90,7 @@ impl TrackDoc {
         ];
         for (name, column) in columns.into_iter().chain(self.z_m.as_ref().map(|z| ("z_m", z))) {
             if column.len() != steps {
-                let detail = format!("{} values, as many as x_m ({steps}) expected", column.len());
+                let detail = format!("{} values; {steps} expected, as in x_m", column.len());
                 problems.invalid(format!("{pointer}/{name}"), detail);
             }
         }

@@ -134,7 +134,7 @@ impl FutureDoc {
             ("vy_mps", self.vy_mps.len()),
         ];
         for (name, length) in columns.into_iter().filter(|c| c.1 != steps) {
-            let detail = format!("{length} values, as many as x_m ({steps}) expected");
+            let detail = format!("{length} values; {steps} expected, as in x_m");
             problems.invalid(format!("{pointer}/{name}"), detail);
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);

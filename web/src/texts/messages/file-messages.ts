@@ -279,7 +279,7 @@ export const SENTENCES = table('file-messages', {
         other: `${v.count} road users change size; the size at the current step is kept`,
       }),
     'steps-beyond-limit': (v: Values) => `The file lasts ${v.length_s}; the first ${v.kept} steps of 0.1 s are kept`,
-    'steps-coarse': (v: Values) => `Time steps are ${v.apart_s} apart; gaps longer than ${v.filled_s} stay gaps`,
+    'steps-coarse': (v: Values) => `Time steps are ${v.apart_s} apart; gaps longer than ${v.filled_s} remain`,
     'stop-points-vary': 'A signal has several stop points; its first one is kept',
     'time-resampled': (v: Values) => `Rows are ${v.apart_s} apart; states are computed every ${v.step_s}`,
     'time-interpolated': (v: Values) => `Steps are ${v.apart_s} apart; states every 0.1 s are interpolated linearly`,
