@@ -8,7 +8,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 from ._conditions import Condition, Goal
 from ._program import run
@@ -80,22 +80,23 @@ class Scene:
         modes: int = 6,
         horizon_s: float = 9.0,
         start_s: float = 0.0,
-        replan_s: float | None = None,
+        replan_interval_s: float | None = None,
         diversity: float | None = None,
         steps: int | None = None,
-        forget: bool = False,
+        kept_futures: Literal["answered", "omitted", "forgotten"] = "answered",
     ) -> Scene:
         """Futures for road users.
 
         ``agents``: the road users to generate. Without it: those with a goal or via points, and without any of
-        these all. ``react``: the others react to them, all or the ids named. ``forget``: futures of earlier calls
-        are dropped; else a road user that is not generated keeps its own. ``horizon_s`` up to 20; above 9, and
-        with ``replan_s`` (3, 6 or 9), every road user plans again from the state it has reached. Ids are text or
-        numbers.
+        these all. An empty list needs ``react``: road users then continue where their known motion ends. ``react``:
+        the others react, all or the ids named. ``kept_futures``: what becomes of the futures of earlier calls, of
+        road users that are not generated; ``forgotten`` drops them. ``horizon_s`` up to 20; above 9, and with
+        ``replan_interval_s`` (3, 6 or 9), every road user plans again from the state it has reached. Of a road user
+        that is not generated, a condition counts for its type and size alone. Ids are text or numbers.
 
         Raises:
             DragTrafficError: the program refused the call.
-            ValueError: ``agents`` is empty, or a condition is given twice.
+            ValueError: a condition is given twice.
         """
         fixed = {str(id): Condition(goal=goal) for id, goal in (goals or {}).items()}
         whole = {str(id): condition for id, condition in (conditions or {}).items()}
@@ -105,23 +106,19 @@ class Scene:
         fixed.update(whole)
         arguments = ["generate", "-"]
         if agents is not None:
-            asked = _ids(agents)
-            if not asked:
-                raise ValueError("agents is empty: name a road user, or leave it out to generate all")
-            arguments.append(f"--agents={','.join(asked)}")
+            arguments.append(f"--agents={','.join(_ids(agents)) or '@none'}")
         options = {
             "seed": seed,
             "samples": samples,
             "modes": modes,
             "horizon": horizon_s,
             "at": start_s,
-            "replan-interval": replan_s,
+            "replan-interval": replan_interval_s,
             "diversity": diversity,
             "steps": steps,
+            "kept-futures": kept_futures,
         }
         arguments += [f"--{name}={value}" for name, value in options.items() if value is not None]
-        if forget:
-            arguments.append("--forget")
         if react is True:
             arguments.append("--react")
         elif react is not False and (reacting := _ids(react)):
@@ -177,13 +174,13 @@ class Scene:
     def to_frame(self) -> pandas.DataFrame:
         """A long table of all motion in the frame of the scene, one row for each road user, future and step:
         ``source`` is ``log`` or ``generated``, futures have ``sample``, ``mode`` and ``probability``, ``chosen`` are
-        those that are shown, and ``valid`` is false where nobody saw the road user. Needs pandas."""
+        those that are shown, and ``valid`` is false where the road user was not seen. Needs pandas."""
         import pandas
 
         # Tables have the frame of the source; without an origin that is the scene's own.
         meta = {name: value for name, value in self.document.get("meta", {}).items() if name != "origin"}
         here = Scene({**self.document, "meta": meta})
-        text = run(["export", "-", "--format", "csv", "-o", "-"], here.bytes())
+        text = run(["export", "-", "--to", "csv", "-o", "-"], here.bytes())
         words = {name: "string" for name in ("scenario_id", "agent_id", "type", "subtype", "source")}
         whole = {name: "Int64" for name in ("sample", "mode")}
         frame = pandas.read_csv(io.BytesIO(text), dtype={**words, **whole})
@@ -202,7 +199,7 @@ class Scene:
         if format is None:
             Path(path).write_bytes(self.bytes())
         else:
-            arguments = ["export", "-", "--format", format, "--force", "-o", os.fspath(path)]
+            arguments = ["export", "-", "--to", format, "--force", "-o", os.fspath(path)]
             run(arguments, self.bytes())
 
     def bytes(self) -> bytes:

@@ -1,4 +1,4 @@
-//! What every handler can reach.
+//! State that every handler can reach.
 
 use crate::base::limits::Limits;
 use crate::generation::Experts;
@@ -21,7 +21,7 @@ pub struct App(Arc<AppParts>);
 pub struct AppParts {
     /// Bounds.
     pub limits: Arc<Limits>,
-    /// Who may talk to the server.
+    /// Access rules of the server.
     pub gate: RequestGate,
     /// Scenes and maps, wherever they are.
     pub catalog: Catalog,

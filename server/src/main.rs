@@ -1,6 +1,6 @@
 //! DragTraffic: the editor, its HTTP API and the same work on the command line, in one program.
 //!
-//! `dragtraffic` alone serves the editor; `dragtraffic --help` lists the rest.
+//! `dragtraffic` without a subcommand serves the editor; `dragtraffic --help` lists the rest.
 
 mod app;
 mod base;
@@ -13,13 +13,13 @@ mod work;
 
 use std::process::ExitCode;
 
-/// Freed memory is kept for the next tensor: candle allocates each operation's output. What nobody has asked for
-/// again after ten seconds goes back to the system, so that a large import is not paid for ever after.
+/// The allocator keeps freed memory for the next tensor, because candle allocates each operation's output.
+/// Memory unused for ten seconds returns to the system, so a large import does not stay resident.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// What the numeric libraries read when they start. One thread a call: scenes and calls are cut over
-/// workers, and candle's own threads cost more than they give at this size.
+/// Environment variables that the numeric libraries read at their start. One thread a call: workers already
+/// run scenes and calls in parallel, and candle's own threads cost more than they gain at this size.
 const SETTINGS: [(&str, &str); 3] =
     [("CANDLE_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "1"), ("MIMALLOC_PURGE_DELAY", "10000")];
 

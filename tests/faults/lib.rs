@@ -25,7 +25,7 @@ struct Plan {
     before: AtomicU64,
     /// Calls that fail then.
     failing: AtomicU64,
-    /// How many have failed since the start.
+    /// Number of failed calls since the start.
     failed: AtomicU64,
 }
 
@@ -65,14 +65,14 @@ fn plan() -> Option<&'static Plan> {
     }
 }
 
-/// What becomes of a call.
+/// Outcome of a call.
 enum Fate {
     Done,
     Half,
     Fails,
 }
 
-/// Whether a call is concerned, and what becomes of it.
+/// Outcome of a call; `concerned` decides whether the plan applies to it.
 fn fate(call: u64, concerned: impl FnOnce() -> bool) -> Fate {
     let Some(plan) = plan() else { return Fate::Done };
     if plan.calls.load(Ordering::Acquire) & call == 0 || !concerned() {
@@ -128,7 +128,7 @@ fn is_concerned(file: c_int) -> bool {
     let first = b"/proc/self/fd/".len();
     link.copy_within(at..=digits, first);
     let mut path = [0_u8; 4096];
-    // SAFETY: both buffers are ours, and their sizes are told.
+    // SAFETY: both buffers are valid for their whole lengths.
     let length = unsafe { libc::readlink(link.as_ptr().cast(), path.as_mut_ptr().cast(), path.len()) };
     usize::try_from(length).is_ok_and(|length| is_below(&path[..length]))
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// What one operation promises.
+/// The contract of one operation.
 pub struct Promise {
     name: String,
     operation: &'static Value,

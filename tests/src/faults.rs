@@ -26,7 +26,7 @@ pub enum Call {
     Read = 16,
 }
 
-/// How it fails.
+/// Kind of failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
     /// There is no room (ENOSPC).
@@ -40,7 +40,7 @@ pub enum How {
 /// One disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// What fails.
+    /// Failing call.
     pub call: Call,
     /// With what.
     pub how: How,
@@ -87,7 +87,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The disk of one folder, which fails as it is told.
+/// A folder's disk with faults by plan.
 pub struct Disk {
     folder: PathBuf,
     plan: PathBuf,
@@ -157,7 +157,7 @@ impl Disk {
         self.set(ERRNO, if fault.how == How::Broken { 5 } else { 28 })?;
         self.set(SHORT, u64::from(fault.how == How::Short))?;
         self.set(BEFORE, fault.before)?;
-        // Half a write alone would be finished by the next: that one has to fail too.
+        // The next write would complete a short one, so it must fail too.
         self.set(FAILING, fault.failing.saturating_add(u64::from(fault.how == How::Short)))?;
         self.set(CALLS, fault.call as u64)
     }
@@ -171,7 +171,7 @@ impl Disk {
         self.set(FAILING, 0)
     }
 
-    /// How many calls have failed so far.
+    /// Number of failed calls so far.
     ///
     /// # Errors
     /// When the plan cannot be read.

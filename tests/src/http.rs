@@ -231,7 +231,7 @@ pub struct Lines {
     reader: BufReader<TcpStream>,
     rest: Vec<u8>,
     ended: bool,
-    /// What each line must be.
+    /// Contract of each line.
     promise: Option<Promise>,
 }
 

@@ -1,4 +1,4 @@
-//! What the end-to-end tests share: the real program, a plain HTTP client, small scenes.
+//! Shared parts of the end-to-end tests: the real program, a plain HTTP client, small scenes.
 
 pub mod contract;
 #[cfg(target_os = "linux")]

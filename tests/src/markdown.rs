@@ -170,7 +170,7 @@ impl Page {
         sections
     }
 
-    /// What is wrong with a link of this page among all pages, or nothing.
+    /// Fault of a link of this page among all pages, or `None`.
     pub fn broken(&self, link: &str, pages: &[Self]) -> Option<String> {
         if link.contains("://") || link.starts_with("mailto:") {
             return None;
@@ -240,7 +240,7 @@ mod tests {
         let links: Vec<String> = page.links().into_iter().map(|(_, link)| link).collect();
         assert_eq!(links, ["../README.md", "#near-miss", "no.png"]);
         let all = [page.clone()];
-        // `docs/page.md` is no file of the repository, so its own anchor is looked up among the pages alone.
+        // The repository has no file `docs/page.md`, so only the given pages can resolve its anchor.
         assert!(page.broken("../README.md", &all).is_none());
         assert!(page.broken("no.png", &all).unwrap().contains("docs/no.png"));
         assert!(page.broken("../README.md#nowhere", &all).is_some());

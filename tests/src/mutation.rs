@@ -1,6 +1,6 @@
-//! Inputs that nobody thought of: files of a corpus, damaged in the ways that readers are tried by.
+//! Unexpected inputs: corpus files, damaged in the ways that break readers.
 //!
-//! The n-th input of a seed is the same for ever, so that a finding is told by two numbers.
+//! The n-th input of a seed never changes, so two numbers identify a finding.
 
 use crate::random::Random;
 use anyhow::{Context, ensure};
@@ -11,7 +11,7 @@ const MOST_BYTES: usize = 256 << 10;
 /// Most changes of one input.
 const MOST_CHANGES: u64 = 6;
 
-/// What numbers, words and marks are replaced by.
+/// Replacements for numbers, words and marks.
 const EXTREMES: &[&str] = &[
     "0",
     "-0.0",

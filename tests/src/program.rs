@@ -36,7 +36,7 @@ fn current() -> Option<PathBuf> {
     built("dragtraffic", &sources)
 }
 
-/// What cargo has put under this name beside the tests, when none of its sources has changed since.
+/// The program that cargo built under this name beside the tests, if none of its sources is newer.
 pub(crate) fn built(name: &str, sources: &[impl AsRef<Path>]) -> Option<PathBuf> {
     let own = std::env::current_exe().ok()?;
     // Tests lie in a folder of their own, programs beside it.
@@ -73,7 +73,7 @@ fn build() -> anyhow::Result<PathBuf> {
 
 /// A running server, killed when dropped.
 pub struct Server {
-    /// Where it listens.
+    /// Address of its listener.
     pub address: SocketAddr,
     child: Child,
     folder: Option<TempDir>,
@@ -83,7 +83,7 @@ impl Server {
     /// Starts one with an empty store.
     ///
     /// # Errors
-    /// When it does not say its address within ten seconds.
+    /// If it does not print its address within ten seconds.
     pub fn start(flags: &[&str]) -> anyhow::Result<Self> {
         Self::of(program(), flags)
     }
@@ -91,7 +91,7 @@ impl Server {
     /// Starts one of a given program with an empty store.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn of(program: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let db = folder.path().join("scenes.sqlite");
@@ -118,7 +118,7 @@ impl Server {
     /// Starts one with an empty store that keeps its access lines for [`Server::log`].
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn with_log(flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let log = std::fs::File::create(folder.path().join("log"))?;
@@ -132,7 +132,7 @@ impl Server {
     /// Starts one on a given store.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         Self::launch(Self::command(db, flags))
     }
@@ -151,7 +151,7 @@ impl Server {
     /// Starts one by a call that was made ready.
     ///
     /// # Errors
-    /// When it does not say its address.
+    /// If it does not print its address.
     pub fn launch(mut command: Command) -> anyhow::Result<Self> {
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
         let out = child.stdout.take().context("no stdout")?;
@@ -165,7 +165,7 @@ impl Server {
         Ok(Self { address, child, folder: None })
     }
 
-    /// Waits until `/readyz` says yes.
+    /// Waits until `/readyz` reports success.
     ///
     /// # Errors
     /// After a minute.
@@ -219,7 +219,7 @@ impl Server {
     /// Memory that it holds, bytes (Linux).
     ///
     /// # Errors
-    /// When it is gone, or the system does not tell.
+    /// If it has ended, or the system does not report it.
     pub fn memory(&self) -> anyhow::Result<u64> {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid()))?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).context("no VmRSS")?;
@@ -232,10 +232,10 @@ impl Server {
         matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// What it has logged, when it was started to keep that.
+    /// Its log, if it was started with one.
     ///
     /// # Errors
-    /// When it was not.
+    /// If it was not.
     pub fn log(&self) -> anyhow::Result<String> {
         let folder = self.folder.as_ref().context("no folder")?;
         Ok(std::fs::read_to_string(folder.path().join("log"))?)
@@ -256,7 +256,7 @@ impl Server {
         Ok(())
     }
 
-    /// Asks it to stop and waits for the end: exit code and time taken.
+    /// Requests a stop and waits for the end: exit code and time taken.
     ///
     /// # Errors
     /// When the signal cannot be sent.
@@ -276,7 +276,7 @@ impl Drop for Server {
     }
 }
 
-/// Highest resident memory of a process so far, where the system tells.
+/// Peak resident memory of a process, where the system reports it.
 pub fn peak_memory_mb(process: &str) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,5 +1,5 @@
-//! Bodies of requests that nobody thought of, sent to the real server: whatever it is given, it answers as its
-//! document says, and with no defect.
+//! Unexpected request bodies, sent to the real server: every reply must follow the document, and none may be
+//! a defect.
 
 use crate::contract::promise;
 use crate::http::{Reply, Request};
@@ -11,7 +11,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::time::Duration;
 
-/// Longest time for a reply; the server is told to give up long before.
+/// Longest wait for a reply; the server's own limit is much shorter.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Boundary of the forms in the corpus.
 const FORM: &str = "multipart/form-data; boundary=part";
@@ -93,7 +93,7 @@ impl<'a> Caller<'a> {
     /// Sends a body and judges the reply.
     ///
     /// # Errors
-    /// What is wrong with the reply, or that there is none.
+    /// The fault of the reply, or the lack of one.
     pub fn call(&mut self, body: &[u8]) -> anyhow::Result<u16> {
         let target = self.target;
         let mut request =

@@ -1,8 +1,8 @@
 //! Rooms inside a crate: which module imports which, read from the sources.
 //!
-//! A room is a module of a crate's root, or of a module that is a house of its own. Rooms stand on floors, and a room
-//! may import those on the floors below it alone: rooms on one floor know nothing of each other. [`rings`] looks
-//! inside rooms, file by file. Both read the text: every path outside comments and strings.
+//! A room is a module of a crate's root, or of a module that is a house of its own. Rooms stand on floors,
+//! and a room may import only rooms on floors below it: rooms on one floor know nothing of each other.
+//! [`rings`] looks inside rooms, file by file. Both read the text: every path outside comments and strings.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ pub struct House {
     pub name: &'static str,
     /// Folder of the crate's sources, below the repository's root.
     pub sources: &'static str,
-    /// The module whose modules are the rooms; empty for the crate's root.
+    /// The module that contains the rooms; empty for the crate's root.
     pub module: &'static [&'static str],
     /// Its rooms floor by floor, the lowest first.
     pub floors: &'static [&'static [&'static str]],
@@ -55,7 +55,7 @@ impl House {
             Some(at) if name != room && at >= own => {
                 Some(format!("{room} does not stand above {name} and must not import it"))
             }
-            // What a house itself defines stands above all of its rooms.
+            // Items that a house itself defines stand above all of its rooms.
             None if !self.module.is_empty() => Some(format!("{room} must not import {name} of its house")),
             _ => None,
         });
@@ -111,7 +111,7 @@ fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
             "mod" if next(2) == Some("{") => {
                 inner.push((next(1).unwrap_or_default().to_owned(), depth + 1));
             }
-            // How far a name is visible is no import.
+            // `pub(in ...)` is a visibility, not an import.
             "in" if at > 0 && tokens[at - 1] == "(" => {
                 at += tokens[at..].iter().take_while(|token| *token != ")").count();
                 continue;
@@ -236,7 +236,7 @@ pub fn rings_of(texts: &[(Vec<String>, String)]) -> Vec<Vec<String>> {
     for from in 0..texts.len() {
         let ring: Vec<usize> =
             (0..texts.len()).filter(|to| reached[from][*to] && reached[*to][from]).collect();
-        // Each ring is told once, by its first module.
+        // Each ring is reported once, by its first module.
         if ring.first() == Some(&from) {
             rings.push(ring.into_iter().map(|i| texts[i].0.join("::")).collect());
         }

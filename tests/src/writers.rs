@@ -1,5 +1,5 @@
-//! Writers that remember what they were told: each changes scenes of its own by PUT, PATCH and DELETE, and knows
-//! what must be in the store afterwards, whatever became of the server or its disk.
+//! Writers with a memory of the replies: each changes its own scenes by PUT, PATCH and DELETE. Each knows
+//! what the store must hold afterwards, even if the server or its disk failed.
 
 use crate::http::Request;
 use crate::program::Server;
@@ -16,25 +16,25 @@ use std::time::{Duration, Instant};
 /// Scenes of one writer.
 const SCENES: u64 = 6;
 
-/// A scene as it is told apart from its other versions.
+/// The fields that distinguish a scene's versions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Version {
     name: String,
     agents: usize,
 }
 
-/// What is known about one scene.
+/// Knowledge about one scene.
 #[derive(Clone, Debug, Default)]
 struct Known {
-    /// As the last answer said; `None` for a scene that is not there.
+    /// As in the last reply; `None` for a scene that does not exist.
     sure: Option<Version>,
-    /// What changes that were not answered, or refused halfway, would have made of it.
+    /// Versions that an unanswered or partly refused change may have left.
     perhaps: Vec<Option<Version>>,
-    /// Of `sure`, as far as it was told.
+    /// ETag of `sure`, if a reply had one.
     etag: Option<String>,
 }
 
-/// How a change ended.
+/// Outcome of a change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// It was answered with success.
@@ -45,7 +45,7 @@ pub enum Outcome {
     Lost,
 }
 
-/// What writers did together.
+/// Counts of the writers' changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Answered with success.
@@ -73,7 +73,7 @@ pub struct Writer {
     random: Random,
     count: u64,
     scenes: BTreeMap<String, Known>,
-    /// What it did.
+    /// Counts of its changes.
     pub tally: Tally,
 }
 
@@ -129,7 +129,7 @@ impl Writer {
             self.tally.kept += 1;
             return Outcome::Kept;
         }
-        // What the disk refused may be found in the log again after a kill.
+        // After a kill the log may still hold a change that the disk refused.
         known.perhaps.push(then);
         self.tally.refused += 1;
         Outcome::Refused(reply.status, reply.code())
@@ -189,7 +189,7 @@ fn version(scene: &Value) -> anyhow::Result<Version> {
     Ok(Version { name, agents })
 }
 
-/// What all writers did.
+/// Counts of all writers.
 pub fn tally(writers: &[Writer]) -> Tally {
     let mut all = Tally::default();
     writers.iter().for_each(|writer| all += writer.tally);
@@ -222,7 +222,7 @@ pub fn compare(writers: &mut [Writer], server: &Server) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Lets all writers work side by side until they are told to stop or find nobody there.
+/// Lets all writers work in parallel until a stop, or until the server is gone.
 ///
 /// # Errors
 /// When a reply breaks the contract, or is a refusal that `allowed` does not know.

@@ -1,4 +1,4 @@
-//! What an answer says of itself: the code of what it follows from, and what counts as an event in it.
+//! Metadata of an answer: the code of its inputs, and what counts as an event in it.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -27,7 +27,7 @@ fn equal_calls_have_equal_codes_and_a_change_has_another() {
         usual.chars().all(|c| c.is_ascii_digit() || c.is_ascii_uppercase() && !"ILOU".contains(c)),
         "{usual}"
     );
-    // How it is sent, and by whom, is nothing that it follows from.
+    // The transport and the client are not part of its inputs.
     let sent = json!({"client": "a", "revision": 1, "draft_delay_ms": 8, "draft_interval_ms": 20, "futures": "compact"});
     assert_eq!(code(&ask(&server, &sent)), usual);
     let goal = json!({"goal": {"x_m": -20.0, "y_m": 0.0}});

@@ -34,7 +34,7 @@ fn a_copy_taken_amid_writes_has_every_write_that_was_answered_before() {
     let folder = tempfile::tempdir().unwrap();
     let (db, copy) = (folder.path().join("scenes.sqlite"), folder.path().join("copy.sqlite"));
     let server = Server::start_at(&db, &[]).unwrap();
-    // These are done before the copy begins, and nobody changes them while it is taken.
+    // These changes end before the copy begins, and no writer touches their scenes during it.
     let mut before = Writer::crowd(2, 1);
     for writer in &mut before {
         for _ in 0..12 {
@@ -78,7 +78,7 @@ fn a_copy_needs_no_server_and_keeps_what_is_there() {
     while crowd[0].present().next().is_none() {
         crowd[0].change(server.address);
     }
-    // A log that nobody has put into the file yet is part of the store.
+    // A log not yet merged into the file is part of the store.
     server.kill().unwrap();
     assert_eq!(told(&backup(&db, &copy, &[])).0, Some(0));
     #[cfg(unix)]

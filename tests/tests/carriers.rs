@@ -130,10 +130,87 @@ fn a_goal_says_who_is_regenerated() {
     let file: Value = serde_json::from_slice(&printed(&flags)).unwrap();
     assert_eq!(file["generated"]["samples"][0]["agents"], sent["samples"][0]["agents"]);
     assert_eq!(file["generated"]["request"], sent["generated"]["request"]);
-    // A start alone sends nobody anywhere: all are regenerated, as without conditions.
+    // A start without a goal selects no road user: all are regenerated, as without conditions.
     let body = json!({"scene": demo(), "conditions": {"6": {"start": {"speed_mps": 3.0}}}, "steps": 0});
     let (request, _) = opened::<GenerateRequest>(&body);
     assert!(matches!(request.chosen_agents(), AgentChoice::All(_)));
+}
+
+/// A condition of a road user that is not regenerated moves nothing: each carrier warns of it and answers the same.
+#[test]
+fn conditions_of_other_road_users_are_warned_of() {
+    let server = Server::start(&[]).unwrap();
+    let body = json!({"scene": demo(), "agents": ["7"], "score": false,
+        "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}, "frame": "scene"}}});
+    let sent: Value = serde_json::from_str(&posted(&server, "/v1/generate", &body)).unwrap();
+    let warning = &sent["warnings"][0];
+    assert_eq!(
+        (&warning["code"], &warning["agent"], &warning["message"]["values"]),
+        (&json!("condition-unused"), &json!("6"), &json!({"agent": "6"}))
+    );
+    let call = ["generate", &path(), "--agents", "7", "--goal", "6=-40,8"];
+    let output = Command::new(program()).args(call).output().unwrap();
+    assert!(output.status.success());
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("6: condition-unused: Road user 6 is not regenerated"), "{told}");
+    let file: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(file["generated"]["samples"][0]["agents"], sent["samples"][0]["agents"]);
+    let free = json!({"scene": demo(), "agents": ["7"], "score": false});
+    let free: Value = serde_json::from_str(&posted(&server, "/v1/generate", &free)).unwrap();
+    assert_eq!(free["samples"][0]["agents"], sent["samples"][0]["agents"]);
+    assert_eq!(free["warnings"], json!([]));
+    // A future that the scene keeps came of its condition.
+    let kept = json!({"scene": file, "agents": ["7"], "score": false,
+        "conditions": {"7": {"start": {"speed_mps": 3.0}}}});
+    let kept: Value = serde_json::from_str(&posted(&server, "/v1/generate", &kept)).unwrap();
+    assert_eq!(kept["warnings"], json!([]));
+}
+
+/// An empty list regenerates no road user; with `react`, motion that ends early goes on. Nothing at all is warned of.
+#[test]
+fn an_empty_list_of_agents_means_the_same_everywhere() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = json!({"scene": demo(), "agents": [], "react": true, "score": false});
+    let answered =
+        |body: &Value| -> Value { serde_json::from_str(&posted(&server, "/v1/generate", body)).unwrap() };
+    let nothing = answered(&body);
+    assert_eq!(nothing["samples"][0]["agents"], json!({}));
+    assert_eq!(nothing["warnings"][0]["code"], "nothing-generated");
+    assert_eq!(nothing["warnings"][0]["agent"], Value::Null);
+    body["horizon_s"] = json!(15.0);
+    let further = answered(&body);
+    let agents = further["samples"][0]["agents"].as_object().unwrap();
+    assert!(
+        !agents.is_empty()
+            && further["warnings"].as_array().unwrap().iter().all(|w| w["code"] != "nothing-generated")
+    );
+    let call = ["generate", &path(), "--agents", "@none", "--react", "--horizon", "15", "--quiet"];
+    let file: Value = serde_json::from_slice(&printed(&call)).unwrap();
+    assert_eq!(file["generated"]["samples"][0]["agents"], further["samples"][0]["agents"]);
+    assert_eq!(file["generated"]["request"], further["generated"]["request"]);
+    body["react"] = json!(false);
+    let refused = server.post("/v1/generate", &body).unwrap();
+    assert_eq!(refused.status, 422, "{}", refused.text());
+}
+
+/// Each member of a score stands in it, null where nothing is known: as its schema says.
+#[test]
+fn scores_have_all_members() {
+    let server = Server::start(&[]).unwrap();
+    let sent: Value = serde_json::from_str(&posted(&server, "/v1/score", &json!({"scene": demo()}))).unwrap();
+    let document: Value =
+        serde_json::from_slice(&std::fs::read(root().join("assets/openapi.json")).unwrap()).unwrap();
+    let all = |schema: &str, value: &Value| {
+        let schema = &document["components"]["schemas"][schema];
+        let members = schema["properties"].as_object().unwrap();
+        for name in members.keys() {
+            assert!(value.as_object().unwrap().contains_key(name), "{name} is absent");
+            assert!(schema["required"].as_array().unwrap().contains(&json!(name)), "{name} is optional");
+        }
+    };
+    all("SceneScore", &sent["scene"]);
+    all("AgentScore", &sent["agents"]["6"]);
+    assert_eq!(sent["scene"]["min_ade_m"], Value::Null);
 }
 
 #[test]

@@ -113,7 +113,7 @@ fn commands_run_and_print_what_the_pages_show() {
     none(&wrong);
 }
 
-/// Writes what is due into the page where that was asked for, else says where the page differs.
+/// Writes the due text into the page if requested, else reports where the page differs.
 fn settle(page: &Page, mut due: Vec<Due>) -> Vec<String> {
     due.retain(|(place, text)| page.text[place.clone()] != *text);
     if !accepts() {
@@ -140,12 +140,12 @@ fn difference(page: &Page, (place, new): &Due) -> String {
     format!("{path}:{}: the page shows\n  {old}\nand the program prints\n  {new}", line + down)
 }
 
-/// What became of the blocks of a page.
+/// Results of a page's blocks.
 #[derive(Default)]
 struct Played {
     ran: usize,
     wrong: Vec<String>,
-    /// What the blocks of text behind commands should be.
+    /// Expected blocks of text after commands.
     due: Vec<Due>,
 }
 
@@ -183,7 +183,7 @@ fn play(page: &Page) -> Played {
     played
 }
 
-/// How a block is run; nothing where its interpreter is missing.
+/// Command that runs a block; `None` without its interpreter.
 fn command_of(block: &Block, body: &str, folder: &Path) -> Option<Command> {
     if block.language == "sh" {
         let mut command = Command::new("sh");
@@ -230,9 +230,9 @@ fn run(mut command: Command, folder: &Path) -> (bool, String) {
     (status.is_some_and(|status| status.success()), std::fs::read_to_string(printed).unwrap())
 }
 
-/// What the command of a section prints, in the form of the page.
+/// Output of a section's command, in the form of the page.
 fn printed(section: &Section) -> String {
-    // What is set around the test shows in the help.
+    // Settings from the environment appear in the help, so the test removes them.
     let mut command = Command::new(program());
     for (name, _) in std::env::vars_os() {
         if name.to_string_lossy().starts_with("DRAGTRAFFIC_") {

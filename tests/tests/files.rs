@@ -278,7 +278,7 @@ fn several_files_of_a_form_are_told_one_by_one() {
     );
     let many = server.send(&form(&vec![("file", "x"); 33])).unwrap();
     assert_eq!((many.code().as_str(), many.json()["limit"].as_u64()), ("invalid-field", Some(32)));
-    // One whose licence is refused does not hold up the others.
+    // A file with a refused licence does not affect the others.
     let strict = Server::start(&["--refuse-nc"]).unwrap();
     let reply = strict.send(&form(&[("file", &noncommercial), ("file", &scene.to_string())])).unwrap().json();
     assert_eq!(reply["files"][0]["problem"]["code"], "licence-refused");

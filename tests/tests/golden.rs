@@ -17,12 +17,12 @@ use scene::{AgentFutures, Sample, State};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// What happens to an answer that is not the golden one.
+/// Handling of an answer that differs from the golden one.
 #[derive(Clone, Copy, PartialEq)]
 enum Mode {
     /// The test fails.
     Check,
-    /// It is told, with how far it moved.
+    /// The difference is reported, with its size.
     Review,
     /// It is the golden one from now on.
     Accept,
@@ -93,7 +93,7 @@ fn event(event: Event, call: &mut Generation<'_>) -> Value {
     }
 }
 
-/// What the program says to a case now.
+/// Present answer of the program to a case.
 fn answer(engine: &Engine, case: &Case) -> Value {
     match case {
         Case::Generate(request) => {

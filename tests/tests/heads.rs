@@ -28,7 +28,7 @@ fn with_line(server: &Server, line: &str) -> String {
     fine(server).replace("\r\n\r\n", &format!("\r\n{line}\r\n\r\n"))
 }
 
-/// What is sent, and the refusal's status and code.
+/// Bytes to send, with the refusal's status and code.
 fn unreadable(server: &Server) -> Vec<(&'static str, Vec<u8>, u16, &'static str)> {
     let head = |line: &str| with_line(server, line).into_bytes();
     let many: String = (0..600).map(|i| format!("x-{i}: 1\r\n")).collect();
@@ -156,7 +156,7 @@ fn work_stops_when_a_reader_leaves_who_has_sent_more() {
     let mut body = generate(24);
     body["agents"] = json!("all");
     (body["steps"], body["samples"], body["score"]) = (json!(100), json!(16), json!(false));
-    // An answer in one piece: nothing is written meanwhile, whose failure would tell.
+    // One reply as a whole: no write in between could fail and reveal the disconnect.
     let ask = Request::new("POST", "/v1/generate").json(&body).keep().bytes(server.address);
     // Once so little that the server has read it all, once more than it reads ahead.
     for behind in [1, 1_000] {

@@ -1,4 +1,4 @@
-//! Generation over an open line: the answers of requests, several at once, and who may open one.
+//! Generation over a WebSocket: replies to several requests at once, and the clients that may open one.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A client of a line.
 struct Line(WebSocket<TcpStream>);
 
-/// A message about a question.
+/// A message of a reply.
 #[derive(Debug)]
 struct ServerMessage {
     head: Value,
@@ -75,7 +75,7 @@ impl Line {
         }
     }
 
-    /// Everything about one question, which is the only one.
+    /// All messages of one request, which is the only one.
     fn answer(&mut self, number: u64) -> (Value, Vec<Value>) {
         let ServerMessage { head, mut lines } = self.hear();
         let mut last = head["last"] == json!(true);
@@ -89,7 +89,7 @@ impl Line {
         (head, lines)
     }
 
-    /// How the server ends it.
+    /// Close code and reason from the server.
     fn end(&mut self) -> (CloseCode, String) {
         loop {
             match self.0.read() {
@@ -139,7 +139,7 @@ fn answers_are_those_of_requests() {
         assert_eq!(names(&events), names(&expected));
         assert_eq!(events.last().unwrap()["samples"], expected.last().unwrap()["samples"]);
     }
-    // What would come in one piece by a request comes in one message.
+    // A reply that a request would get as a whole comes in one message.
     body["draft_delay_ms"] = json!(1000);
     line.ask(4, &body);
     let told = line.hear();
@@ -171,7 +171,7 @@ fn questions_do_not_wait_for_each_other_and_can_be_given_up() {
     while told.head["ask"] != json!(1) || !told.is_last() {
         told = line.hear();
     }
-    // Who leaves gives up what is open.
+    // A client that disconnects cancels its open requests.
     line.ask(5, &long());
     line.hear();
     drop(line);

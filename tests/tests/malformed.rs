@@ -482,7 +482,7 @@ fn every_call_about_a_scene_can_name_its_version() {
     }
 }
 
-/// What a member in the wrong shape is refused with.
+/// Status and pointer of the refusal of a misshapen member.
 fn place_of_fault(request: &Request, server: &Server) -> (u16, String) {
     let reply = server.send(request).unwrap();
     let pointer = reply.json().pointer("/errors/0/pointer").and_then(Value::as_str).map(str::to_owned);

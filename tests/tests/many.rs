@@ -89,7 +89,7 @@ fn the_documented_task_runs_and_repeats() {
         assert_eq!(scene["generated"]["request"]["agents"], json!([row["actor"]]));
         assert_eq!(scene["generated"]["seed"].to_string(), row["seed"]);
     }
-    // What was written holds when it is scored again.
+    // The written scenes satisfy the filter when they are scored again.
     let (text, told) =
         ends(first, &["score", "found", "--where", "!(actor.min_ttc_s < 1.5 && collisions == 0)"], 0);
     assert!(text.is_empty() && told.contains(&format!("0 of {} hold", rows.len())), "{text}{told}");
@@ -126,13 +126,12 @@ fn values_are_told_in_words_of_the_command_line() {
     for (flags, expected) in [
         (&["--horizon", "30"][..], "'--horizon <SECONDS>': 0.5 to 20 seconds expected"),
         (&["--replan-interval", "4"], "3, 6, 9 expected"),
-        (&["--replan", "4"], "3, 6, 9 expected"),
+        (&["--replan", "6"], "--replan is --replan-interval now"),
+        (&["--forget"], "--forget is --kept-futures forgotten now"),
+        (&["--kept-futures", "gone"], "answered, omitted or forgotten expected"),
+        (&["--agents", "@none"], "--agents: \"all\" or at least one id expected"),
+        (&["--where", "violations > 0"], "violations is kinematic.violations now"),
         (&["--goal", "6=2,27,5,90"], "heading: 90 rad is more than a turn; 90 degrees are 1.5708 rad"),
-        (
-            &["--agents", "7", "--goal", "6=2,27"],
-            "--goal 6: this road user is not regenerated; add it to --agents",
-        ),
-        (&["--agents", "7", "--start", "6=2,27"], "--start 6: this road user is not regenerated"),
         (&["--seed", "-1"], "a whole number from 0 to 9007199254740991 expected"),
         (&["--samples", "33"], "'--samples <N>': 33 is not in 1..=32"),
         (&["--goal", "6=-40"], "x needs y beside it"),
@@ -145,7 +144,7 @@ fn values_are_told_in_words_of_the_command_line() {
         (&["--size", "6=12"], "LENGTHxWIDTH"),
         (&["--type", "6=tank"], "vehicle, pedestrian or cyclist expected"),
         (&["--seeds", "9..3"], "at least one seed expected"),
-        (&["--seeds", "3"], "--output FOLDER/"),
+        (&["--seeds", "3"], "--output DIR/"),
         (&["--react", "7,8"], "as in --react=7,8"),
         (
             &["--where", "min_tcc_s < 1"],
@@ -174,6 +173,10 @@ fn values_are_told_in_words_of_the_command_line() {
     );
     let told = ends(folder.path(), &["convert", &scene, "--from", "geojson"], 2).1;
     assert!(told.contains("can be read"), "{told}");
+    let told = ends(folder.path(), &["convert", &scene, "--format", "csv"], 2).1;
+    assert!(told.contains("--format is --to now"), "{told}");
+    let told = ends(folder.path(), &["score", &scene, "--samples", "all"], 2).1;
+    assert!(told.contains("--samples is --sample now"), "{told}");
     let told = ends(folder.path(), &["--port", "1", "score", &scene], 2).1;
     assert!(told.contains("--port is a flag of serve"), "{told}");
     assert!(names(folder.path()).is_empty());
@@ -275,7 +278,7 @@ fn many_files_have_one_verdict_each() {
     let told = ends(folder.path(), &["convert", "in", "--to", "waymo", "-o", "out/"], 0).1;
     assert_eq!(told.lines().filter(|line| line.contains("in/s")).count(), 6, "{told}");
     assert_eq!(names(&at("out")).len(), 6);
-    ends(folder.path(), &["-q", "export", "in", "--format", "womd", "-o", "all.tfrecord"], 0);
+    ends(folder.path(), &["-q", "export", "in", "--to", "womd", "-o", "all.tfrecord"], 0);
     ends(folder.path(), &["-q", "import", "all.tfrecord", "-o", "back/"], 0);
     let (text, _) = ends(folder.path(), &["score", "all.tfrecord"], 0);
     assert_eq!(text.lines().count(), 6);
@@ -290,7 +293,7 @@ fn many_files_have_one_verdict_each() {
     );
     assert_eq!(ends(folder.path(), &["-q", "convert", "in", "--to", "csv", "-o", "t.csv"], 0).1, "");
     assert_eq!(std::fs::read_to_string(at("t.csv")).unwrap(), csv);
-    // One bad file fails alone, and is told by its name.
+    // One bad file fails without the others, and the message names it.
     std::fs::write(at("in/bad.json"), "{").unwrap();
     let (text, told) = ends(folder.path(), &["score", "in", "--csv", "scores.csv"], 4);
     assert!(
@@ -302,7 +305,7 @@ fn many_files_have_one_verdict_each() {
     assert!(told.contains("1 of 7 files failed"), "{told}");
     ends(folder.path(), &["score", "in/bad.json"], 3);
     ends(folder.path(), &["score", "nothing/*.json"], 3);
-    // Who is not in every scene.
+    // A road user that some scenes lack.
     let told =
         ends(folder.path(), &["generate", "in/s*.json", "--agents", "3", "--seeds", "2", "-o", "gen/"], 4).1;
     assert!(told.contains("s1, seed 0: --agents: the scene has no road user \"3\""), "{told}");
@@ -338,12 +341,12 @@ fn samples_are_scored_picked_and_copied() {
     ends(folder.path(), &generate, 0);
     let lines =
         |flags: &[&str]| ends(folder.path(), &[&["score", "a.json"], flags].concat(), 0).0.lines().count();
-    assert_eq!((lines(&[]), lines(&["--samples", "all"]), lines(&["--samples", "1..2"])), (1, 4, 2));
-    let all = ["--samples", "all"];
+    assert_eq!((lines(&[]), lines(&["--sample", "all"]), lines(&["--sample", "1..2"])), (1, 4, 2));
+    let all = ["--sample", "all"];
     let low = lines(&[&all[..], &["--where", "min_ttc_s < 1"]].concat());
     assert_eq!(low + lines(&[&all[..], &["--where", "!(min_ttc_s < 1)"]].concat()), 4);
     let flags =
-        ["score", "a.json", "--samples", "2", "--where", "road_users > 1", "--copy-to", "kept", "--csv", "-"];
+        ["score", "a.json", "--sample", "2", "--where", "road_users > 1", "--copy-to", "kept", "--csv", "-"];
     let (csv, _) = ends(folder.path(), &flags, 0);
     let rows = table(&csv);
     assert_eq!((rows.len(), rows[0]["sample"].as_str(), rows[0]["actor"].as_str()), (1, "2", "6"));
@@ -360,6 +363,65 @@ fn samples_are_scored_picked_and_copied() {
     let told = ends(folder.path(), &strict, 4).1;
     assert!(told.contains("0 of 2 hold road_users < 0") && told.contains("no result was kept"), "{told}");
     ends(folder.path(), &[&strict[..], &["--strict", "--force"]].concat(), 4);
+}
+
+/// Ten road users are listed, the rest with `--verbose`.
+#[test]
+fn long_lists_are_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = demo("demo-crossing");
+    let lines = |flags: &[&str]| {
+        let told =
+            ends(folder.path(), &[&["generate", &scene, "--force", "-o", "a.json"], flags].concat(), 0).1;
+        told.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let all = lines(&["--verbose"]);
+    let road_users = json_of(&folder.path().join("a.json"))["generated"]["samples"][0]["agents"].clone();
+    let count = road_users.as_object().unwrap().len();
+    assert!(count > 12 && all.len() > count, "{all:?}");
+    let short = lines(&["--goal", "4=2,27.5", "--agents", "@all"]);
+    let rest = format!("{} more road users; --verbose lists them", count - 10);
+    assert!(short.iter().any(|line| line.ends_with(&rest)) && short.len() < 16, "{short:?}");
+    assert!(short[0].starts_with("dragtraffic: 4: goal met"), "what was asked for comes first: {short:?}");
+    // A file that many formats cannot hold.
+    let export = |flags: &[&str]| {
+        let convert = ["convert", "a.json", "--to", "nocturne", "--force", "-o", "b.json"];
+        ends(folder.path(), &[&convert, flags].concat(), 0).1
+    };
+    let (cut, whole) = (export(&[]), export(&["-v"]));
+    assert!(whole.lines().count() > 10, "{whole}");
+    assert!(cut.lines().count() == 11 && cut.contains("more losses; --verbose lists them"), "{cut}");
+    assert_eq!(export(&["-q"]), "");
+}
+
+/// A terminal shows a summary; a pipe, a file and `--json` get the same bytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_no_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = demo("demo-crossing");
+    let program = program().display();
+    let on_terminal = |arguments: &str| {
+        let call = format!("{program} -q {arguments}");
+        let shown = Command::new("script").args(["-qec", &call, "/dev/null"]).output().unwrap();
+        assert!(shown.status.success(), "{call}");
+        String::from_utf8(shown.stdout).unwrap().replace("\r\n", "\n")
+    };
+    for (call, hint) in [
+        (format!("generate {scene} --agents 6"), "kB of JSON: --output FILE writes them, --json prints them"),
+        (format!("place {scene} --count 3"), "kB of JSON: --output FILE writes them, --json prints them"),
+        ("map --template curve".to_owned(), "kB of JSON: --output FILE writes them, --json prints them"),
+        (format!("convert {scene} --to csv"), "kB: --output FILE writes them, --output - prints them"),
+    ] {
+        let shown = on_terminal(&call);
+        assert!(shown.lines().count() == 1 && shown.trim_end().ends_with(hint), "{call}: {shown}");
+        let whole = if call.starts_with("convert") { " -o -" } else { " --json" };
+        let arguments: Vec<&str> = call.split(' ').collect();
+        let (piped, _) = ends(folder.path(), &arguments, 0);
+        assert!(on_terminal(&format!("{call}{whole}")) == piped, "{call}");
+        let flagged: Vec<&str> = arguments.into_iter().chain(whole.split_whitespace()).collect();
+        assert!(ends(folder.path(), &flagged, 0).0 == piped, "{call}");
+    }
 }
 
 #[test]

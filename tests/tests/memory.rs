@@ -1,4 +1,4 @@
-//! What uploads take of the server's memory, all at once, and that it is given back.
+//! Memory of the server during parallel uploads, and its release.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
@@ -25,7 +25,7 @@ fn gzip(parts: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
     encoder.finish().unwrap()
 }
 
-/// A record of many road users whose motion does not pack well.
+/// A record of many road users with poorly compressible motion.
 fn record(number: u64) -> Vec<u8> {
     let noise = |agent: u64, i: u64| {
         let mixed = (number << 40 | agent << 20 | i).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -75,8 +75,8 @@ fn hollow() -> Vec<u8> {
     gzip(std::iter::once(head).chain(space).chain([br#""map":{}}"#.to_vec()]))
 }
 
-/// Four uploads at once; those that find no place come again. Gives the memory beside what there was before: the
-/// peak, and what is left once it is given back or a minute has passed.
+/// Four uploads at once; refused ones are repeated. Returns the memory above the initial level: the peak, and
+/// the rest after its release or one minute.
 fn four(file: &[u8], query: &str, encoding: Option<&str>) -> (u64, u64) {
     let server = Server::start(&[]).unwrap();
     server.wait_ready().unwrap();

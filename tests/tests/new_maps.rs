@@ -85,7 +85,7 @@ fn a_map_is_made_over_http_and_on_the_command_line_alike() {
     assert_eq!(file["map"]["stop_signs"].as_array().unwrap().len(), 4);
     assert_eq!(made["layout"]["parameters"]["arms"].as_array().unwrap().len(), 4);
     assert_eq!(made["arms"][1]["name"], "North");
-    // What it says of itself makes the same map again.
+    // The layout stored in the file generates the same map again.
     let again = server.post("/v1/map", &file["x_layout"]).unwrap();
     let again: Value = serde_json::from_slice(&again.body).unwrap();
     assert_eq!(again["scene"]["map"], file["map"]);

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Names the program; where it is said, it must be there.
+/// Names the program; if it is set, the program must exist.
 const VARIABLE: &str = "DRAGTRAFFIC_NETCONVERT";
 
 fn extract() -> String {
@@ -76,7 +76,7 @@ fn roads_become_a_crossing_with_lanes_crossings_and_signals() {
     let signals = scene["signals"].as_array().unwrap();
     let shows = |state: &str| signals.iter().any(|signal| signal["states"][0][1] == state);
     assert!(signals.len() >= 8 && shows("go") && shows("stop"), "{signals:?}");
-    // The same roads in England: whoever drives east is north of whoever drives west.
+    // The same roads in England: eastbound traffic is north of westbound traffic.
     let (mirrored, told) =
         read(&extract().replace("lat=\"48.", "lat=\"52.").replace("lon=\"11.", "lon=\"-1."));
     assert!(told.contains("left-hand"), "{told}");

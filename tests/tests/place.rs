@@ -56,7 +56,7 @@ fn nobody_overlaps_on_any_demo_with_any_seed() {
         let scene = server.get(&format!("/v1/scenes/{demo}")).unwrap().json();
         let kept = scene["agents"].as_array().unwrap();
         for seed in 0..6u64 {
-            // Sparse and dense, alone and among those who are there.
+            // Sparse and dense, in an empty scene and among existing road users.
             let keep = if seed % 2 == 0 { Value::Null } else { json!([]) };
             let count = 10 + 30 * seed;
             let types = json!({"vehicle": 0.5, "pedestrian": 0.3, "cyclist": 0.2});
@@ -74,7 +74,7 @@ fn nobody_overlaps_on_any_demo_with_any_seed() {
                 Vec::new()
             };
             for i in 0..new.len() {
-                // 10 cm around each box are free of those who were there before it.
+                // Each box keeps 10 cm of clearance from the earlier ones.
                 let one = &outline(&agents[i], 0, 0.0999).unwrap();
                 let others = new[..i].iter().chain(&old);
                 assert_eq!(others.filter(|o| touch(one, o)).count(), 0, "{demo} {seed} {}", agents[i]);
@@ -99,7 +99,7 @@ fn placed_road_users_are_starts_of_futures() {
         let mut scene = server.get(&format!("/v1/scenes/{demo}")).unwrap().json();
         scene["agents"] = placed["agents"].clone();
         let steps = scene["time"]["steps"].as_u64().unwrap() as usize;
-        // Who stands at a kerb is parked.
+        // A vehicle that stands at a kerb is parked.
         let is_parked = |agent: &&Value| agent["track"]["x_m"].as_array().unwrap().len() == steps;
         for agent in scene["agents"].as_array().unwrap().iter().filter(|agent| !is_parked(agent)) {
             let (start, goal) = (&agent["conditions"]["start"], &agent["conditions"]["goal"]);
@@ -122,7 +122,7 @@ fn placed_road_users_are_starts_of_futures() {
         assert_eq!(warned.iter().filter(|w| w["code"] == "start-overlaps").count(), 0, "{warned:?}");
         let futures = answer["samples"][0]["agents"].as_object().unwrap();
         assert_eq!(futures.len(), count);
-        // Nobody leaves the limits of motion, from the first step on.
+        // No road user exceeds its motion limits, from the first step on.
         let scores = answer["scores"][0]["agents"].as_object().unwrap();
         assert_eq!(scores.len(), count);
         for (id, of) in scores {
@@ -213,7 +213,7 @@ fn drivers_wait_at_red_lights() {
             for agent in place(&server, &body)["agents"].as_array().unwrap() {
                 let [x, _, heading, half_length, _] = outline(agent, 0, 0.0).unwrap();
                 let speed = agent["conditions"]["start"]["speed_mps"].as_f64().unwrap();
-                // Those who park beside the lane stand anyway.
+                // Vehicles parked beside the lane stand in any case.
                 if agent["track"]["y_m"][0].as_f64().unwrap().abs() > 1.5 {
                     continue;
                 }
@@ -221,7 +221,7 @@ fn drivers_wait_at_red_lights() {
                 if state == "stop" {
                     let front = x + half_length * heading.cos();
                     fronts.push(front);
-                    // Nobody is so fast that the light would be an emergency.
+                    // No vehicle is so fast that the light would require emergency braking.
                     assert!(speed * speed <= 2.0 * 3.0 * (-front).max(0.0) + 0.1, "{agent}");
                 }
             }
@@ -262,13 +262,13 @@ fn traffic_comes_in_by_arms() {
         assert!(if first == 0 { seen == 1 } else { seen > 1 || first == 90 }, "{track}");
     }
     assert_eq!(place(&server, &body), reply, "the same again");
-    // What drives on the other arms is a matter of density, and changes nothing here.
+    // The density applies to the other arms, and changes nothing here.
     body["density"] = json!({"per_lane_km": 40});
     body["types"] = json!({"vehicle": 1.0});
     let more = place(&server, &body);
     assert!(ids(&more["agents"]).len() > agents.len());
     assert_eq!(more["arms"], reply["arms"]);
-    // Driven, those who come in later stay in the scene.
+    // Road users that arrive later stay in the scene when it is generated.
     let mut scene = scene.clone();
     scene["agents"] = reply["agents"].clone();
     let answer = server.post("/v1/generate", &json!({"scene": scene, "react": true, "seed": 1})).unwrap();
@@ -289,7 +289,7 @@ fn speeds_keep_to_the_range_that_was_asked_for() {
             let agents = reply["agents"].as_array().unwrap();
             assert_eq!(agents.len() as u64 + reply["unplaced"].as_u64().unwrap(), 40);
             for agent in agents {
-                // Who is parked has a track that stands in place of a start.
+                // A parked vehicle has a standing track instead of a start.
                 let Some(speed) = agent["conditions"]["start"]["speed_mps"].as_f64() else {
                     assert!(agent["track"]["vx_mps"].as_array().unwrap().iter().all(|v| *v == 0.0));
                     continue;
@@ -318,7 +318,7 @@ fn cars_park_where_there_is_room() {
     let cars = half["agents"].as_array().unwrap();
     assert!(places >= 20, "{places}");
     assert_eq!(cars.len() as u64, (places as f64 * 0.5).round() as u64, "{}", half["reason"]);
-    // More of them: those that stood stay.
+    // A higher share keeps the cars that already stand.
     let most = park(&lot, json!({"share": 0.8}));
     let at = |car: &Value| (car["track"]["x_m"][0].to_string(), car["track"]["y_m"][0].to_string());
     let all: Vec<_> = most["agents"].as_array().unwrap().iter().map(at).collect();
@@ -344,7 +344,7 @@ fn cars_park_where_there_is_room() {
     let score = &answer["scores"][0]["scene"];
     assert_eq!(score["collisions"].as_array().map(Vec::len), Some(0), "{score}");
     assert_eq!(score["kinematic"]["speed_mps"], 0.0, "{score}");
-    // A street with strips beside its lanes; on one without there is no room, which is said.
+    // A street with strips beside its lanes; one without them has no room, and the reply gives the reason.
     let street = made(&server, "straight", &json!({"parking_m": 2.2}), 91);
     let along = park(&street, json!({"per_100m": 8}));
     assert!(along["agents"].as_array().unwrap().len() > 5, "{along}");

@@ -1,4 +1,4 @@
-//! Nobody changes without a cause: what the shipped weights answer to drags in the demo scenes.
+//! An agent changes its motion only for a cause: answers of the shipped weights to drags in the demo scenes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -28,13 +28,13 @@ fn answer(request: Request) -> Answer {
     panic!("no answer");
 }
 
-/// One road user is sent somewhere, and everybody may answer.
+/// A request that drags one road user; all others may react.
 fn dragged(mut scene: Scene, id: &str, goal: Goal) -> Request {
     scene.agents.iter_mut().find(|a| a.id == id).unwrap().conditions.goal = goal;
     Request { agents: Some([id.to_owned()].into()), react: React::Everyone, ..Request::new(Arc::new(scene)) }
 }
 
-/// Those that move in a scene, with where they end.
+/// Moving road users of a scene, each with its last state.
 fn moving(scene: &Scene) -> Vec<(String, State)> {
     let ends = scene.agents.iter().filter(|a| a.kind() != AgentType::Other).filter_map(|a| {
         let (first, last) = (a.state_at(0)?, a.state_at(90)?);
@@ -60,8 +60,8 @@ fn chosen(futures: &AgentFutures) -> &Future {
     &futures.modes[futures.chosen]
 }
 
-/// Everybody but the asked has a cause that is in the answer too, whose motion meets what it did before, and the way
-/// from cause to cause ends at the asked. Says how many those are.
+/// Every agent but the dragged one has a cause in the answer that would meet its former motion, and each
+/// chain of causes ends at the dragged one. Returns the number of such agents.
 fn have_causes(scene: &Scene, asked: &str, sample: &Sample, what: &str) -> usize {
     for (id, futures) in sample.agents.iter().filter(|(id, _)| *id != asked) {
         let reaction = futures.reaction.as_ref().unwrap_or_else(|| panic!("{what}: {id} has no cause"));

@@ -1,4 +1,4 @@
-//! Rounds with feedback over HTTP: cards, what is said of them, the next cards.
+//! Rounds with feedback over HTTP: cards, feedback, the next cards.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -20,7 +20,7 @@ fn said(card: &Value, verdict: &str) -> Value {
 #[test]
 fn cards_are_sent_back_and_the_next_ones_follow() {
     let server = Server::start(&[]).unwrap();
-    // The examples are there once it is ready.
+    // The examples exist once it is ready.
     server.wait_ready().unwrap();
     let first = ask(&server, json!({}));
     let cards = first["feedback"]["cards"].as_array().unwrap();
@@ -56,7 +56,7 @@ fn cards_are_sent_back_and_the_next_ones_follow() {
 #[test]
 fn nonsense_is_told_where_it_is() {
     let server = Server::start(&[]).unwrap();
-    // The examples are there once it is ready.
+    // The examples exist once it is ready.
     server.wait_ready().unwrap();
     let features = json!({"pace_mps": 5.0, "gap_s": 5.0, "harshness_mps2": 1.0, "standing_s": 0.0});
     let answer = json!({"features": features, "verdict": "keep"});

@@ -60,8 +60,8 @@ const HOMES: &[(&str, &[&str])] = &[
     ("roxmltree", &[]),
     ("quick-xml", &[]),
 ];
-/// Crates whose modules stand on floors, the lowest first: a module knows those below it alone. A crate gets a
-/// line here when its rooms are free of rings.
+/// Crates with modules on floors, the lowest first: a module may import only modules on lower floors. A crate
+/// gets a line here when its rooms are free of rings.
 const HOUSES: &[House] = &[
     House {
         name: "formats",
@@ -318,7 +318,7 @@ fn type_homes(sources: &str) -> BTreeMap<String, BTreeSet<String>> {
                 line.split_whitespace().skip_while(|word| word.starts_with("pub") || word.ends_with(')'));
             if matches!(words.next(), Some("struct" | "enum" | "trait")) {
                 let word = words.next().unwrap_or_default();
-                // What a macro names begins with a `$`.
+                // A macro's fragment names begin with `$`.
                 let name: String = word.chars().take_while(|c| c.is_alphanumeric()).collect();
                 if !name.is_empty() {
                     homes.entry(name).or_default().insert(path.clone());
@@ -427,7 +427,7 @@ fn only_the_labs_commands_of_the_server_know_the_lab() {
     }
 }
 
-/// What only a carrier of the operations may use.
+/// Paths that only a carrier of the operations may use.
 const OF_CARRIERS: &[&str] = &[
     "std::fs",
     "std::thread",

@@ -43,7 +43,10 @@ fn edits_chain() {
     assert_eq!(before["6"], after["6"], "6 keeps its future");
     assert!(after["7"].is_object());
     assert_eq!(json_of(&second)["generated"]["stale"], false);
-    ends(&["generate", &first, "--agents", "7", "--seed", "7", "--forget", "-o", &third], 0);
+    ends(
+        &["generate", &first, "--agents", "7", "--seed", "7", "--kept-futures", "forgotten", "-o", &third],
+        0,
+    );
     assert!(agents(&third)["6"].is_null() && agents(&third)["7"].is_object());
 
     let server = Server::start(&[]).unwrap();
@@ -62,7 +65,7 @@ fn edits_chain() {
     ask["kept_futures"] = json!("forgotten");
     let forgotten = answer(&ask);
     assert_eq!(forgotten["samples"][0]["agents"], agents(&third));
-    // What is said of 6 anew is not what its future answers.
+    // A new condition on road user 6 makes its kept future stale.
     ask["kept_futures"] = json!("answered");
     ask["conditions"] = json!({"6": {"goal": {"speed_mps": 3.0}}});
     assert_eq!(answer(&ask)["generated"]["stale"], true);
@@ -101,21 +104,21 @@ fn devices_pipes_and_links_are_not_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     for flags in [&[][..], &["--force"]] {
-        ends(&[&["export", &demo(), "--format", "womd", "-o", "/dev/null"], flags].concat(), 0);
+        ends(&[&["export", &demo(), "--to", "womd", "-o", "/dev/null"], flags].concat(), 0);
         assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     }
     let (target, link) = (at("target"), at("link"));
     std::fs::write(&target, "old").unwrap();
     symlink(&target, &link).unwrap();
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &link], 8);
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &link, "--force"], 0);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &link], 8);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &link, "--force"], 0);
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(json_of(&target)["format"], "dragtraffic.scene");
     let pipe = at("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let end = pipe.clone();
     let reader = std::thread::spawn(move || Command::new("cat").arg(end).output().unwrap());
-    ends(&["export", &demo(), "--format", "dragtraffic", "-o", &pipe, "--force"], 0);
+    ends(&["export", &demo(), "--to", "dragtraffic", "-o", &pipe, "--force"], 0);
     let read: Value = serde_json::from_slice(&reader.join().unwrap().stdout).unwrap();
     assert_eq!(read["format"], "dragtraffic.scene");
     assert!(std::fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
@@ -129,8 +132,8 @@ fn records(folder: &Path, licence: &str) -> String {
     let (input, out) = (folder.join("street.json"), folder.join("vehicle.records"));
     std::fs::write(&input, scene.to_string()).unwrap();
     let (input, out) = (input.to_str().unwrap().to_owned(), out.to_str().unwrap().to_owned());
-    ends(&["prepare", &input, "--expert", "vehicle", "-o", &out], 0);
-    ends(&["prepare", &input, "--expert", "vehicle", "-o", &out], 8);
+    ends(&["lab", "prepare", &input, "--expert", "vehicle", "-o", &out], 0);
+    ends(&["lab", "prepare", &input, "--expert", "vehicle", "-o", &out], 8);
     out
 }
 
@@ -141,8 +144,19 @@ fn licences_travel_and_wrong_data_is_refused() {
     let records = records(folder.path(), "waymo-nc");
     let weights = at("vehicle.safetensors");
     let train = |expert: &str, more: &[&str]| -> Vec<String> {
-        let flags =
-            ["train", &records, "--stage", "initializer", "--expert", expert, "--batch", "4", "-o", &weights];
+        let flags = [
+            "lab",
+            "train",
+            &records,
+            "--stage",
+            "initializer",
+            "--expert",
+            expert,
+            "--batch",
+            "4",
+            "-o",
+            &weights,
+        ];
         flags.iter().chain(more).map(|flag| (*flag).to_owned()).collect()
     };
     let ends_of = |flags: Vec<String>, code: i32| {
@@ -181,7 +195,8 @@ fn a_stopped_training_keeps_its_checkpoint_and_no_half_files() {
     let folder = tempfile::tempdir().unwrap();
     let records = records(folder.path(), "cc0");
     let weights = folder.path().join("w.safetensors");
-    let train = ["train", &records, "--stage", "initializer", "--expert", "vehicle", "--steps", "100000"];
+    let train =
+        ["lab", "train", &records, "--stage", "initializer", "--expert", "vehicle", "--steps", "100000"];
     let mut child = Command::new(program())
         .args(train)
         .args(["--batch", "4", "-o"])
@@ -219,7 +234,7 @@ fn the_paper_is_reproduced_by_one_command() {
     let out = folder.path().join("paper").display().to_string();
     let own = demo();
     let run = |more: &[&str], code: i32| {
-        let mut arguments = vec!["reproduce", "--test", &own, "--least-agents", "2", "-o", &out];
+        let mut arguments = vec!["lab", "reproduce", "--test", &own, "--least-agents", "2", "-o", &out];
         arguments.extend(data.iter().map(String::as_str));
         arguments.extend(["--epochs", "0.1,0.1,0.1", "--batch", "8"]);
         arguments.extend(more);

@@ -223,7 +223,7 @@ fn a_scene_travels_compressed_under_an_etag_of_its_own() {
     for known in [etag, made.header("etag")] {
         assert_eq!(server.send(&asked.clone().header("if-none-match", known)).unwrap().status, 304);
     }
-    // What was read compressed can be replaced.
+    // A scene read in compressed form can be replaced.
     let replaced = server.send(&put("big", ("if-match", etag), &street(2, 20))).unwrap();
     assert_eq!(replaced.status, 200, "{}", replaced.text());
     assert_eq!(server.send(&put("big", ("if-match", etag), &street(3, 20))).unwrap().code(), "stale-etag");

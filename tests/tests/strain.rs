@@ -1,4 +1,5 @@
-//! Callers who take more than their share: slow bodies, many uploads, long calls. Others are answered all the same.
+//! Clients that take more than their share: slow bodies, many uploads, long calls. Other clients still get
+//! replies.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -16,7 +17,7 @@ fn one_byte(server: &Server, path: &str, media_type: &str) -> Option<TcpStream> 
     request.open(server.address).ok()
 }
 
-/// Somebody else asks for little, again and again, until there is an answer.
+/// Another client repeats a small request until it gets a reply.
 fn answered(server: &Server) {
     let began = Instant::now();
     loop {
@@ -62,7 +63,7 @@ fn uploads_beyond_their_number_are_refused_before_they_are_read() {
         if reply.status != 200 || began.elapsed() > Duration::from_secs(40) {
             break reply;
         }
-        // It may have had the place that one of them came for, who was refused then.
+        // This connection may have taken the place of one that was then refused.
         held.push(hold());
     };
     assert_eq!((refused.status, refused.code().as_str()), (503, "busy"), "{}", refused.text());
@@ -70,7 +71,7 @@ fn uploads_beyond_their_number_are_refused_before_they_are_read() {
     drop(held);
 }
 
-/// A call that takes seconds: everybody, many times.
+/// A call of several seconds: all road users, many times.
 fn heavy() -> Value {
     let mut body = generate(24);
     body["agents"] = json!("all");
@@ -119,7 +120,7 @@ fn a_refused_revision_may_be_tried_again() {
     }
 }
 
-/// Runs a request as the user `nobody`; `None` where this user cannot do that.
+/// Sends a request as the user `nobody`; `None` if the present user cannot switch to it.
 #[cfg(target_os = "linux")]
 fn as_nobody(server: &Server, path: &str) -> Option<String> {
     use std::os::unix::process::CommandExt;

@@ -7,7 +7,7 @@ use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Long calls alone: reading their bodies is work of another lane.
+/// Only long calls: their bodies are read in another lane.
 const RUNNING: &str = "dragtraffic_running{lane=\"patient\"}";
 const WAITING: &str = "dragtraffic_queue_length{lane=\"patient\"}";
 
@@ -35,7 +35,7 @@ fn long(client: &str, revision: u64) -> Value {
     body
 }
 
-/// A body whose answer takes longer still, and is more than the sockets between us hold.
+/// A body with an even longer answer, larger than the sockets' buffers.
 fn endless(client: &str, revision: u64) -> Value {
     let mut body = long(client, revision);
     body["stream_modes"] = json!("all");
@@ -76,7 +76,7 @@ fn a_scene_is_held_for_the_calls_that_follow() {
 fn via_points_are_passed_reported_and_stored() {
     let server = Server::start(&[]).unwrap();
     let mut body = generate(1);
-    // The next lane half way, at a time of its own, and another place that nobody gets to in time.
+    // The next lane half way, at its own time, and a second place that is unreachable in time.
     let via = json!([{"x_m": -20.0, "y_m": 3.5, "tolerance_m": 1.0, "time_s": 4.5}]);
     body["conditions"]["0"]["via"] = via.clone();
     let answer = server.send(&ask(&body, "application/json")).unwrap();
@@ -198,6 +198,11 @@ fn twenty_seconds_are_planned_window_after_window() {
     let record = server.post("/v1/export?format=womd", &scene).unwrap();
     assert_eq!(record.status, 200, "{}", record.text());
     assert!(record.header("dragtraffic-loss").contains("long-record"));
+    let losses: Value = serde_json::from_str(record.header("dragtraffic-losses")).unwrap();
+    let long = losses.as_array().unwrap().iter().find(|loss| loss["code"] == "long-record").unwrap();
+    assert_eq!(long["message"]["code"], "loss-longer");
+    let steps = |name: &str| long["message"]["values"][name].as_f64().unwrap();
+    assert!(steps("steps") > steps("known"), "{long}");
     let again = Request::new("POST", "/v1/import?dry_run=true&format=womd")
         .header("content-type", "application/octet-stream")
         .body(record.body.clone());
@@ -290,7 +295,7 @@ fn a_job_is_cancelled_by_its_id() {
 /// Occupies the only worker and the only place in the queue of a server started with
 /// `running=1` and `queue=1`, until what is returned is dropped.
 fn fill_queue(server: &Server) -> impl Sized + use<> {
-    // Nobody reads this one: its worker waits as soon as the sockets are full.
+    // No client reads this one: its worker waits as soon as the sockets are full.
     let running = ask(&endless("a", 1), "application/x-ndjson").open(server.address).unwrap();
     while server.metric(RUNNING).unwrap() < 1.0 {
         std::thread::sleep(Duration::from_millis(10));

@@ -26,11 +26,14 @@ const format = (id: string, patch: Partial<FormatInfo> = {}): FormatInfo => ({
   ...patch,
 });
 
+/** Losses without numbers, as the server sends them. */
+const sent = (...codes: string[]): string => JSON.stringify(codes.map((code) => ({ code, detail: '' })));
+
 describe('losses', () => {
   it('has words for every code that the server may send', () => {
     const scene = crossing();
     expect(CODES.length).toBeGreaterThan(30);
-    for (const code of CODES) expect(lossesOf(code, scene)[0].how, code).not.toBe('not in the file');
+    for (const code of CODES) expect(lossesOf(sent(code), scene)[0].how, code).not.toBe('not in the file');
   });
 
   it('names details of the given scene, the worst first', () => {
@@ -39,23 +42,35 @@ describe('losses', () => {
     const changed = setGoal(a, { pos: [0, 0], heading: null, speed: null, time: 9, mayCross: [], via: [] }).apply(
       scene,
     );
-    const losses = lossesOf('no-notes, no-conditions,no-road-users', changed);
+    const losses = lossesOf(sent('no-notes', 'no-conditions', 'no-road-users'), changed);
     expect(losses.map((l) => l.what)).toEqual(['Road users', 'Goals', 'Names and notes']);
     expect(losses[0].how).toContain(`all ${scene.agents.size}`);
     expect(losses[1].how).toMatch(/^1 goal: /);
-    expect(lossesOf('no-conditions', scene)[0].how).not.toMatch(/^\d/);
+    expect(lossesOf(sent('no-conditions'), scene)[0].how).not.toMatch(/^\d/);
   });
 
   it('keeps an unknown code', () => {
-    expect(lossesOf('no-street-lamps,no-map', crossing()).map((l) => l.what)).toEqual(['Road', 'Street lamps']);
+    expect(lossesOf(sent('no-street-lamps', 'no-map'), crossing()).map((l) => l.what)).toEqual([
+      'Road',
+      'Street lamps',
+    ]);
     expect(lossesOf(null, crossing())).toEqual([]);
+  });
+
+  it('contains the numbers of the server, once for each code', () => {
+    const message = { code: 'loss-lanes-without-length', values: { count: 1 } };
+    const losses = [
+      { code: 'no-map', detail: 'links to lanes' },
+      { code: 'no-map', detail: '1 lane of no length', message },
+    ];
+    expect(lossesOf(JSON.stringify(losses), crossing())).toEqual([{ what: 'Road', how: '1 lane of no length' }]);
   });
 
   it('reports what the file still contains', () => {
     const scene = crossing();
-    expect(stays(lossesOf('no-map', scene), scene)).toContain(`${scene.agents.size} road users`);
-    expect(stays(lossesOf('no-map', scene), scene)).not.toContain('the road,');
-    expect(stays(lossesOf('no-road-users', scene), scene)).toMatch(/^the road/);
+    expect(stays(lossesOf(sent('no-map'), scene), scene)).toContain(`${scene.agents.size} road users`);
+    expect(stays(lossesOf(sent('no-map'), scene), scene)).not.toContain('the road,');
+    expect(stays(lossesOf(sent('no-road-users'), scene), scene)).toMatch(/^the road/);
   });
 });
 

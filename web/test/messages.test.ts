@@ -12,7 +12,12 @@ import { german as germanProblems } from '../src/texts/german/messages/problem-m
 import { SENTENCES as PROBLEMS } from '../src/texts/messages/problem-messages';
 import { SENTENCES } from '../src/texts/messages/messages';
 
-const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as { code: string; values: string[] }[];
+const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as {
+  code: string;
+  english: string;
+  one?: string;
+  values: string[];
+}[];
 const together = (...tables: { readonly sentences: object }[]): object =>
   Object.assign({}, ...tables.map((table) => table.sentences));
 const LANGUAGES = {
@@ -36,15 +41,31 @@ describe('sentences of the server', () => {
     expect(differing.map((kind) => kind.code)).toEqual([]);
   });
 
+  it.each([
+    ['english', []],
+    // Codes with the same sentence in singular and plural.
+    ['german', ['loss-users-over-room', 'too-many-regenerated']],
+  ])('stand in the singular for one thing, in %s', (language, same) => {
+    const sentence = (code: string, one: string): string => {
+      const counted = code.startsWith('signals-made') ? 'junctions' : 'count';
+      const written = LANGUAGES[language][code] as (values: Record<string, string>) => string;
+      return written(new Proxy({}, { get: (_, name) => (name === counted ? one : `<${String(name)}>`) }));
+    };
+    const counted = kinds.filter((kind) => kind.one && kind.one !== kind.english).map((kind) => kind.code);
+    expect(counted.length).toBeGreaterThan(40);
+    const alike = counted.filter((code) => sentence(code, '1') === sentence(code, '2').replace('2', '1'));
+    expect(alike.sort()).toEqual(same);
+  });
+
   it('have lengths and speeds in the units of the page', () => {
     const far = { time_s: 4, goal_m: 61, start_mps: 13.9, kind: 'vehicle', most_m: 48.2 };
     const text = () => messageText({ code: 'goal-too-far', values: far });
     expect(text()).toBe(
-      'Too far for 4.0 s. The goal is 61 m away. In 4.0 s from 50 km/h this vehicle gets 48 m at most.',
+      'Too far for 4.0 s. The goal is 61 m away. From 50 km/h, this vehicle covers at most 48 m in 4.0 s.',
     );
     toldIn('mph');
     expect(text()).toBe(
-      'Too far for 4.0 s. The goal is 200 ft away. In 4.0 s from 31 mph this vehicle gets 158 ft at most.',
+      'Too far for 4.0 s. The goal is 200 ft away. From 31 mph, this vehicle covers at most 158 ft in 4.0 s.',
     );
     toldIn('km/h');
     const walking = messageText({ code: 'goal-too-fast', values: { time_s: 2, start_mps: 1.4, kind: 'pedestrian' } });
@@ -54,14 +75,14 @@ describe('sentences of the server', () => {
   it('give the time from which they hold, and name arms and lists in the words of the page', () => {
     const values = { since_s: 9, kind: 'cyclist' };
     expect(messageText({ code: 'goal-turn-too-tight', values })).toBe(
-      'From 9.0 s on: Too tight a turn for this cyclist.',
+      'From 9.0 s on: The turn is too tight for this cyclist.',
     );
     const arms = { first: 'North', second: 'North-west 2' };
     expect(messageText({ code: 'greens-conflict', values: arms }, '', MAPS)).toBe(
       'North and North-west 2 conflict and have green at the same time',
     );
     expect(messageText({ code: 'ids-suffixed', values: { count: 3, subject: 'road-users' } }, '', FILES)).toBe(
-      '3 road users repeat an id and got a suffix',
+      '3 repeated ids of road users got a suffix',
     );
   });
 

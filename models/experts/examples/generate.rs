@@ -1,4 +1,4 @@
-//! From another project: opens a scene, gives one road user a goal, and prints its futures and what is said of them.
+//! Opens a scene from another project, gives one road user a goal, and prints its futures with their faults.
 //!
 //! `cargo run --package dragtraffic-experts --example generate -- assets/scenes/demo-crossing.json 4 2 27.5`
 
@@ -14,11 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [path, id, x, y] = arguments.as_slice() else { return Err("name SCENE ID X Y".into()) };
 
-    // Any format, told by its content.
+    // The importer detects the format from the content.
     let mut scenes =
         formats::registry::import(&std::fs::read(path)?, path, "auto", &ImportOptions::default())?;
     let (mut scene, _warnings) = scenes.swap_remove(0)?;
-    let agent = scene.agents.iter_mut().find(|agent| agent.id == *id).ok_or("nobody has this id")?;
+    let agent = scene.agents.iter_mut().find(|agent| agent.id == *id).ok_or("no agent has this id")?;
     agent.conditions.goal.position = Some(Vec2::new(x.parse()?, y.parse()?));
 
     let engine = Engine::built_in()?;

@@ -1,8 +1,8 @@
-//! The one clock of this crate: whoever has one hands it in.
+//! The clock of this crate. The caller passes it in.
 
 use std::time::Duration;
 
-/// Time that passes evenly, since whatever moment.
+/// Monotonic time since an arbitrary moment.
 pub type Clock = fn() -> Duration;
 
 /// A clock that stands: every span is zero.

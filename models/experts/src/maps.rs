@@ -1,4 +1,4 @@
-//! What is worked out about a map once: shared by those who generate and those who place.
+//! Derived data of a map, computed once and shared by generation and placement.
 
 use lru::LruCache;
 use scene::routes::LaneGraph;
@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Maps kept, the least recently used one goes first.
 const MOST: NonZeroUsize = NonZeroUsize::new(32).unwrap();
 
-/// What is worked out about a map once.
+/// Derived data of a map.
 pub(crate) struct KnownMap {
     /// Lanes with their links.
     pub(crate) graph: Arc<LaneGraph>,
@@ -28,7 +28,7 @@ impl Default for Maps {
 }
 
 impl Maps {
-    /// What is known about a map, worked out where it is new.
+    /// The derived data of a map, computed on first use.
     pub(crate) fn known(&self, map: &Shared<LaneMap>) -> Arc<KnownMap> {
         let hash = map.hash();
         if let Some(known) = self.cached().get(&hash) {

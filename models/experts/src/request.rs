@@ -1,4 +1,4 @@
-//! What is asked of the generator, and the events it answers with.
+//! Requests to the generator, and its events.
 
 use crate::net::schedule;
 use crate::planning::world::Planning;
@@ -14,15 +14,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Which of the road users that are not regenerated answer to those that are.
+/// Agents that may react to the regenerated ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum React {
-    /// Nobody: the rest keep their log or chosen future.
+    /// None: all others keep their log or chosen future.
     #[default]
     Nobody,
-    /// Everyone whose motion comes near the regenerated ones.
+    /// All whose motion comes near a regenerated one.
     Everyone,
-    /// These alone.
+    /// Only these.
     Only(BTreeSet<AgentId>),
 }
 
@@ -36,13 +36,13 @@ pub struct Request {
     pub scene: Arc<Scene>,
     /// Road users to regenerate; `None` means all that can be.
     pub agents: Option<BTreeSet<AgentId>>,
-    /// Who else answers.
+    /// Agents that may react.
     pub react: React,
     /// Scene step at which the window starts.
     pub start_step: usize,
     /// Steps to generate, 1..=[`scene::MAX_HORIZON_STEPS`]; fewer than a window's 90 are a window cut short.
     pub horizon_steps: usize,
-    /// Plan anew, from the states reached, after so many steps (1..=90); `None` means after each 90.
+    /// Replan every so many steps from the states reached (1..=90); `None` replans after each 90.
     pub replan_steps: Option<usize>,
     /// Repeats the answer.
     pub seed: u64,
@@ -55,17 +55,18 @@ pub struct Request {
     pub diversity: f64,
     /// Denoising steps, 0..=100; 0 returns the initializer's modes.
     pub steps: usize,
-    /// Drafts carry all modes; otherwise the likeliest alone when many road users are concerned.
+    /// Drafts carry all modes; otherwise only the likeliest one in answers with many agents.
     pub stream_all: bool,
     /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
     /// so the picked motion itself is given).
     pub pinned: BTreeMap<AgentId, Vec<State>>,
-    /// What was shown last, while somebody drags: the first sample leaves it only for a gain worth the jump.
+    /// The futures shown last, while the user drags. The first sample keeps one unless another is better by
+    /// `switching`.
     pub shown: BTreeMap<AgentId, ShownLast>,
-    /// What a person said of earlier cards: the answer is the next round of `modes` cards out of a wide draw, in
-    /// place of `samples`. [`Request::round`] sets it.
+    /// Verdicts on earlier cards: the answer is the next round of `modes` cards out of a wide draw, in place
+    /// of `samples`. [`Request::round`] sets it.
     pub feedback: Option<Feedback>,
-    /// Numbers that decide what is said to be wrong with a future. They change no motion.
+    /// Thresholds of the reported faults. They change no motion.
     pub thresholds: Thresholds,
     /// Parts that run; all of them but in an evaluation.
     pub stages: Stages,
@@ -87,12 +88,12 @@ pub struct Stages {
     pub shown: Shown,
     /// Futures in conflict are pushed apart and offered to the choice.
     pub guidance: bool,
-    /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
-    /// a guess at it would be an obstacle that is not there.
+    /// Agents that keep their motion count as obstacles. An evaluation that withholds their motion turns this
+    /// off, because an extrapolated motion would be an obstacle that does not exist.
     pub background_in_the_way: bool,
     /// Of futures that coincide one takes another course; otherwise both stay as the initializer has them.
     pub parted: bool,
-    /// What is wrong with each future is said.
+    /// Report the faults of each future.
     pub judged: bool,
     /// How each road user's futures are planned. The choice knows the whole map either way.
     pub planning: Planning,
@@ -144,7 +145,7 @@ pub enum Shown {
     Drawn,
 }
 
-/// What a request has when it does not say: the one place, for the API, the command line and clients.
+/// Defaults of a request, shared by the API, the command line and clients.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Defaults {
     /// Refinement steps.
@@ -195,8 +196,8 @@ impl Request {
         }
     }
 
-    /// The next round of cards out of a wide draw, by what was said of earlier cards. With what was said the draw
-    /// changes too: what nobody has seen yet is in it.
+    /// The next round of cards out of a wide draw, given verdicts on earlier cards. Each verdict changes the
+    /// seed of the draw, so that new futures come up.
     #[must_use]
     pub fn round(self, feedback: Feedback) -> Self {
         let diversity = self.diversity.max(ROUND_DIVERSITY);
@@ -234,7 +235,7 @@ pub struct Field {
 #[schemars(rename = "Reach")]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum ReachReport {
-    /// Nothing was asked, or all fixed fields are met.
+    /// No goal, or all fixed fields are met.
     Reached {
         /// Distance to the goal position, metres.
         position_m: f64,
@@ -249,7 +250,7 @@ pub enum ReachReport {
         nearest: NearestState,
         /// Limit that binds.
         limiting: Limiting,
-        /// What it would take, in that limit's unit, when it can be told.
+        /// Amount that the goal would take, in that limit's unit, where a formula gives it.
         needs: Option<f64>,
         /// The reason in English.
         words: String,
@@ -278,8 +279,8 @@ impl NearestState {
     }
 }
 
-/// Where a window sent a road user whose goal is due after the window's end: the state there on the
-/// way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+/// The state to which a window sends a road user whose goal is due after the window's end. It lies on the way
+/// to the goal at constant acceleration, along the lanes where they lead to it, else straight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Intermediate {
     /// Planning window, from 0.
@@ -335,7 +336,7 @@ pub struct ResolvedVia {
     pub x_m: f64,
     /// Where it lies, metres.
     pub y_m: f64,
-    /// How near was asked, metres.
+    /// Tolerance of the condition, metres.
     pub tolerance_m: f64,
     /// It is passed within its tolerance, and at its time where that is fixed.
     pub passed: bool,
@@ -389,6 +390,10 @@ pub enum WarningCode {
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
+    /// A condition of this call concerns a road user that is not regenerated.
+    ConditionUnused,
+    /// No road user was named, and none has to continue beyond its known motion.
+    NothingGenerated,
 }
 
 impl WarningCode {
@@ -401,6 +406,8 @@ impl WarningCode {
             Self::StartOverlaps => "start-overlaps",
             Self::Extrapolated => "extrapolated",
             Self::ViaMissed => "via-missed",
+            Self::ConditionUnused => "condition-unused",
+            Self::NothingGenerated => "nothing-generated",
         }
     }
 }
@@ -426,8 +433,13 @@ pub struct Warning {
 
 impl Warning {
     /// A warning about an agent.
-    pub(crate) fn of(code: WarningCode, agent: &AgentId, message: Message) -> Self {
-        Self { code, agent: Some(agent.clone()), detail: message.to_string(), message }
+    pub fn of(code: WarningCode, agent: &AgentId, message: Message) -> Self {
+        Self { agent: Some(agent.clone()), ..Self::of_scene(code, message) }
+    }
+
+    /// A warning about the whole scene.
+    pub fn of_scene(code: WarningCode, message: Message) -> Self {
+        Self { code, agent: None, detail: message.to_string(), message }
     }
 }
 
@@ -455,13 +467,13 @@ pub struct Accepted {
 pub struct Draft {
     /// Planning window, from 0. Its futures begin one step after the window's start.
     pub window: usize,
-    /// Joint sample, from 0; drafts of the first alone are told.
+    /// Joint sample, from 0; only the first sample sends drafts.
     pub sample: usize,
     /// 0 for the initializer's modes, then the denoising step.
     pub step: usize,
     /// Denoising steps in all.
     pub steps: usize,
-    /// Whom they are about.
+    /// Road users in the draft.
     pub agents: Vec<AgentId>,
 }
 
@@ -478,11 +490,10 @@ pub struct Timings {
 /// Last event of a call that succeeded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// One coherent scene each. A chosen future runs through all windows to the end of the horizon;
-    /// its alternatives are those of the first window and end with that window's plan. A future of the
-    /// scene that is kept and ends before the horizon is planned on, and so part of the answer;
-    /// in a call about everybody, so is one that comes in later and whose log ends (its future begins
-    /// after it has come in).
+    /// One coherent scene each. A chosen future runs through all windows to the end of the horizon; its
+    /// alternatives are those of the first window and end with that window's plan. A kept future of the scene
+    /// that ends before the horizon is extended, and so part of the answer. In a call for all agents the same
+    /// holds for an agent that enters later and whose log ends; its future begins after it has entered.
     pub samples: Vec<Sample>,
     /// Planning windows that were run, one after the other.
     pub windows: usize,
@@ -519,15 +530,15 @@ pub enum GenerateError {
     /// The map, or the region of it, has no such arm.
     #[error("no arm \"{arm}\"; {known}")]
     UnknownArm {
-        /// Asked for.
+        /// The requested arm.
         arm: String,
-        /// Those that there are, in words.
+        /// The ids of all arms, in one text.
         known: String,
     },
     /// A start field is free and neither log nor default fills it.
     #[error("{agent}: start field {field} is free and nothing fills it")]
     StartMissing {
-        /// Whose.
+        /// The agent without it.
         agent: AgentId,
         /// Which.
         field: &'static str,
@@ -535,7 +546,7 @@ pub enum GenerateError {
     /// More than 128 road users to regenerate.
     #[error("{found} road users to regenerate; at most {most}")]
     TooManyAgents {
-        /// Asked.
+        /// Requested.
         found: usize,
         /// Allowed.
         most: usize,
@@ -545,13 +556,13 @@ pub enum GenerateError {
     NonFinite {
         /// 0 for the initializer.
         step: usize,
-        /// Whose.
+        /// The agent of the future.
         agent: AgentId,
     },
     /// The caller cancelled.
     #[error("cancelled")]
     Cancelled,
-    /// A part of a call was asked for before its window was planned; a defect of the program.
+    /// A part of a call ran before its window was planned; a defect of the program.
     #[error("no window is planned")]
     NoWindow,
     /// Anything the tensor library reports; a defect of the program or its weights.
@@ -569,7 +580,7 @@ impl Cancel {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// True once asked.
+    /// True after a call of [`Cancel::cancel`].
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

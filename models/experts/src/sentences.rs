@@ -48,7 +48,7 @@ pub struct Need {
 impl fmt::Display for Need {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.amount {
-            Some(amount) => write!(f, " It would take {amount:.1} {}.", self.unit),
+            Some(amount) => write!(f, " Required: {amount:.1} {}.", self.unit),
             None => Ok(()),
         }
     }
@@ -70,34 +70,40 @@ pub fn since(mut message: Message, since_s: f64) -> Message {
 scene::messages! {
     goal_too_far(time_s: f64, goal_m: f64, start_mps: Speed, kind: Word, most_m: f64) =
         "goal-too-far",
-        "Too far for {time_s:.1} s. The goal is {goal_m:.0} m away. In {time_s:.1} s from {start_mps} this {kind} \
-         gets {most_m:.0} m at most.";
+        "Too far for {time_s:.1} s. The goal is {goal_m:.0} m away. From {start_mps}, this {kind} covers at \
+         most {most_m:.0} m in {time_s:.1} s.";
     goal_too_fast(time_s: f64, start_mps: Speed, need_mps2: Need) =
         "goal-too-fast", "Cannot accelerate that much in {time_s:.1} s from {start_mps}.{need_mps2}";
     goal_above_top_speed(kind: Word, need_mps: Need) =
-        "goal-above-top-speed", "Faster than this {kind} can go.{need_mps}";
+        "goal-above-top-speed", "Above the top speed of this {kind}.{need_mps}";
     goal_too_near(start_mps: Speed, least_m: f64, goal_m: f64, need_mps2: Need) =
         "goal-too-near",
-        "Cannot stop that soon. From {start_mps} it needs {least_m:.0} m, the goal is {goal_m:.0} m \
+        "Cannot stop that soon. Braking from {start_mps} takes {least_m:.0} m; the goal is {goal_m:.0} m \
          away.{need_mps2}";
     goal_too_slow(time_s: f64, need_mps2: Need) =
         "goal-too-slow", "Cannot brake that much in {time_s:.1} s.{need_mps2}";
     goal_too_tight(need_mps2: Need) = "goal-too-tight", "Too tight at this speed.{need_mps2}";
-    goal_turn_too_tight(kind: Word) = "goal-turn-too-tight", "Too tight a turn for this {kind}.";
+    goal_turn_too_tight(kind: Word) = "goal-turn-too-tight", "The turn is too tight for this {kind}.";
     goal_blocked(agent: &str, kind: Word, short_m: f64) =
-        "goal-blocked", "Road user {agent} is in the way of this {kind}. It stops {short_m:.0} m short of the goal.";
+        "goal-blocked", "Road user {agent} blocks this {kind}, which stops {short_m:.0} m short of the goal.";
     goal_blocked_by_traffic(kind: Word, short_m: f64) =
         "goal-blocked-by-traffic",
-        "Another road user is in the way of this {kind}. It stops {short_m:.0} m short of the goal.";
+        "Another road user blocks this {kind}, which stops {short_m:.0} m short of the goal.";
     goal_off_road(within_m: f64) = "goal-off-road", "There is no lane within {within_m} m of the goal.";
     goal_beyond_top_speed(goal_m: f64, time_s: f64) =
-        "goal-beyond-top-speed", "{goal_m:.0} m in {time_s:.1} s is beyond the top speed.";
+        "goal-beyond-top-speed", "{goal_m:.0} m in {time_s:.1} s requires more than the top speed.";
     start_off_road(within_m: f64) = "start-off-road", "There is no lane within {within_m} m of the start.";
     start_overlaps(agent: &str) = "start-overlaps", "The start overlaps road user {agent}.";
     via_missed(number: usize, distance_m: f64, time_s: f64, tolerance_m: f64) =
         "via-missed",
-        "The future passes via point {number} {distance_m:.1} m away at {time_s:.1} s; the tolerance is \
+        "The future misses via point {number} by {distance_m:.1} m at {time_s:.1} s; the tolerance is \
          {tolerance_m:.1} m.";
+    condition_unused(agent: &str) =
+        "condition-unused",
+        "Road user {agent} is not regenerated: its start, goal and via points do not change its motion.";
+    nothing_generated() =
+        "nothing-generated",
+        "No road user is regenerated, and no known motion ends before the last window.";
     motion_ends(time_s: f64) =
         "motion-ends", "The known motion ends at {time_s:.1} s; the road user continues straight at its speed.";
 }

@@ -195,7 +195,7 @@ fn a_small_move_of_the_goal_moves_the_answer_by_centimetres() {
         let mut scene = crossing();
         scene.agents[0].conditions.goal = Goal { position: Some(Vec2::new(x, -1.9)), ..Goal::default() };
         let mut request = ask(scene, Some(&["1"]));
-        // Nobody is in the way: an overlap that begins is cleared by more than centimetres.
+        // Without obstacles; clearing an overlap would move the future by more than centimetres.
         request.stages.background_in_the_way = false;
         let answer = run(&GENERATOR, request);
         // Followed by its anchor: probabilities of other ideas may change places.

@@ -1,5 +1,5 @@
-//! What must hold for any input whatever. Fuzz targets and plain tests over their corpus run these;
-//! a broken promise panics.
+//! Properties that must hold for any input. Fuzz targets run them, and so do plain tests over the fuzz
+//! corpus; a violation panics.
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
 use crate::format::{ExportOptions, ExportedMotion, ImportOptions};
@@ -13,7 +13,7 @@ use scene::score::{Drivable, ScoreInput, score};
 use scene::{AgentType, Scene, State};
 use std::sync::Arc;
 
-/// What must hold for any bytes; it says whether they were read, and panics where a promise is broken.
+/// A property that must hold for any bytes. Returns whether the bytes were read; panics on a violation.
 pub type Check = fn(&[u8]) -> bool;
 
 /// Every reader by the name of its corpus in `fuzz/corpus`.
@@ -54,10 +54,10 @@ pub fn native(bytes: &[u8]) -> bool {
     true
 }
 
-/// What is written for netconvert of an extract reads again to the same.
+/// The network written for netconvert reads back unchanged.
 ///
 /// # Panics
-/// When it does not.
+/// If it reads back differently.
 pub fn osm(bytes: &[u8]) -> bool {
     let Ok(roads) = extract::read(&bytes) else { return false };
     let again = extract::read(&roads.xml).expect("what was written is read");
@@ -76,7 +76,7 @@ pub fn map(bytes: &[u8]) -> bool {
     true
 }
 
-/// What is worked out about every scene that is opened.
+/// Derives everything that is derived from each opened scene.
 fn works(scene: &Scene) {
     LaneGraph::new(&scene.map);
     let drivable = Drivable::new(&scene.map);
@@ -84,8 +84,8 @@ fn works(scene: &Scene) {
     score(&ScoreInput::of_sample(scene, chosen, &drivable));
 }
 
-/// A record that is read writes back to an equal scene. Checksums are not looked at, so that a
-/// fuzzer gets past them.
+/// A record that is read writes back to an equal scene. Checksums are not verified, so that a fuzzer gets
+/// past them.
 ///
 /// # Panics
 /// When it does not.
@@ -120,7 +120,7 @@ pub fn recording(format: &str, bytes: &[u8]) -> bool {
     imported(format, bytes, None)
 }
 
-/// What stands before the first zero byte, and what behind it.
+/// The bytes before and after the first zero byte.
 fn parts(bytes: &[u8]) -> (&[u8], &[u8]) {
     let mut parts = bytes.splitn(2, |byte| *byte == 0);
     (parts.next().unwrap_or_default(), parts.next().unwrap_or_default())
@@ -192,10 +192,10 @@ fn read(format: &str, bytes: &[u8], options: &ImportOptions) -> bool {
     read
 }
 
-/// A file of an unknown format, as it is uploaded: what it is told to be, it is read as.
+/// Reads an uploaded file of unknown format in the format that detection chose.
 ///
 /// # Panics
-/// When a scene is read that the native format does not hold.
+/// If a reader returns a scene that the native format cannot hold.
 pub fn sniff(bytes: &[u8]) -> bool {
     registry::sniff(bytes, "").is_some_and(|format| imported(format.info().id, bytes, None))
 }

@@ -1,4 +1,4 @@
-//! What is said of a scene, as far as a scene can hold it: files of others say more.
+//! Names and notes of a scene, cut to what a scene can hold: files from other tools hold more.
 
 use crate::problem::{FieldProblem, ReadError};
 use scene::Meta;

@@ -15,7 +15,7 @@ fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
 /// Removes what is half written: for a process that is about to end.
 pub fn abandon() {
     for path in under_way().drain(..) {
-        // What cannot be removed is gone already, or nothing can be done about it.
+        // A failure means that the file is gone already or cannot be removed; neither can be handled here.
         let _ = fs::remove_file(path);
     }
 }
@@ -61,7 +61,7 @@ impl Whole {
         Ok(Self { target, partial: Some(partial), file: BufWriter::new(file) })
     }
 
-    /// Where it lies until it is finished, for those who write it by its name; `None` for a device or a pipe.
+    /// Path of the unfinished file, for callers that write to it by name; `None` for a device or a pipe.
     pub fn partial(&self) -> Option<&Path> {
         self.partial.as_deref()
     }

@@ -1,4 +1,4 @@
-//! What a format is: the one interface that every reader and writer keeps.
+//! The interface of a format, implemented by every reader and writer.
 
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::io;
 use std::sync::Arc;
 
-/// What people and programs need to know about a format.
+/// Description of a format for clients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[schemars(rename = "FormatInfo")]
 pub struct Info {
@@ -31,14 +31,14 @@ pub struct Info {
     pub many: bool,
     /// May come with the network it belongs to ([`ImportOptions::net`]).
     pub takes_net: bool,
-    /// What a file holds, and how it is read and written.
+    /// Content of a file, and how it is read and written.
     pub notes: &'static str,
-    /// Codes of what a written file may lack ([`crate::loss::code`]). What it lacks of a scene is told when it is
-    /// written.
+    /// Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports the
+    /// losses it had.
     pub loses: &'static [&'static str],
 }
 
-/// How to read a file of any format.
+/// Options for reading a file of any format.
 #[derive(Clone, Debug)]
 pub struct ImportOptions {
     /// Scenes to pass over.
@@ -51,13 +51,13 @@ pub struct ImportOptions {
     pub verify: bool,
     /// Join the tracks of road users that a recording has under two ids.
     pub join_identities: bool,
-    /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
-    /// plain or gzip, or the map of an Argoverse scenario. Faults in it are reported under [`NET_POINTER`].
+    /// The network of a recording, for formats whose info has `takes_net`: a SUMO `net.xml`, plain or gzip,
+    /// or the map of an Argoverse scenario. Faults in it are reported under [`NET_POINTER`].
     pub net: Option<Arc<dyn Source>>,
     /// For extracts of OpenStreetMap.
     pub netconvert: Option<Arc<dyn Netconvert>>,
-    /// Which columns of a table say what, for formats that take it ([`Format::takes_columns`]): a JSON object of
-    /// our names and theirs. Faults in it are reported under [`COLUMNS_POINTER`].
+    /// The column file, for formats that accept one ([`Format::takes_columns`]): a JSON object from this
+    /// program's column names to the table's. Faults in it are reported under [`COLUMNS_POINTER`].
     pub columns: Option<Arc<dyn Source>>,
 }
 
@@ -84,7 +84,7 @@ impl Default for ImportOptions {
 /// Which motion of a road user is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ExportedMotion {
-    /// What was recorded.
+    /// The recorded tracks.
     Log,
     /// The chosen future where there is one, after the log up to its first step.
     #[default]
@@ -112,7 +112,7 @@ impl ExportedMotion {
     }
 }
 
-/// How to write a file of any format.
+/// Options for writing a file of any format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ExportOptions {
     /// Which motion, where the format has room for one only.
@@ -121,9 +121,9 @@ pub struct ExportOptions {
     pub gzip: bool,
     /// The one sample to write, where the format has room for several.
     pub sample: Option<usize>,
-    /// What a scene is called in a table of several; its own name when absent.
+    /// Name of the scene in a table of several scenes; its own name when absent.
     pub label: Option<String>,
-    /// What is written goes on behind scenes that are in the file already: no heading.
+    /// The file already has scenes, so no heading is written.
     pub continued: bool,
 }
 
@@ -132,11 +132,11 @@ pub struct ExportOptions {
 pub struct Exported {
     /// The file.
     pub bytes: Vec<u8>,
-    /// What it does not carry.
+    /// Losses of the export.
     pub losses: Vec<Loss>,
 }
 
-/// Scenes of a file one by one, each read when it is asked for; one that is broken does not stop the others.
+/// Scenes of a file, read one at a time on demand; a broken scene does not end the iteration.
 pub type Scenes<'a> = Box<dyn Iterator<Item = Result<Imported, ReadError>> + 'a>;
 
 /// A file that holds one scene, or none that can be read.
@@ -144,14 +144,14 @@ pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
     Box::new(std::iter::once(scene))
 }
 
-/// Role of the vehicle that recorded a scene, or whose way is to be found in it.
+/// Role of the ego: the vehicle that recorded a scene or whose motion is predicted.
 pub(crate) const EGO: &str = "ego";
 
 /// Steps of a window of a longer recording: 9.1 s, as recordings of other sources have.
 pub(crate) const RECORDED_STEPS: usize = 91;
 /// The step of a window that is its present, as in recordings of other sources.
 pub(crate) const NOW_STEP: usize = 10;
-/// Time of a scene that is made of a map alone: a second that has passed and eight to come.
+/// Time of a scene imported from a map without recording: one past second and eight future ones.
 pub(crate) const MAP_TIMING: Timing = Timing { steps: RECORDED_STEPS, now_step: NOW_STEP };
 
 /// Refusal of a writer that there is not.
@@ -180,7 +180,7 @@ pub trait Format: Sync {
     /// The table's row.
     fn info(&self) -> Info;
 
-    /// How sure it is that a file that begins so is its own: 0 not at all, 1 by name, 2 by content.
+    /// Confidence that a file with this beginning has this format: 0 none, 1 by name, 2 by content.
     fn sniff(&self, head: &[u8], name: &str) -> u8;
 
     /// May come with names of columns ([`ImportOptions::columns`]).

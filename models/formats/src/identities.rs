@@ -6,8 +6,9 @@ use crate::sentences;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::{Agent, STEP_S, Scene, State, wrap_angle};
 
-/// The second track begins at most this long before or after the end of the first, steps. Of one that stands at the
-/// end of the first and at the beginning of the second it may be any time after: nobody else takes its place.
+/// The second track begins at most this many steps before or after the end of the first. A road user that
+/// stands at the end of one and the beginning of the other may be unseen for longer, because no other takes
+/// its place.
 const MOST_STEPS: usize = 10;
 /// Slower than this stands, m/s.
 const STANDING_MPS: f64 = 0.5;
@@ -20,8 +21,8 @@ const MOST_RAD: f64 = 0.35;
 /// Pairs that a warning names.
 const NAMED: usize = 8;
 
-/// Joins the tracks of road users that the recording has under two ids; the first id stays. The warning says
-/// whose they were.
+/// Joins the tracks of road users that the recording has under two ids; the first id stays. The warning lists
+/// the ids.
 pub fn join(scene: &mut Scene) -> Option<ImportWarning> {
     let mut joined = Vec::new();
     while let Some((first, second)) = find(&scene.agents) {
@@ -87,11 +88,12 @@ fn in_time(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
     begin.abs_diff(end) <= MOST_STEPS || waits()
 }
 
-/// Where both are known they coincide; where they are not, the first goes on into the place of the second.
+/// Where both tracks have states they coincide; otherwise the first extrapolates to the position of the
+/// second.
 fn is_same(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
     if begin > end {
         let (Some(last), Some(next)) = (first.track.at(end), second.track.at(begin)) else { return false };
-        // What creeps for seconds without being seen would be guessed too far on.
+        // A creeping road user, unseen for seconds, cannot be extrapolated reliably.
         let stands = last.speed_mps() < STANDING_MPS && next.speed_mps() < STANDING_MPS;
         if stands {
             return coincide((last, first), (next, second));

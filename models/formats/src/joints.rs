@@ -1,10 +1,11 @@
-//! How lanes meet: which leads into which, and what ends of lanes belong to the same junction. Formats whose roads end at junctions are written by this.
+//! Connections of lanes: which lane leads into which, and which lane ends share a junction. Used by the
+//! writers of formats whose roads end at junctions.
 
 use scene::map::LaneMap;
 use scene::{Vec2, geometry};
 use std::collections::{BTreeSet, HashMap};
 
-/// Most ways through junctions that are looked at for crossing each other.
+/// Most ways through junctions that are tested for crossings.
 const MOST_CROSSING: usize = 1_500;
 /// Most pieces of lines that are held against each other: ten times what a large town needs.
 const MOST_PIECES: u64 = 100_000_000;
@@ -44,13 +45,13 @@ pub(crate) fn start_of(lane: usize) -> usize {
     2 * lane + 1
 }
 
-/// How the lanes of a map meet, by their positions in it.
+/// Connections of the lanes of a map, by their index in it.
 pub(crate) struct Joints {
     /// Which lane leads into which, each pair once.
     pub links: BTreeSet<(usize, usize)>,
-    /// What each lane leads into.
+    /// Successors of each lane.
     pub outs: Vec<Vec<usize>>,
-    /// What leads into each lane.
+    /// Predecessors of each lane.
     pub ins: Vec<Vec<usize>>,
 }
 
@@ -111,7 +112,8 @@ impl<'a> Crossings<'a> {
         Self { boxes: lines.iter().map(corners).collect(), lines, left: MOST_PIECES }
     }
 
-    /// Two lines cross or touch; once too many were looked at, all whose boxes meet are taken to.
+    /// Whether two lines cross or touch. Beyond the limit of comparisons, overlapping boxes count as
+    /// touching.
     pub fn meet(&mut self, i: usize, j: usize) -> bool {
         let (a, b) = (self.boxes[i], self.boxes[j]);
         if (0..2).any(|k| a.0[k] > b.1[k] || b.0[k] > a.1[k]) {

@@ -1,4 +1,4 @@
-//! Kinds of file that are known and not read: who brings one is told what it is, and what to do instead.
+//! File kinds that are recognised but not read: the refusal names the kind and the alternative.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::{unpack, xml};
@@ -186,7 +186,7 @@ pub(crate) fn refusal(head: &[u8], name: &str, ends: &[&str]) -> Option<ReadErro
     let mut detail = format!("{} is not read; {}", kind.what, kind.instead);
     let name = name.to_ascii_lowercase();
     let ends_so = |end: &str| name.strip_suffix(end).is_some_and(|stem| stem.ends_with('.'));
-    // The longest end says most: `.net.xml` is no `.xml`.
+    // The longest ending is the most specific: `.net.xml` is no `.xml`.
     let others = KINDS.iter().flat_map(|kind| kind.ends).copied().chain(ends.iter().copied());
     let said = others.filter(|end| ends_so(end)).max_by_key(|end| end.len());
     if let Some(end) = said.filter(|_| !kind.ends.iter().any(|end| ends_so(end))) {

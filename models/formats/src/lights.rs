@@ -20,11 +20,12 @@ pub(crate) struct SignalHead {
     pub heading_rad: f64,
     /// Heads of a junction share a cycle.
     pub junction: String,
-    /// Those that the source says to switch together, in its order; without a word, opposite approaches do.
+    /// Index and name of the signal group that the source gives; without one, opposite approaches form a
+    /// group.
     pub group: Option<(u32, String)>,
 }
 
-/// A signal for each head, over `steps` steps, with what has to be said of them.
+/// A signal for each head, over `steps` steps, with the warnings about them.
 pub(crate) fn signals(
     map: &LaneMap,
     mut heads: Vec<SignalHead>,
@@ -75,8 +76,8 @@ fn groups(heads: &[SignalHead]) -> Vec<usize> {
     heads.iter().map(group).collect()
 }
 
-/// What a group of so many shows, as a scene keeps it. A junction with one group is red for as long as another
-/// would have its turn.
+/// States of one signal group, as a scene stores them. A junction with a single group is red for as long as a
+/// second group would be green.
 fn runs(group: usize, groups: usize, steps: usize) -> Vec<(usize, SignalState)> {
     let turn_s: f64 = PHASES_S.iter().sum();
     let cycle_s = turn_s * groups.max(2) as f64;

@@ -10,10 +10,10 @@ pub const MAX_SCENES: usize = 200;
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 /// Most values of a native document.
 pub const MAX_DOCUMENT_VALUES: u64 = 32 << 20;
-/// Greatest ratio of decompressed to compressed bytes, looked at after the first MiB.
+/// Greatest ratio of decompressed to compressed bytes, checked after the first MiB.
 pub const MAX_EXPANSION: u64 = 100;
 
-/// What reading a file of so many bytes, as they came, takes of memory at most.
+/// Most memory, bytes, that reading a file of `encoded` bytes takes.
 pub const fn memory_for(encoded: u64) -> u64 {
     encoded.saturating_mul(8).saturating_add(64 << 20)
 }

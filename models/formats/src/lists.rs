@@ -1,5 +1,5 @@
-//! Lists that stop growing: a few bytes of a document become many bytes of structs, so a document may
-//! not ask for more than a scene can hold.
+//! Lists with a limit: a few bytes of a document become many bytes of structs, so a document may not need
+//! more than a scene can hold.
 
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;

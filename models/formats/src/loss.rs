@@ -1,26 +1,56 @@
-//! What a writer cannot carry.
+//! Losses: what a writer cannot carry.
 
+use scene::message::Message;
+use schemars::JsonSchema;
 use serde::Serialize;
+use std::cmp::Ordering;
 
 /// One kind of loss in an exported file. Programs switch on `code`.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Loss {
     /// Such as `no-conditions`; see the constants of [`code`].
     pub code: &'static str,
-    /// For people.
+    /// The loss in English.
     pub detail: String,
+    /// The loss as data, where it has numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<Message>,
 }
 
 impl Loss {
-    /// A loss.
+    /// A loss without numbers.
     pub fn new(code: &'static str, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into() }
+        Self { code, detail: detail.into(), message: None }
+    }
+
+    /// A loss with numbers.
+    pub fn counted(code: &'static str, message: Message) -> Self {
+        Self { code, detail: message.to_string(), message: Some(message) }
+    }
+
+    fn key(&self) -> (&'static str, &str) {
+        (self.code, &self.detail)
     }
 }
 
-/// What a format cannot carry, by name; they never change.
+impl Eq for Loss {}
+
+impl PartialOrd for Loss {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Loss {
+    /// By code, then by sentence.
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+/// Codes of losses; they are stable.
 pub mod code {
-    /// What the user fixed.
+    /// Conditions fixed by the user.
     pub const NO_CONDITIONS: &str = "no-conditions";
     /// Which motion was generated: read again, all of it counts as recorded.
     pub const NO_GENERATED: &str = "no-generated";
@@ -34,7 +64,7 @@ pub mod code {
     pub const NO_LICENCE: &str = "no-licence";
     /// Name, tags, notes and the like.
     pub const NO_NOTES: &str = "no-notes";
-    /// Road users, where a file is a map alone.
+    /// Road users, in a file that holds only a map.
     pub const NO_ROAD_USERS: &str = "no-road-users";
     /// Lanes, lines, edges and areas.
     pub const NO_MAP: &str = "no-map";
@@ -42,7 +72,7 @@ pub mod code {
     pub const NO_SIGNALS: &str = "no-signals";
     /// Boxes of road users.
     pub const NO_SIZES: &str = "no-sizes";
-    /// What is said of futures: probabilities, faults, relations, reactions.
+    /// Judgements of futures: probabilities, faults, relations, reactions.
     pub const NO_JUDGEMENTS: &str = "no-judgements";
     /// The present step, steps beyond what is known of road users, the source's times.
     pub const NO_TIMING: &str = "no-timing";
@@ -50,7 +80,7 @@ pub mod code {
     pub const NO_LANE_GRAPH: &str = "no-lane-graph";
     /// Heights.
     pub const NO_Z: &str = "no-z";
-    /// Road users whom nobody saw.
+    /// Road users without any recorded state.
     pub const NO_UNSEEN: &str = "no-unseen";
     /// Drivable areas.
     pub const NO_DRIVABLE: &str = "no-drivable";
@@ -66,11 +96,11 @@ pub mod code {
     pub const NO_AREAS: &str = "no-areas";
     /// Lanes beside each other over a part of their length.
     pub const NO_NEIGHBORS: &str = "no-neighbors";
-    /// Steps at which nobody saw a road user, between others.
+    /// Gaps within a track, in which the road user was not seen.
     pub const NO_VALIDITY_GAPS: &str = "no-validity-gaps";
-    /// One road user alone has a goal, and nothing else is known of it.
+    /// Only one road user has a goal, and only the goal is kept.
     pub const SINGLE_EGO: &str = "single-ego";
-    /// What signals show beside red, yellow and green.
+    /// Signal states other than red, yellow and green.
     pub const NO_SIGNAL_STATES: &str = "no-signal-states";
     /// Road users that come after the first step, of which the format's own readers know and its schema does not.
     pub const LATE_ROAD_USERS: &str = "late-road-users";
@@ -82,7 +112,7 @@ pub mod code {
     pub const NO_SPEED_LIMITS: &str = "no-speed-limits";
     /// Speeds other than the first one, where readers find them from places and times.
     pub const NO_VELOCITY: &str = "no-velocity";
-    /// Where road users go in the network, of those who are on no lane.
+    /// Routes of road users that are on no lane of the network.
     pub const NO_TRIPS: &str = "no-trips";
     /// Rollouts that the format asks for and the scene has no samples for.
     pub const NO_ROLLOUTS: &str = "no-rollouts";

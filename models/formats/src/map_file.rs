@@ -11,7 +11,7 @@ use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
 use std::collections::BTreeMap;
 use std::io;
 
-/// What stands behind the id of a lane that traffic uses both ways, for the way against its direction.
+/// Suffix of a bidirectional lane's id for the copy against its direction.
 pub(crate) const AGAINST: &str = ".back";
 
 /// A format of maps in XML, plain or gzip.
@@ -24,11 +24,11 @@ pub(crate) struct MapFile {
     pub extensions: &'static [&'static str],
     /// The element that files begin with.
     pub root: &'static str,
-    /// Where scenes say that they come from.
+    /// `meta.source` of the scenes.
     pub source: &'static str,
-    /// What a file holds, in words.
+    /// Content of a file, in words.
     pub notes: &'static str,
-    /// What the writer may not carry.
+    /// Codes of the losses that a written file may have.
     pub loses: &'static [&'static str],
     /// The reader.
     pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
@@ -36,7 +36,7 @@ pub(crate) struct MapFile {
     pub write: Option<fn(&Scene, &ExportOptions) -> io::Result<Exported>>,
 }
 
-/// What a file holds.
+/// Content of a map file.
 pub(crate) struct MapRead {
     /// Of the scene.
     pub name: String,
@@ -44,13 +44,13 @@ pub(crate) struct MapRead {
     pub map: Shared<LaneMap>,
     /// Over [`MAP_TIMING`].
     pub signals: Vec<Signal>,
-    /// Where the origin lies in the file's frame.
+    /// Origin in the file's frame.
     pub origin: Origin,
     pub warnings: Vec<ImportWarning>,
 }
 
 impl MapRead {
-    /// A scene of the map alone. `source` is where it comes from.
+    /// A scene with only the map. `source` becomes its `meta.source`.
     ///
     /// # Errors
     /// The bounds of a scene.
@@ -119,7 +119,7 @@ pub(crate) fn is_too_wide(half: Vec2) -> bool {
     half.amax() > MAX_COORDINATE_M - 100.0
 }
 
-/// How large it is, and what a map can be.
+/// Size of the map and the limit, for a refusal.
 pub(crate) fn extent(half: Vec2) -> String {
     let (width, height) = (2.0 * half.x, 2.0 * half.y);
     format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle")

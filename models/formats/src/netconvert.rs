@@ -5,10 +5,10 @@ use std::io;
 
 /// Runs netconvert for readers that need it.
 pub trait Netconvert: Debug + Send + Sync {
-    /// What it makes of a file: the network that it writes as `net.xml`. It is started in an empty folder that holds
-    /// the file `name`, with these arguments.
+    /// Converts a file to a network and returns its `net.xml`. The program runs with these arguments in an
+    /// empty folder that holds only the file `name`.
     ///
     /// # Errors
-    /// `NotFound` where there is no such program, `TimedOut`, and with its words when it fails.
+    /// `NotFound` without the program, `TimedOut`, and the program's own message when it fails.
     fn network(&self, name: &str, file: &[u8], arguments: &[String]) -> io::Result<Vec<u8>>;
 }

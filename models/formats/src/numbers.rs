@@ -7,12 +7,12 @@ pub(crate) struct Numbers {
     own: HashSet<i64>,
     used: HashSet<i64>,
     next: i64,
-    /// Something got another number than its id says.
+    /// An id got a number other than its own.
     pub renumbered: bool,
 }
 
 impl Numbers {
-    /// Free numbers come after those that these ids are.
+    /// Reserves the numbers of these ids; free numbers start after the largest.
     pub fn of<'a>(ids: impl Iterator<Item = &'a String>) -> Self {
         let own: HashSet<i64> = ids.filter_map(|id| number(id)).collect();
         let next = own.iter().max().map_or(1, |most| most + 1);

@@ -1,5 +1,5 @@
-//! The XML of OpenStreetMap, item by item: points, lines of points, and relations of them, with what is said of each.
-//! Maps of roads and Lanelet2 maps both are such files.
+//! The XML of OpenStreetMap, item by item: nodes, ways and relations, with their tags. Road maps and Lanelet2
+//! maps share it.
 
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
@@ -31,7 +31,7 @@ pub(crate) struct OsmElement {
 /// A member of a relation.
 #[derive(Debug)]
 pub(crate) struct Member {
-    /// What it is: a node, way or relation.
+    /// Type of the member: node, way or relation.
     pub sort: String,
     pub id: i64,
     pub role: String,
@@ -43,7 +43,7 @@ impl OsmElement {
     }
 }
 
-/// Hands the items of a file, plain or gzip, to `take`, one after the other; those that were deleted are left out.
+/// Passes each item of a file, plain or gzip, to `take`; deleted items are skipped.
 ///
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,

@@ -10,7 +10,7 @@ const NAME: &str = "scene";
 /// Longest name of the files.
 const NAME_CHARS: usize = 60;
 
-/// What files of a scene are called: letters, digits and dashes of its name.
+/// File name of a scene: letters, digits and dashes of its name.
 pub(crate) fn file_name(scene: &Scene) -> String {
     let word = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let plain: String = scene.name.chars().map(word).collect();

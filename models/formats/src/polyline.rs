@@ -93,8 +93,8 @@ pub fn offset_right(points: &[Vec2], distance: f64) -> Vec<Vec2> {
         .collect()
 }
 
-/// Where the tangents at `p` along `d` and at `q` along `e` meet: distances along both, unless they
-/// are nearly parallel.
+/// Intersection of the line at `p` along `d` with the line at `q` along `e`: distances along both; `None` if
+/// they are nearly parallel.
 pub fn meeting(p: Vec2, d: Vec2, q: Vec2, e: Vec2) -> Option<(f64, f64)> {
     let det = cross(d, e);
     (det.abs() > 0.05).then(|| (cross(q - p, e) / det, cross(q - p, d) / det))

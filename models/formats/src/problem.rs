@@ -1,5 +1,6 @@
-//! What can be wrong with outside data, in one shape for every format.
+//! Faults of outside data, in one shape for every format.
 
+use crate::sentences;
 use scene::message::Message;
 use scene::{Scene, SceneError};
 use schemars::{JsonSchema, Schema};
@@ -37,8 +38,8 @@ pub fn pointer_token(text: &str) -> String {
     text.replace('~', "~0").replace('/', "~1")
 }
 
-/// Says in a schema of something written that members which may be absent are never null there: they are
-/// left out instead. For types whose optional members are all skipped when there is none.
+/// Transform for the schema of output types: optional members are omitted, never null. For types that skip
+/// every `None` member.
 pub fn never_null(schema: &mut Schema) {
     let required: Vec<String> = schema
         .get("required")
@@ -78,7 +79,7 @@ pub struct FieldProblem {
     pub pointer: String,
     /// A word that programs can switch on.
     pub code: &'static str,
-    /// What was found and what was expected, for people.
+    /// Value found and value expected, for people.
     pub detail: String,
     /// Least value allowed, where that is the fault.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,17 +90,34 @@ pub struct FieldProblem {
     /// The value found, where it is a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub got: Option<f64>,
+    /// The fault as data, where it has a sentence of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<Message>,
 }
 
 impl FieldProblem {
     /// A fault without a range.
     pub fn new(pointer: impl Into<String>, code: &'static str, detail: impl Into<String>) -> Self {
-        Self { pointer: pointer.into(), code, detail: detail.into(), min: None, max: None, got: None }
+        Self {
+            pointer: pointer.into(),
+            code,
+            detail: detail.into(),
+            min: None,
+            max: None,
+            got: None,
+            message: None,
+        }
+    }
+
+    /// A fault with its sentence as data.
+    pub fn of(pointer: impl Into<String>, code: &'static str, message: Message) -> Self {
+        let detail = message.to_string();
+        Self { message: Some(message), ..Self::new(pointer, code, detail) }
     }
 
     /// A number outside `min..=max`.
     pub fn range(pointer: impl Into<String>, min: f64, max: f64, got: f64) -> Self {
-        // A number of hundreds of digits helps nobody.
+        // A number with hundreds of digits is unreadable.
         let found = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
         let detail = format!("{found} found, {min} to {max} expected");
         Self {
@@ -109,6 +127,7 @@ impl FieldProblem {
             min: Some(min),
             max: Some(max),
             got: Some(got),
+            message: None,
         }
     }
 }
@@ -121,11 +140,11 @@ impl fmt::Display for FieldProblem {
 
 impl From<SceneError> for FieldProblem {
     fn from(error: SceneError) -> Self {
-        Self::new(error.at, error.code, error.reason)
+        Self { message: error.message, ..Self::new(error.at, error.code, error.reason) }
     }
 }
 
-/// What sort of refusal it is; decides the HTTP status.
+/// Kind of refusal; decides the HTTP status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RefusalKind {
     /// The text is not JSON (400). Both count from one.
@@ -137,7 +156,7 @@ pub enum RefusalKind {
     },
     /// A binary file is broken at this byte of its decoded form (400).
     MalformedFile {
-        /// Where.
+        /// Byte offset.
         offset: u64,
     },
     /// The decoded form is larger than allowed (413).
@@ -174,10 +193,15 @@ impl ReadError {
         Self { kind: RefusalKind::MalformedFile { offset }, problems: vec![problem] }
     }
 
-    /// Text that is not JSON.
-    pub fn malformed_json(line: usize, column: usize, detail: impl Into<String>) -> Self {
-        let problem = FieldProblem::new("", code::MALFORMED_JSON, detail);
-        Self { kind: RefusalKind::MalformedJson { line, column }, problems: vec![problem] }
+    /// Text that is not JSON, as the parser found it.
+    pub fn malformed_json(error: &serde_json::Error, detail: impl Into<String>) -> Self {
+        let message = sentences::json_syntax(sentences::json_fault::of(error));
+        let problem =
+            FieldProblem { message: Some(message), ..FieldProblem::new("", code::MALFORMED_JSON, detail) };
+        Self {
+            kind: RefusalKind::MalformedJson { line: error.line(), column: error.column() },
+            problems: vec![problem],
+        }
     }
 
     /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.

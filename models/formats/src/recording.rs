@@ -13,8 +13,8 @@ pub(crate) const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one scenario, of which 256 are chosen.
 pub(crate) const MAX_USERS: usize = 20_000;
 
-/// A road user at a time, in the frame of the file. What the file does not say is NaN; without a position it is
-/// known that nobody saw the road user then.
+/// State of a road user at a time, in the frame of the file. Values that the file lacks are NaN; a NaN
+/// position means that the road user was not seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RecordedState {
     pub time_s: f64,
@@ -26,7 +26,7 @@ pub(crate) struct RecordedState {
 }
 
 impl RecordedState {
-    /// Somebody saw the road user.
+    /// Whether the road user was seen.
     pub fn is_seen(&self) -> bool {
         self.at.x.is_finite() && self.at.y.is_finite()
     }
@@ -39,13 +39,13 @@ pub(crate) struct RecordedAgent {
     pub agent_type: AgentType,
     pub subtype: Subtype,
     pub role: Option<String>,
-    /// Length, width and height as far as the file says them, metres.
+    /// Length, width and height as far as the file gives them, metres.
     pub size_m: [Option<f64>; 3],
     pub samples: Vec<RecordedState>,
 }
 
 impl RecordedAgent {
-    /// The box, with the usual size where the file says none, and whether it does.
+    /// The box, with the usual size if the file gives none, and whether it does.
     fn size(&self) -> (Size, bool) {
         let usual = Size::default_for(self.agent_type, self.subtype);
         let [length, width, height] = self.size_m;
@@ -97,7 +97,7 @@ impl AgentIds {
     }
 }
 
-/// Kind of a road user by a word for it; nothing where the word says nothing.
+/// Kind of a road user's word; `None` for an unknown word.
 pub(crate) fn kind_of(word: &str) -> Option<(AgentType, Subtype)> {
     use AgentType::{Cyclist, Other, Pedestrian, Vehicle};
     let word = word.trim().to_ascii_lowercase().replace([' ', '-'], "_");

@@ -16,6 +16,7 @@ use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
+use crate::sentences;
 use crate::source::{Source, head};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
@@ -99,7 +100,7 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     if let Some((BY_CONTENT.., format)) = best {
         return Ok(format);
     }
-    // What a file holds says more than what it is called.
+    // Content counts more than the file name.
     let ends: Vec<&str> = FORMATS.iter().flat_map(|format| format.info().extensions).copied().collect();
     if let Some(refusal) = kinds::refusal(bytes, name, &ends) {
         return Err(refusal);
@@ -120,7 +121,7 @@ pub fn import(
     Ok(scenes(&bytes, name, format, options)?.collect())
 }
 
-/// The same, one scene after another: each is read when it is asked for.
+/// The same, lazily: each scene is read on demand.
 ///
 /// # Errors
 /// `format-unknown`.
@@ -142,7 +143,7 @@ pub fn scenes<'a>(
     Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
-/// The name of a file without the ends of formats and of compression, which say nothing about the scene.
+/// Name of a file without the extensions of formats and compression.
 pub fn stem(name: &str) -> &str {
     let formats = FORMATS.iter().flat_map(|format| format.info().extensions);
     let ends: Vec<&str> = formats.chain(&COMPRESSED).copied().collect();
@@ -162,7 +163,7 @@ fn without(name: &str, end: &str) -> Option<usize> {
     behind.eq_ignore_ascii_case(end).then_some(length)
 }
 
-/// What a scene is called that its file gives no name: as the file, else as what the format is of.
+/// Name of a scene without one in its file: the file's name, else what the format holds.
 fn called(file: &str, info: &Info) -> String {
     let file: String = file.chars().filter(|c| !c.is_control()).collect();
     let stem = stem(file.rsplit(['/', '\\']).next().unwrap_or_default()).trim();
@@ -173,8 +174,7 @@ fn called(file: &str, info: &Info) -> String {
 /// `format-unknown`.
 pub fn unknown() -> ReadError {
     let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
-    let detail = format!("not a file of a known format ({})", known.join(", "));
-    FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into()
+    FieldProblem::of("", code::FORMAT_UNKNOWN, sentences::not_a_known_format(&known.join(", "))).into()
 }
 
 /// Loss codes as the header `Dragtraffic-Loss` lists them.
@@ -182,4 +182,19 @@ pub fn loss_header(losses: &[Loss]) -> String {
     let mut codes: Vec<&str> = losses.iter().map(|loss| loss.code).collect();
     codes.dedup();
     codes.join(", ")
+}
+
+/// Losses with their sentences and numbers as the header `Dragtraffic-Losses` lists them: JSON in ASCII.
+pub fn losses_header(losses: &[Loss]) -> String {
+    let text = serde_json::to_string(losses).unwrap_or_default();
+    let mut ascii = String::with_capacity(text.len());
+    let mut units = [0; 2];
+    for c in text.chars() {
+        if c.is_ascii() {
+            ascii.push(c);
+        } else {
+            c.encode_utf16(&mut units).iter().for_each(|unit| ascii.push_str(&format!("\\u{unit:04x}")));
+        }
+    }
+    ascii
 }

@@ -69,8 +69,8 @@ pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<ImportWarni
     Some(ImportWarning::new("agents-dropped", sentences::agents_near_ego(count, MAX_AGENTS)))
 }
 
-/// Where the ego is at the present step; without one the middle of everything, in whole metres so that it is found
-/// again after a round trip.
+/// Position of the ego at the present step, else the middle of all. Rounded to whole metres, so that a round
+/// trip gives the same origin.
 fn origin(scene: &Scene, map: &LaneMap) -> Vec2 {
     let now = scene.time.now_step;
     let ego = scene.agents.iter().find(|agent| agent.role.as_deref() == Some(EGO));
@@ -120,7 +120,7 @@ pub(crate) struct Ids {
 }
 
 impl Ids {
-    /// The id itself where a scene can have it and nobody has it yet.
+    /// The id itself if it is legal and not yet taken.
     pub fn take(&mut self, id: &str) -> String {
         let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
         let mut clean: String = id.chars().map(legal).take(64).collect();
@@ -128,7 +128,7 @@ impl Ids {
             clean.push('_');
         }
         let mut name = clean.clone();
-        // Most are free; of those that are not, each next one begins where none was yet.
+        // Most ids are free. For the rest the counter starts at the number of ids changed so far.
         let mut count = 1 + self.changed;
         while !self.taken.insert(name.clone()) {
             count += 1;

@@ -10,7 +10,7 @@ const SPACING_M: f64 = 1.0;
 /// Most pieces of a centre line.
 const MAX_PIECES: f64 = 4_000.0;
 
-/// What a lanelet is for.
+/// Use of a lanelet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LaneletKind {
     Lane(LaneType),

@@ -1,4 +1,4 @@
-//! Where the bytes of a file come from: memory, or something that unfolds while it is read.
+//! Source of a file's bytes: memory, or a stream that is decompressed while it is read.
 
 use std::fmt;
 use std::io::{self, Read};
@@ -18,7 +18,7 @@ pub trait Source: fmt::Debug + Send + Sync {
     /// When they cannot be read.
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>>;
 
-    /// How many bytes it came as, before anything unfolded: what reading it takes of memory is measured by.
+    /// Size in bytes before decompression; the memory estimate of reading is based on it.
     fn encoded_len(&self) -> u64;
 }
 
@@ -52,7 +52,7 @@ impl<S: Source + ?Sized> Source for Arc<S> {
     }
 }
 
-/// The first bytes of a file, by which it is recognised; of one that says at its end what it is (Parquet), the last
+/// The first bytes of a file, by which it is recognised; for a file identified at its end (Parquet), the last
 /// ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {
     let mut head = Vec::new();

@@ -1,7 +1,7 @@
-//! Where the carriageway ends: strips of road put together to one surface, and the edges of it.
+//! The carriageway's outline: strips of road are united to one surface, whose edges become road edges.
 //!
-//! Formats that describe roads lane by lane say nothing of kerbs; in a junction their lanes lie over each other.
-//! The edge of the road is the outline of all of them together.
+//! Formats that describe roads lane by lane have no kerbs, and in a junction their lanes overlap. The road
+//! edge is the outline of the union.
 
 use crate::polyline::simplify;
 use i_overlay::core::edge_data::{EdgeDataMerge, OverlayEdgeData};
@@ -19,8 +19,8 @@ use std::collections::HashMap;
 
 /// Units of the whole numbers in which surfaces are put together, a metre.
 const UNITS: f64 = 1_000.0;
-/// Strips reach this far beyond ends at which the road goes on, and beyond their sides, metres: those that touch
-/// become one.
+/// Strips reach this far past ends at which the road continues, and past their sides, metres, so that
+/// adjacent strips unite.
 const BEYOND_END_M: f64 = 0.25;
 const BEYOND_SIDE_M: f64 = 0.01;
 /// Gaps between the ways through a junction up to this size are road, square metres.
@@ -53,7 +53,7 @@ pub(crate) struct Strip {
     pub junction: bool,
 }
 
-/// What a side of the surface was.
+/// Origin of a side of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
     Outer,
@@ -87,8 +87,8 @@ impl OverlayEdgeData for Label {
 }
 
 /// Adds the edges of these strips and the ground that they cover to a map. `id` names what is new. No edge
-/// crosses a line of `ways`. False where the strips lie over each other too often to be put together: then the
-/// map gets its ground alone.
+/// crosses a line of `ways`. False where the strips lie over each other too often to be put together: then
+/// the map gets only its ground.
 pub(crate) fn draw(
     map: &mut LaneMap,
     strips: &[Strip],
@@ -167,7 +167,7 @@ fn draw_rings(
 }
 
 fn units(p: Vec2) -> IntPoint<i32> {
-    // Saturates: bounds of the map are looked at elsewhere.
+    // Saturates: the map's bounds are checked elsewhere.
     IntPoint::new((p.x * UNITS).round() as i32, (p.y * UNITS).round() as i32)
 }
 
@@ -204,7 +204,7 @@ fn ring(strip: &Strip) -> Option<Vec<(Vec2, Label)>> {
     Some(ring)
 }
 
-/// How many pairs of pieces lie in the same square, about how often they can cross, and how many pieces there are.
+/// Number of pairs of pieces in the same grid square, an estimate of the crossings, and number of pieces.
 fn pairs(rings: &[Vec<(Vec2, Label)>]) -> (u64, u64) {
     let mut squares: HashMap<(i64, i64), u64> = HashMap::new();
     let mut pieces = 0;
@@ -262,7 +262,7 @@ impl<F: FnMut() -> String> Drawing<'_, F> {
         }
     }
 
-    /// Edges of the surface, whose contours have it to their left.
+    /// Road edges from `contours`, which have the surface on their left.
     fn edges(&mut self, contours: &[Vec<(Vec2, Label)>], ways: &[Vec<Vec2>]) {
         let ways = SegmentIndex::new(
             ways.iter().zip(0..).flat_map(|(way, i)| scene::geometry::segments::pieces(way, i)).collect(),
@@ -323,7 +323,7 @@ fn pieces_of(contour: &[(Vec2, Label)]) -> impl Iterator<Item = ((Vec2, Vec2), L
     (0..contour.len()).map(|i| ((contour[i].0, contour[(i + 1) % contour.len()].0), contour[i].1))
 }
 
-/// Whether a piece bounds a median; nothing where it is no edge.
+/// Whether a piece bounds a median; `None` if it is no edge.
 fn kind_of(a: Vec2, b: Vec2, label: Label, ways: &SegmentIndex, facing: &SegmentIndex) -> Option<bool> {
     let (middle, half_m) = ((a + b) / 2.0, (b - a).norm() / 2.0);
     let crossed = ways.near(middle, half_m + 1.0).any(|way| way.crosses(a, b));

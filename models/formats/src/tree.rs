@@ -1,4 +1,4 @@
-//! Elements of XML with what is in them, one at a time: for formats whose files are lists of small elements.
+//! XML elements with their content, one at a time, for formats whose files are lists of small elements.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::xml::{Element, Missing, Scanner, XmlEvent};
@@ -18,7 +18,7 @@ pub(crate) struct XmlNode {
 }
 
 impl XmlNode {
-    /// What follows a start tag, to its end.
+    /// Reads the content that follows a start tag, up to its end tag.
     ///
     /// # Errors
     /// Those of the scanner; `out-of-range` for an element that holds more than any should.
@@ -109,7 +109,7 @@ impl XmlNode {
         text.trim().parse().map_err(|_| self.wrong(text, "a whole number"))
     }
 
-    /// What was found in it in place of what was expected.
+    /// Refusal with the value found and the value expected.
     pub fn wrong(&self, found: &str, expected: &str) -> ReadError {
         let (line, name, found) = (self.element.line, shown(self.name()), shown(found));
         let detail = format!("line {line}: \"{found}\" found in <{name}>, {expected} expected");

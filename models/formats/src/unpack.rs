@@ -5,12 +5,12 @@ use crate::problem::{ReadError, code};
 use flate2::read::MultiGzDecoder;
 use std::io::{self, BufReader, Read};
 
-/// The expansion ratio is looked at after this many decoded bytes.
+/// The expansion ratio is checked after this many decoded bytes.
 const RATIO_FROM: u64 = 1 << 20;
 /// Bytes that are decoded at a time.
 const PIECE: usize = 64 << 10;
 
-/// How much a file may hold.
+/// Limits of a file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// Most bytes once decoded.
@@ -71,7 +71,7 @@ pub(crate) struct Unpacked<R: Read> {
 impl<R: Read> Read for Unpacked<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let left = self.bounds.decoded.saturating_sub(self.decoded);
-        // One byte more than may be there tells the end of a file from one that is too large.
+        // Reading one byte past the limit distinguishes the end of the file from a file that is too large.
         let most = usize::try_from(left).unwrap_or(usize::MAX).clamp(1, buffer.len().max(1));
         let buffer = buffer.get_mut(..most).unwrap_or_default();
         let n = match &mut self.inner {
@@ -99,10 +99,10 @@ fn is_gzip(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x1f, 0x8b])
 }
 
-/// Opens a file; its first bytes tell gzip from plain.
+/// Opens a file, plain or gzip; its first two bytes decide.
 ///
 /// # Errors
-/// When these cannot be read.
+/// If these bytes cannot be read.
 pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReader<Unpacked<R>>> {
     let mut head = Vec::new();
     input.by_ref().take(2).read_to_end(&mut head)?;

@@ -1,11 +1,12 @@
-//! What several writers have no place for.
+//! Losses that several writers share.
 
 use crate::format::ExportedMotion;
 use crate::loss::{Loss, code};
+use crate::sentences;
 use scene::{Agent, Scene, Start};
 
-/// Users fixed something of a road user that boxes and states do not say. Types, sizes and the starts of futures are
-/// in these.
+/// Whether a condition fixes more than boxes and states hold. These include types, sizes and the starts of
+/// futures.
 pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> bool {
     let mut rest = agent.conditions.clone();
     if motion == ExportedMotion::Chosen {
@@ -18,7 +19,7 @@ pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> 
     !rest.is_empty()
 }
 
-/// What users fixed, where a file has boxes and states alone.
+/// Loss of conditions, in a file that holds only boxes and states.
 pub(crate) fn conditions(scene: &Scene, motion: ExportedMotion) -> Option<Loss> {
     let lost = scene.agents.iter().any(|agent| is_fixed(scene, agent, motion));
     let detail = match motion {
@@ -44,8 +45,8 @@ pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
 
 /// A file of more steps than the scene has.
 pub(crate) fn length(scene: &Scene, steps: usize) -> Option<Loss> {
-    let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-    (steps > scene.time.steps).then(|| Loss::new(code::LONG_RECORD, detail))
+    let known = scene.time.steps;
+    (steps > known).then(|| Loss::counted(code::LONG_RECORD, sentences::loss_longer(steps, known)))
 }
 
 /// Name, tags, notes and the like, where a file is called `id` and has no place for them.
@@ -54,7 +55,7 @@ pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
     lost.then(|| Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"))
 }
 
-/// Somebody said of the scene more than its name and its tags.
+/// Whether the scene has notes, a parent, extra members or a name other than its id.
 pub(crate) fn is_noted(scene: &Scene, id: &str) -> bool {
     let meta = &scene.meta;
     !meta.notes.is_empty() || meta.parent_id.is_some() || scene.name != id || !scene.extra.is_empty()

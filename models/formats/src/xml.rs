@@ -1,5 +1,5 @@
-//! A pull scanner for the XML of traffic formats: elements and attributes, and text where it is asked for. All
-//! XML is read with it.
+//! A pull scanner for the XML of traffic formats: elements, attributes, and text on request. All XML is read
+//! with it.
 //!
 //! XML 1.0 without document type definitions (so there are no entities but the five of section 4.6 and
 //! character references), bounded in depth, in attributes and in the length of a tag. Memory does not
@@ -17,7 +17,7 @@ use std::io::{self, BufRead};
 
 /// Deepest nesting that is read; a map has about ten levels.
 const MAX_DEPTH: usize = 32;
-/// What a CDATA section begins with, after the `<`.
+/// Beginning of a CDATA section, after the `<`.
 const CDATA: &[u8] = b"![CDATA[";
 /// Most attributes of one element.
 const MAX_ATTRIBUTES: usize = 128;
@@ -69,7 +69,7 @@ pub(crate) enum XmlEvent {
     Start(Element),
     /// The end of an element.
     End,
-    /// Text within an element, trimmed and never empty; only where it is asked for.
+    /// Text within an element, trimmed and never empty; only if the caller requested texts.
     Text(String),
 }
 
@@ -157,8 +157,8 @@ impl<R: BufRead> Scanner<R> {
         at(self.offset, self.line, &detail)
     }
 
-    /// Passes over everything up to and with `byte`, keeping it in `self.tag` when asked to. False at
-    /// the end of the file.
+    /// Skips everything up to and including `byte`, and appends it to `self.tag` if `keep`. False at the end
+    /// of the file.
     fn until(&mut self, byte: u8, keep: bool) -> Result<bool, ReadError> {
         loop {
             let chunk = match self.input.fill_buf() {
@@ -195,7 +195,7 @@ impl<R: BufRead> Scanner<R> {
         text.and_then(unescaped).map(Some).map_err(|detail| self.wrong(detail))
     }
 
-    /// What a CDATA section holds, where text is asked for.
+    /// Content of a CDATA section, if the caller requested texts.
     fn character_data(&self) -> Result<Option<String>, String> {
         let bytes = self.tag.strip_prefix(CDATA).and_then(|rest| rest.strip_suffix(b"]]>"));
         let bytes = bytes.unwrap_or_default().trim_ascii();
@@ -230,7 +230,7 @@ impl<R: BufRead> Scanner<R> {
                 if self.tag.len() >= CDATA.len() + 3 && self.tag.ends_with(b"]]>") {
                     return Ok(());
                 }
-                // So may sections that nobody asked for.
+                // Nor do CDATA sections if no text was requested.
                 if !self.texts {
                     let last = self.tag.len().saturating_sub(2).max(CDATA.len());
                     self.tag.drain(CDATA.len()..last);

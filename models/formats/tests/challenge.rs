@@ -1,4 +1,4 @@
-//! What Waymo's challenges take: `tf.Example` records and submissions, read as protobuf.
+//! Formats of Waymo's challenges: `tf.Example` records and submissions, read as protobuf.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 mod generated;
@@ -105,7 +105,7 @@ fn records_have_the_lists_of_the_dataset() {
     }
 }
 
-/// Futures of everybody: one sample a seed, each going another way.
+/// One sample a seed with a future for every road user, each in another direction.
 fn with_samples(scene: &Scene, count: usize) -> Scene {
     let future = |turn: usize| {
         let state = |i: usize| State { x_m: i as f64, y_m: turn as f64, ..State::default() };
@@ -146,7 +146,7 @@ fn samples_are_rollouts() {
             assert!((f64::from(way.center_y[0]) - turn as f64 - origin.y_m).abs() < 1e-2);
         }
     }
-    // What is there of fewer samples is said to be too little.
+    // Too few samples are a declared loss.
     let codes = |scene: &Scene| -> Vec<&str> {
         export("sim-agents", &[scene], &ExportOptions::default())
             .losses

@@ -50,7 +50,7 @@ fn a_street_is_read() {
     assert_eq!((there.right_neighbors[0].lane.as_str(), there.left_neighbors.len()), ("2", 0));
     // Traffic uses the way to the left both ways.
     assert_eq!(lane(map, "5.back").points.xy.first(), lane(map, "5").points.xy.last());
-    // The middle line and the line of the bicycles are drawn once each, and bound both who are beside them.
+    // The centre line and the bicycle lane's line are drawn once each, and bound the lanes on both sides.
     let lines: Vec<_> = map.road_lines.iter().map(|line| line.line_type.as_str()).collect();
     assert_eq!(lines, ["solid_double_white", "broken_single_white"]);
     assert_eq!(lane(map, "3").left_boundary[0].line, there.left_boundary[0].line);

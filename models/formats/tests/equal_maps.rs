@@ -14,9 +14,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 const VARIABLE: &str = "DRAGTRAFFIC_EQUAL_MAPS";
-/// What lengths, widths and ends may differ by, metres.
+/// Tolerance of lengths, widths and ends, metres.
 const SAME_M: f64 = 0.05;
-/// A lane is that of another map whose ends are so near, metres.
+/// Lanes of two maps match if both ends are within this distance, metres.
 const MATCH_M: f64 = 0.5;
 
 struct Lane {
@@ -30,7 +30,7 @@ struct Lane {
 
 type Lanes = BTreeMap<String, Lane>;
 
-/// What a format has of a lane graph.
+/// Parts of the lane graph that a format keeps.
 struct Carries {
     /// Ways through junctions as they are.
     ways: bool,
@@ -39,7 +39,7 @@ struct Carries {
     graph: bool,
 }
 
-/// The lanes of a file, and what its reader says that the file does not have.
+/// The lanes of a file, and what the file lacks according to its reader.
 fn lanes(path: &Path) -> (Lanes, Vec<&'static str>) {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy();
@@ -104,8 +104,8 @@ fn one_network_in_several_formats_is_one_lane_graph() {
     assert_eq!((first.len(), first.values().filter(|lane| lane.through).count()), (30, 14));
     let own: BTreeMap<&str, &str> = first.keys().map(|id| (id.as_str(), id.as_str())).collect();
     let carries = |ways, widths, graph| Carries { ways, widths, graph };
-    // SUMO draws ways through junctions anew, and cuts some; of its lanes those of roads are the same. Waymo's
-    // messages have no widths. GPUDrive has lines of lanes alone.
+    // SUMO redraws the ways through junctions and shortens some, so only the lanes of roads are equal.
+    // Waymo's messages have no widths. GPUDrive has only lane centre lines.
     let files = [
         ("map.osm", carries(true, true, true)),
         ("map.tfrecord", carries(true, false, true)),

@@ -1,5 +1,5 @@
-//! What `score` sees of a scene is what it sees after export and import, in every format that writes: what
-//! was decided about a road user goes with it, or is a declared loss.
+//! A scene has the same score before export and after import, in every format with a writer. Edits of a road
+//! user are kept, or reported as a loss.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use formats::registry::FORMATS;
@@ -88,7 +88,7 @@ fn map() -> LaneMap {
     }
 }
 
-/// Road users who meet, some of them edited and generated from a step on.
+/// Road users that interact, some of them edited and generated from a step on.
 fn scene() -> impl Strategy<Value = Scene> {
     let one = (kind(), straight(), conditions(), proptest::option::weighted(0.7, straight()));
     (proptest::collection::vec(one, 2..6), 0..12usize, 20..50usize).prop_map(
@@ -116,8 +116,8 @@ fn scene() -> impl Strategy<Value = Scene> {
     )
 }
 
-/// The scene as a writer of speed and heading leaves it. Rounding alone takes velocities off their headings
-/// here, by less than what writers declare; but two who graze meet, or do not, by less than that.
+/// The scene as a writer of speed and heading stores it. Rounding turns velocities off their headings by less
+/// than writers declare, but that can decide whether two grazing boxes touch.
 fn along_headings(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let recorded = scene.agents.iter_mut().flat_map(|agent| agent.track.states.iter_mut().flatten());
@@ -144,7 +144,7 @@ fn scored(scene: &Scene, time: &Timing, steps: &std::ops::Range<usize>, losses: 
     if losses.contains(&"no-conditions") {
         for agent in &mut scene.agents {
             agent.conditions.goal = Goal::default();
-            // Where motion that was made becomes a record, its start is in it.
+            // Where a future becomes the recording, its start is part of the track.
             if !losses.contains(&"no-generated") {
                 agent.conditions.start = Start::default();
             }
@@ -168,7 +168,7 @@ fn scored(scene: &Scene, time: &Timing, steps: &std::ops::Range<usize>, losses: 
         }
     }
     let mut value = serde_json::to_value(scene::score::score(&input)).unwrap();
-    // Where lanes or the ground are not the same, nobody is judged by them.
+    // Without equal lanes or ground, figures that depend on them are not compared.
     let ground = ["no-map", "no-lane-type", "no-lane-graph", "no-drivable", "no-lines"];
     if losses.iter().any(|code| ground.contains(code)) {
         for figure in
@@ -206,7 +206,7 @@ fn place(value: &mut Value, origin: Vec2) {
     }
 }
 
-/// Where two values differ by more than rounding.
+/// Differences between two values beyond rounding.
 fn difference(a: &Value, b: &Value, at: &str) -> Option<String> {
     let unlike = || Some(format!("{at}: {a} before, {b} after"));
     match (a, b) {
@@ -238,7 +238,7 @@ proptest! {
             let codes: Vec<&str> = exported.losses.iter().map(|loss| loss.code).collect();
             let undeclared = codes.iter().find(|code| !format.info().loses.contains(code));
             prop_assert!(undeclared.is_none(), "{id} does not declare {undeclared:?}");
-            // Those of whom no motion is left cannot be scored.
+            // Scenes without any motion left cannot be scored.
             if codes.contains(&"no-road-users") || codes.contains(&"single-ego") {
                 continue;
             }

@@ -66,7 +66,7 @@ fn headings_in_degrees_are_known_by_their_size_and_by_where_one_goes() {
     let slight = NOCTURNE.replace("180.0", "-6.0");
     let (scene, _) = import(&slight).unwrap();
     assert!((scene.agents[1].track.at(0).unwrap().heading_rad + 6f64.to_radians()).abs() < 1e-9);
-    // Who goes along headings in radians, and not along them as degrees, has radians.
+    // Motion that agrees with headings in radians, and not in degrees, has radians.
     let (_, warnings) = import(&NOCTURNE.replace("180.0", "3.1415926")).unwrap();
     assert_eq!(warnings.len(), 1);
 }

@@ -251,13 +251,13 @@ fn hostile_files_are_refused_precisely() {
     println!("{count} files");
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
     if let Some(peak_mb) = peak_memory_mb() {
-        // The bomb alone is built from 100 MiB of zeros by this test.
+        // This test builds the bomb from 100 MiB of zeros, which count too.
         println!("peak memory {peak_mb} MB");
         assert!(peak_mb < 500, "{peak_mb} MB");
     }
 }
 
-/// Highest resident memory of this process so far, where the system tells.
+/// Peak resident memory of this process, where the system reports it.
 fn peak_memory_mb() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,5 +1,5 @@
-//! What reading takes of memory, counted at the allocator: scenes come one by one out of a file that unfolds while
-//! it is read. One test in a process of its own, since all that is allocated is counted.
+//! Memory of reading, counted at the allocator: scenes come one by one from a file that is decompressed while
+//! it is read. The only test of its process, because all allocations are counted.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
 
 use flate2::Compression;
@@ -240,7 +240,7 @@ fn scenario(lanelets: usize, cars: usize) -> Vec<u8> {
     gzip((text + "</commonRoad>").as_bytes())
 }
 
-/// What a format writes of many road users over many steps.
+/// Export of many road users over many steps.
 fn exported(format: &str) -> Vec<u8> {
     let scene = busy(256, 600);
     registry::by_id(format).unwrap().export(&[&scene], &formats::ExportOptions::default()).unwrap().bytes

@@ -22,7 +22,7 @@ fn a_street_becomes_a_scene_without_road_users() {
     let map = &scene.map;
     let origin = Vec2::new(scene.meta.origin.x_m, scene.meta.origin.y_m);
     assert_eq!(origin, Vec2::new(35.0, -5.0));
-    // Sides are drawn in any direction; who goes back has the middle line on the left too.
+    // Sides are drawn in any direction; the opposite lane has the centre line on its left too.
     let (there, beside, back) = (lane(map, "1"), lane(map, "2"), lane(map, "3"));
     assert_eq!(
         (there.points.xy[0] + origin, back.points.xy[0] + origin),

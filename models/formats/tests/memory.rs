@@ -9,7 +9,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Highest resident memory of this process so far, where the system tells.
+/// Peak resident memory of this process, where the system reports it.
 fn peak_memory_mb() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

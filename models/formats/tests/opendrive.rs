@@ -56,7 +56,7 @@ fn kerbs_across(map: &LaneMap) -> Vec<String> {
     across
 }
 
-/// What must hold of the links of any map: both ends know, and the ends meet.
+/// Links of any map hold: both ends name each other, and their points meet.
 fn links_hold(map: &LaneMap, gap_m: f64) {
     let by_id: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
     for lane in &map.lanes {
@@ -126,7 +126,7 @@ fn a_junction_of_left_hand_traffic_is_one_surface() {
     assert_eq!(lane(map, "1.0.1").successors, ["10.0.1", "12.0.1"]);
     assert_eq!(lane(map, "10.0.1").successors, ["2.0.-1"]);
     assert!(lane(map, "10.0.1").interpolating && !lane(map, "1.0.1").interpolating);
-    // From the west, whoever comes keeps to the north of the middle line.
+    // From the west, traffic keeps north of the centre line.
     let from_west = &lane(map, "1.0.1").points.xy;
     assert!(from_west[0].x < from_west[40].x && from_west[0].y > lane(map, "1.0.-1").points.xy[0].y);
     assert_eq!(map.drivable.len(), 1);

@@ -52,7 +52,7 @@ fn a_map_comes_back_with_its_lanes_and_links() {
             assert!(off_m < 0.5 || lane.interpolating, "{name}: lane {}: {off_m}", lane.id);
             links += usize::from(lane.successors.is_empty() == back.successors.is_empty());
         }
-        // A lane whose beginning became a way through a junction is shorter.
+        // A lane is shorter if its beginning became a way through a junction.
         let cut = map.lanes.len() - scene.map.lanes.len();
         // One that ends beside the lane it leads to is bent to it.
         let apart = |lane: &&Lane| {
@@ -106,7 +106,7 @@ fn road_users_come_go_and_follow_their_tracks() {
     assert_eq!(text.matches("<AddEntityAction>").count(), 1);
     assert_eq!(text.matches("<DeleteEntityAction/>").count(), 1);
     assert_eq!(text.matches("<Private ").count(), 1, "the bus is not there at first");
-    // The rear axle lies behind the middle of the box, whose place the scene gives.
+    // The rear axle is behind the centre of the box, which is the scene's position.
     let ahead_m = 0.3 * scene.agents[0].size.length_m;
     holds(&format!("<Center x=\"{}\"", (ahead_m * 1e6).round() / 1e6));
     holds(&format!("<WorldPosition x=\"{}\"", (-ahead_m * 1e6).round() / 1e6));

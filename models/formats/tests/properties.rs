@@ -22,7 +22,7 @@ fn close(a: Vec2, b: Vec2) -> bool {
     (a - b).norm() < 1e-9
 }
 
-/// Moves positions that differ by rounding alone onto those of `model`.
+/// Moves positions that differ only by rounding onto those of `model`.
 fn snap(mut scene: Scene, model: &Scene) -> Scene {
     let fix = |p: &mut Vec2, q: &Vec2| {
         if close(*p, *q) {
@@ -64,7 +64,7 @@ fn snap(mut scene: Scene, model: &Scene) -> Scene {
     scene
 }
 
-/// Leaves out steps at either end of a track at which nobody saw the road user.
+/// Drops the steps at both ends of a track at which the road user was not seen.
 fn trim(scene: &mut Scene) {
     for agent in &mut scene.agents {
         let track = &mut agent.track;
@@ -157,7 +157,7 @@ proptest! {
         let rest: Vec<_> = codes.into_iter().filter(|c| *c != "no-conditions").collect();
         prop_assert_eq!(rest, ["no-licence"]);
         prop_assert_eq!(snap(first.clone(), &expected), expected);
-        // What came from a file goes back into one bit for bit.
+        // An imported scene exports to a file bit for bit.
         let mut file = Vec::new();
         womd::write(&[&first], &mut file, gzip, ExportedMotion::Log).unwrap();
         let (second, _) = womd::read_all(&file, &Options::default()).remove(0).unwrap();
@@ -176,7 +176,7 @@ proptest! {
         expected.map = Default::default();
         expected.signals.clear();
         expected.agents.iter_mut().for_each(|a| a.conditions = Conditions::default());
-        // What is known of notes alone is all that the two differ in.
+        // The two differ only in notes.
         (expected.meta.objects_of_interest, expected.meta.tracks_to_predict) = Default::default();
         let noted = ["no-conditions", "no-map", "no-notes", "no-signals"];
         let all = ["no-conditions", "no-licence", "no-map", "no-notes", "no-roles", "no-signals", "no-timing"];
@@ -201,7 +201,7 @@ proptest! {
         let most = if parquet { 1e-9 } else { 2e-6 };
         let fixed = near_enough(first.clone(), &expected, most);
         prop_assert_eq!(fixed, expected);
-        // What came from a file goes back into one bit for bit.
+        // An imported scene exports to a file bit for bit.
         let again = format.export(&[&first], &options).unwrap();
         let (second, _) = format.import(&again.bytes, &Default::default()).remove(0).unwrap();
         prop_assert_eq!(near_enough(second, &first, 1e-9), first);

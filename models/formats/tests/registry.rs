@@ -40,7 +40,7 @@ fn every_format_reads_what_it_writes_and_knows_its_own() {
             let list =
                 registry::import(&exported.bytes, "upload", "auto", &ImportOptions::default()).unwrap();
             let (again, _) = list.into_iter().next().unwrap().unwrap();
-            // Some have no place for road users whom nobody saw.
+            // Some formats cannot hold road users that were never seen.
             let seen = scene.agents.iter().filter(|agent| agent.track.valid_steps().next().is_some()).count();
             let maps_alone = exported.losses.iter().any(|loss| loss.code == code::NO_ROAD_USERS);
             let counts = if maps_alone { [0, 0] } else { [seen, scene.agents.len()] };
@@ -83,7 +83,7 @@ fn a_file_of_a_known_kind_is_called_what_it_is() {
     );
     let (_, detail) = refused(b"import osc.standard.all\nscenario top:\n  do serial:\n", "cut_in.osc");
     assert_eq!(detail, "an OpenSCENARIO 2 text is not read; export XML 1.x");
-    // A name alone says what a file would be, until its content says what it is.
+    // The name decides the format only while the content does not.
     assert_eq!(registry::sniff(b"", "map.xodr").map(|format| format.info().id), Some("opendrive"));
     assert!(registry::sniff(b"PK\x03\x04", "map.xodr").is_none());
 }
@@ -117,7 +117,7 @@ fn a_table_has_a_line_for_each_road_user_future_and_step() {
     let logged: usize = scene.agents.iter().map(|agent| agent.track.states.len().max(1)).sum();
     assert_eq!(lines.lines().count(), states + logged);
     assert!(lines.lines().all(|line| line.starts_with("\"a, b\",")), "{lines}");
-    // What is shown of one road user has each moment once.
+    // The shown motion of a road user has each step once.
     let (id, futures) = generated.samples[0].agents.iter().next().unwrap();
     let chosen = futures.chosen.to_string();
     let fields = |line: &'static str| -> Vec<&'static str> {

@@ -1,4 +1,4 @@
-//! Scenes that go through a format and come back: what differs is what the writer said that it loses.
+//! Round trips of scenes through a format: only declared losses may differ.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 mod generated;
@@ -9,7 +9,7 @@ use scene::map::{Lane, Points};
 use scene::{Agent, Scene, SignalState, State, Subtype, Vec2};
 use std::collections::BTreeSet;
 
-/// A scene through a format: as it comes back, and what was said to be lost.
+/// A scene after a round trip, and its declared losses.
 fn through(format: &str, scene: &Scene) -> (Scene, BTreeSet<&'static str>) {
     let format = registry::by_id(format).unwrap();
     let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
@@ -223,7 +223,7 @@ proptest! {
     }
 }
 
-/// Motion as SUMO records it: everybody that is seen, in the directions of headings.
+/// Motion as SUMO records it: every seen road user, velocities along headings.
 fn recorded(scenes: [&Scene; 2], codes: &BTreeSet<&str>) -> Result<(), TestCaseError> {
     let [before, after] = scenes;
     // Millionths of metres and of degrees in the file.
@@ -255,7 +255,7 @@ fn recorded(scenes: [&Scene; 2], codes: &BTreeSet<&str>) -> Result<(), TestCaseE
     Ok(())
 }
 
-/// Lanes are where the writer said, lead to each other as they did, and have their lights.
+/// Lanes are where the writer placed them, have the same successors, and keep their signals.
 fn networked(scenes: [&Scene; 2], codes: &BTreeSet<&str>, format: &str) -> Result<(), TestCaseError> {
     let [before, after] = scenes;
     let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
@@ -316,7 +316,7 @@ fn networked(scenes: [&Scene; 2], codes: &BTreeSet<&str>, format: &str) -> Resul
     Ok(())
 }
 
-/// Every state that there was is there again.
+/// Every state is still present.
 fn same_motion(before: &Scene, after: &Scene, (a, b): (&Agent, &Agent), off: f64) {
     for step in a.track.valid_steps() {
         let states = (a.track.at(step), b.track.at(step));

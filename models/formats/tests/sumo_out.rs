@@ -62,7 +62,7 @@ fn lanes_beside_each_other_stay_so() {
         };
         let back = |lane: &Lane| again.map.lanes.iter().find(|other| near(lane, other));
         let (mut beside, mut kept) = (0, 0);
-        // Parking is open to nobody and not read again, which is said to be lost.
+        // Parking lanes are closed to traffic and not read again, which is a declared loss.
         let open = |lane: &&Lane| lane.lane_type != LaneType::Parking;
         for lane in scene.map.lanes.iter().filter(open) {
             let other = back(lane).unwrap_or_else(|| panic!("{name}: lane {}", lane.id));

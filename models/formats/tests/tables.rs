@@ -80,7 +80,7 @@ fn what_is_missing_is_worked_out_and_said() {
         codes(&warnings),
         ["types-assumed", "sizes-assumed", "time-resampled", "headings-derived", "velocities-derived"]
     );
-    // The frame moves where coordinates are large, and is said.
+    // Large coordinates move the frame, which is reported.
     assert!(scene.meta.origin.y_m > 4_900.0);
     let track = &scene.agents[0].track;
     assert_eq!(track.states.len(), 20);

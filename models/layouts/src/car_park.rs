@@ -9,7 +9,7 @@ use scene::Vec2;
 use scene::map::LaneType;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The street goes on so far beyond the drives, metres.
+/// Length of the street beyond the drives, metres.
 const BEYOND_M: f64 = 50.0;
 /// Between the street's kerb and the park, metres.
 const SETBACK_M: f64 = 10.5;
@@ -143,7 +143,7 @@ fn street(draft: &mut MapDraft, profile: &Profile, grid: &Grid) {
         Vec2::new(x_out, start),
         DRIVE_M * 0.7,
     );
-    // Eastwards on the near side, westwards on the far side; the park lies to the left of those who go east.
+    // Eastbound lanes on the near side, westbound on the far side; the park lies left of the eastbound lanes.
     for pair in [[0, 1], [1, 2]] {
         ways.turn(lane(pair[0], 0), lane(pair[1], 0));
         ways.turn(lane(pair[1], 1), lane(pair[0], 1));

@@ -1,4 +1,4 @@
-//! What is looked at in every map: each failed check says where and what, and forbids nothing.
+//! Checks of every map: each failure has a place and a reason. A failed check blocks nothing.
 
 use crate::curve::{curvature, turn};
 use crate::draft::{MapDraft, Vehicle, place};
@@ -17,7 +17,7 @@ const LEAST_CYCLE_M: f64 = 1.5;
 /// Most failures of one kind that are listed.
 const MOST: usize = 8;
 
-/// What a check is about.
+/// Subject of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckKind {
@@ -27,7 +27,7 @@ pub enum CheckKind {
     Turns,
     /// No lane is too narrow.
     Widths,
-    /// Nobody has green who would meet another.
+    /// No two movements with green at the same time conflict.
     SignalsApart,
 }
 

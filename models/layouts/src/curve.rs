@@ -128,7 +128,7 @@ pub fn turn(line: &[Vec2]) -> f64 {
     line.windows(3).map(|w| cross(w[1] - w[0], w[2] - w[1]).atan2((w[1] - w[0]).dot(&(w[2] - w[1])))).sum()
 }
 
-/// Parallel line so far to the left (negative: right), mitred.
+/// Parallel line at an offset to the left (negative: right), mitred.
 pub fn parallel(line: &[Vec2], left_m: f64) -> Vec<Vec2> {
     let unit = |v: Vec2| v / v.norm().max(1e-9);
     let last = line.len().saturating_sub(1);

@@ -8,7 +8,7 @@ use scene::{Signal, Vec2};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Where an arm lies, for whoever draws handles on it.
+/// Position of an arm, for editing handles.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ArmPlace {
     /// Such as `North`.
@@ -35,7 +35,7 @@ pub struct Way {
     pub connection: Connection,
     /// Id of its lane in the map.
     pub lane: String,
-    /// The direction, as seen by who comes in.
+    /// The direction, as seen from the entry.
     pub turn: Turn,
     /// It is there because it was added.
     pub added: bool,
@@ -46,7 +46,7 @@ pub struct Way {
 pub struct CornerPlace {
     /// The middle of the bend, metres.
     pub at_m: [f64; 2],
-    /// Its radius, metres: less than asked where arms are too close.
+    /// Its radius, metres: less than requested where arms are too close.
     pub radius_m: f64,
     /// The arms that it joins.
     pub arms: [usize; 2],
@@ -59,7 +59,7 @@ pub struct LaneExtra {
     pub open: [bool; 2],
 }
 
-/// Who has to get round every bend.
+/// Largest vehicle that must fit round every bend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Vehicle {
     #[default]

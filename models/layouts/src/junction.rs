@@ -68,7 +68,7 @@ struct Corner {
     bend: Option<(Vec2, f64)>,
 }
 
-/// The spokes of the arms by their angle, and whose they are.
+/// The spokes of the arms by their angle, and the index of each spoke's arm.
 pub fn spokes(arms: &[Arm], lane_m: f64, traffic: Traffic) -> (Vec<Spoke>, Vec<usize>) {
     let turned: Vec<Arm> = arms
         .iter()
@@ -160,7 +160,7 @@ fn corners_of(spokes: &[Spoke], corners: &[Corner]) -> Vec<(CornerPlace, [usize;
     corners.iter().filter_map(place_of).collect()
 }
 
-/// Says what the caller wants to know, in the order of the parameters.
+/// Fills the places of arms and corners in the draft, in the order of the parameters.
 pub fn finish(
     draft: &mut MapDraft,
     spokes: &[Spoke],
@@ -235,7 +235,7 @@ fn kerb(spokes: &[Spoke], corner: &Corner, behind_m: f64) -> Vec<Vec2> {
     tidy(line)
 }
 
-/// Its bend alone.
+/// The outline of only its bend.
 fn round(a: &Spoke, b: &Spoke, corner: &Corner, behind_m: f64) -> Vec<Vec2> {
     let (left_m, right_m) = (a.kerbs_m()[0] + behind_m, -b.kerbs_m()[1] - behind_m);
     if let Some((centre, radius_m)) = corner.bend {
@@ -327,7 +327,7 @@ fn sidewalks(draft: &mut MapDraft, spokes: &[Spoke], corners: &[Corner], width_m
     }
 }
 
-/// Which arms go first: those that say so, else the two that are most in line.
+/// The main arms: those marked as such, else the two that are closest to a straight line.
 fn main_arms(arms: &[Arm]) -> Vec<bool> {
     if arms.iter().any(|arm| arm.main) {
         return arms.iter().map(|arm| arm.main).collect();

@@ -135,7 +135,7 @@ impl Template {
         }
     }
 
-    /// Its parameters as a document, those that are left out where they say nothing among them.
+    /// Its parameters as a document, including those that serialization omits.
     pub fn all_parameters(self) -> Value {
         let mut own = self.layout().parameters();
         if let (Self::ThreeArms | Self::FourArms, Value::Object(members)) = (self, &mut own) {
@@ -274,7 +274,7 @@ pub fn build(layout: &Layout) -> Result<Built, Vec<ParameterFault>> {
     Ok(Built { map, signals, checks, arms, corners, ways })
 }
 
-/// A scene of a layout, with nobody in it. It keeps what its map was made from under [`EXTRA`].
+/// A scene of a layout, without road users. It keeps the parameters of its map under [`EXTRA`].
 ///
 /// # Errors
 /// Those of [`build`].

@@ -1,4 +1,4 @@
-//! Signal programs: phases in which nobody meets who does not give way.
+//! Signal programs: movements of one phase do not conflict, or one of them gives way.
 
 use crate::draft::MapDraft;
 use crate::parameters::{Program, Turn, TurnAcross};
@@ -39,12 +39,12 @@ pub fn gives_way(a: &Movement, b: &Movement) -> bool {
     a.turn != Turn::Straight || b.turn != Turn::Straight
 }
 
-/// A way that bends less than this looks like straight on to who drives it, radians.
+/// A movement that bends less than this looks straight to its driver, radians.
 const LOOKS_STRAIGHT_RAD: f64 = 0.3;
 
-/// Two ways of opposite arms may have green together: they do not meet, or who turns sees whom to give way to. That
-/// is so before oncoming traffic and into the same arm, and where both turn; not where a way that looks straight
-/// on is crossed by one from the side.
+/// Two movements of opposite arms may have green together if they do not meet, or if the turning driver sees
+/// whom to yield to. The latter holds before oncoming traffic, into the same arm, and where both turn. It
+/// does not hold where a movement that looks straight is crossed from the side.
 fn go_together(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     let bends = |m: &Movement| {
         let path = draft.points(m.lane);
@@ -122,7 +122,7 @@ pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[S
         signals.push(Signal { lane: draft.map.lanes[movement.lane].id.clone(), stop, stop_z_m: None, runs });
     }
     for crossing in crossings {
-        // Nobody drives out of the arm, and nobody straight into it.
+        // No traffic leaves the arm, and none enters it straight.
         let quiet = |phase: &Phase| {
             phase
                 .iter()
@@ -136,7 +136,7 @@ pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[S
     draft.signals = signals;
 }
 
-/// What somebody sees who has green in these phases, over one planning window.
+/// Signal states for green in these phases, over one planning window.
 fn runs(green: &[bool], program: &Program, yellow: bool) -> Vec<(usize, SignalState)> {
     let turn_s = program.green_s + program.yellow_s + program.all_red_s;
     // A junction with one phase is red for as long as another would take.

@@ -20,8 +20,8 @@ const SHOULDER_M: [f64; 2] = [1.0, 2.0];
 /// A ramp with the places along the carriageway where it begins to matter and where it ends to.
 struct Ramp {
     joins: bool,
-    /// Where the lane beside the others lies alone with the ramp, where it lies beside them, and where it has come to
-    /// an end (or begun).
+    /// Places along the carriageway at which the ramp's lane is at the gore, runs parallel to the others, and
+    /// has ended (or begun).
     gore_m: f64,
     parallel_m: f64,
     end_m: f64,

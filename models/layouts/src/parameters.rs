@@ -1,4 +1,4 @@
-//! What a map is made from: one struct a kind of layout, with ranges and defaults.
+//! Parameters of a map: one struct a kind of layout, with ranges and defaults.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub enum Traffic {
     LeftHand,
 }
 
-/// Who goes first where roads meet.
+/// Priority where roads meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Control {
@@ -33,7 +33,7 @@ pub enum Control {
     Equal,
 }
 
-/// What left turns (right turns in left-hand traffic) do while oncoming traffic has green.
+/// Left turns (right turns in left-hand traffic) while oncoming traffic has green.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TurnAcross {
@@ -44,7 +44,7 @@ pub enum TurnAcross {
     Protected,
 }
 
-/// A way out of a junction, as seen by who comes in.
+/// A direction out of a junction, as seen from the entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -245,10 +245,10 @@ pub struct Junction {
     /// 3 to 6 of them, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
-    /// Single ways through the junction, beside those that the turn lanes make.
+    /// Single connections through the junction, in addition to those of the turn lanes.
     #[serde(skip_serializing_if = "Connections::is_empty")]
     pub connections: Connections,
-    /// Who goes first.
+    /// Priority at the junction.
     pub control: Control,
     /// Lights, with `signals`.
     pub program: Program,

@@ -1,4 +1,4 @@
-//! What parameters may be: the ranges of their own schema, and arms that keep apart.
+//! Ranges of the parameters: those of their own schema, and the least angle between arms.
 
 use crate::parameters::{Arm, LEAST_BETWEEN_ARMS_DEG};
 use crate::{CarPark, Connections, Junction, Layout, Merge, Road, Roundabout};
@@ -40,7 +40,7 @@ impl ParameterFault {
         }
         let text = error.inner().to_string();
         let text = text.split_once(", expected struct ").map_or(text.clone(), |(found, _)| {
-            // The type's name says nothing to who wrote the document.
+            // The type's name means nothing to the author of the document.
             format!("{found}, expected an object")
         });
         Self::new(pointer, text.chars().take(300).collect::<String>())

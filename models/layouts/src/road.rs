@@ -34,7 +34,7 @@ pub fn draw(road: &Road) -> MapDraft {
     let length_m = length(&axis);
     let mut draft = MapDraft::default();
     let median_m = vec![road.median_m; axis.len()];
-    // An island stands in nobody's way over the road.
+    // With a crosswalk the median is not raised, so that it does not block pedestrians.
     let raised = if road.crosswalk_m > 0.0 { 0.0 } else { f64::INFINITY };
     let plan = Plan {
         id: "road",
@@ -130,7 +130,7 @@ fn at(line: &[Vec2], s_m: f64) -> (Vec2, Vec2) {
     (line[0], Vec2::new(1.0, 0.0))
 }
 
-/// So far to the left of a place of the line; smooth where the line bends.
+/// A place at an offset to the left of the line, metres; smooth where the line bends.
 fn beside(axis: &[Vec2], s_m: f64, left_m: f64) -> Vec2 {
     let total = length(axis);
     let (before, after) = (at(axis, (s_m - 0.4).max(0.0)).1, at(axis, (s_m + 0.4).min(total)).1);

@@ -13,7 +13,7 @@ const RAISED_M: f64 = 0.8;
 pub const GAP_M: f64 = 0.4;
 /// Room between a raised strip and the lanes, metres.
 const GUTTER_M: f64 = 0.2;
-/// Lanes are told apart by solid lines so far before a stop line, metres.
+/// Solid lines separate lanes over this length before a stop line, metres.
 pub const SOLID_M: f64 = 20.0;
 
 /// What lies across a road.
@@ -77,7 +77,7 @@ impl Profile {
         self.middle_m(median_m) / 2.0 + lanes as f64 * self.lane_m + self.cycle_m + self.parking_m + GAP_M
     }
 
-    /// Width of the strip in the middle; one direction alone has none.
+    /// Width of the strip in the middle; a one-way road has none.
     pub fn middle_m(&self, median_m: f64) -> f64 {
         if self.lanes.contains(&0) { 0.0 } else { median_m }
     }

@@ -9,8 +9,8 @@ use scene::Vec2;
 use scene::map::LaneType;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Who enters or leaves meets the ring at most so far from the arm's middle, radians, and at most at this share of
-/// the way to the next arm.
+/// Greatest angle between the arm's middle and the place where an entry or exit meets the ring, radians, and
+/// greatest share of the angle to the next arm.
 const ENTRY_RAD: f64 = 0.72;
 const ENTRY_SHARE: f64 = 0.46;
 /// Smallest radius of a kerb, metres.
@@ -292,7 +292,7 @@ fn paint(draft: &mut MapDraft, spokes: &[Spoke], ring: &Ring) {
     for radius_m in ring.lanes_m.iter().skip(1).map(|m| m - ring.width_m / 2.0) {
         draft.line("broken_single_white", arc(Vec2::zeros(), radius_m, 0.0, TAU));
     }
-    // Who comes in gives way.
+    // Entering traffic yields.
     for spoke in spokes.iter().filter(|spoke| spoke.arm.lanes_in > 0) {
         let heading = spoke.arm.angle_deg.to_radians();
         let on = |m: f64| (m / ring.outer_m).clamp(-1.0, 1.0).asin();

@@ -18,7 +18,7 @@ pub struct Movement {
     pub turn: Turn,
     /// The lane in and the lane out, counted from the middle of the road; none for cycles.
     pub lanes: Option<[usize; 2]>,
-    /// No turn lane makes it: it was asked for.
+    /// A single connection, not made by a turn lane.
     pub added: bool,
 }
 
@@ -32,7 +32,7 @@ pub struct TurnLink {
     pub added: bool,
 }
 
-/// The direction of each other arm as seen by who comes in on one; `None` for itself.
+/// The direction of each other arm as seen from the entry `from`; `None` for itself.
 pub fn directions(arms: &[Arm], from: usize) -> Vec<Option<Turn>> {
     let inwards = arms[from].angle_deg.to_radians() + PI;
     let change = |arm: &Arm| wrap_angle(arm.angle_deg.to_radians() - inwards);
@@ -74,7 +74,7 @@ pub fn of_lanes(arms: &[Arm], from: usize) -> Vec<Vec<Turn>> {
                 if first && left {
                     turns.push(Turn::Left);
                 }
-                // With room for it, those who turn across have a lane of their own.
+                // With more than one lane, turns across oncoming traffic have a lane of their own.
                 if !(first && left && count > 1) {
                     turns.push(Turn::Straight);
                 }
@@ -117,7 +117,7 @@ pub fn links(arms: &[Arm], from: usize) -> Vec<TurnLink> {
     links
 }
 
-/// All ways of a junction by the arm they come from: those that its turn lanes make, but for single ones.
+/// All connections of a junction by their arm of entry: those of its turn lanes, adjusted by the single ones.
 pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<TurnLink>> {
     let mut all = usual_links(arms);
     let is = |from: usize, link: &TurnLink, other: &Connection| {
@@ -128,7 +128,7 @@ pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<TurnLink>> 
         for other in connections.added.iter().filter(|other| other.from[0] == from) {
             if !links.iter().any(|link| is(from, link, other)) {
                 let ([_, lane_in], [to, lane_out]) = (other.from, other.to);
-                // Who turns back gives way as who turns left.
+                // A U-turn yields as a left turn does.
                 let turn = directions(arms, from)[to].unwrap_or(Turn::Left);
                 links.push(TurnLink { to, turn, lane_in, lane_out, added: true });
             }
@@ -137,7 +137,7 @@ pub fn all_links(arms: &[Arm], connections: &Connections) -> Vec<Vec<TurnLink>> 
     all
 }
 
-/// Those that turn lanes make. Lanes out that nothing would lead to are reached from where the lane beside them is.
+/// Connections of the turn lanes. A lane out without one is reached from the entry of the nearest lane out.
 fn usual_links(arms: &[Arm]) -> Vec<Vec<TurnLink>> {
     let mut all: Vec<Vec<TurnLink>> = (0..arms.len()).map(|from| links(arms, from)).collect();
     for to in 0..arms.len() {

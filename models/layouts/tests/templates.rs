@@ -275,7 +275,7 @@ proptest! {
             prop_assert_eq!(lit, usize::from(!scene.signals.is_empty()), "{}", way.lane);
             prop_assert!(scene.map.lanes.iter().any(|lane| lane.id == way.lane && lane.interpolating));
         }
-        // What is left over is found: a lane in that leads nowhere, a lane out that nobody gets to.
+        // The checks find the rest: a lane in that leads nowhere, a lane out without an entry.
         for arm in 0..built.arms.len() {
             let (ins, outs) = (built.arms[arm].ins_m.len(), built.arms[arm].outs_m.len());
             let dead = (0..ins).filter(|lane| drawn.iter().all(|c| c.from != [arm, *lane])).count();
@@ -292,7 +292,7 @@ proptest! {
 
     #[test]
     fn left_hand_traffic_is_the_mirror_image(junction in connected()) {
-        // What one calls left is left, whichever side one drives on.
+        // Left stays left for the driver in left-hand traffic.
         let turn = |turn: &Turn| match turn {
             Turn::Left => Turn::Right,
             Turn::Straight => Turn::Straight,

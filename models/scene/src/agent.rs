@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Identifier of a road user, unique in a scene, `[A-Za-z0-9_.:-]{1,64}`.
 pub type AgentId = String;
 
-/// What kind of road user; selects the expert and the motion model.
+/// Type of a road user; selects the expert and the motion model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -56,7 +56,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// The size a road user of this kind has when nobody says otherwise (medians of recorded ones).
+    /// Default size for a type and subtype (medians of recorded road users).
     pub fn default_for(agent_type: AgentType, subtype: Subtype) -> Self {
         let (length_m, width_m, height_m) = match (agent_type, subtype) {
             (_, Subtype::Truck) => (8.5, 2.5, 3.2),
@@ -150,7 +150,7 @@ pub struct Agent {
     pub role: Option<String>,
     /// Box.
     pub size: Size,
-    /// What was recorded, or the start alone for a drawn road user.
+    /// The recording, or only the start for an agent without one.
     pub track: Shared<Track>,
     /// What the user fixed.
     pub conditions: Conditions,
@@ -180,7 +180,7 @@ impl Agent {
         self.track.at(step).map(|s| State { heading_rad: wrap_angle(s.heading_rad), ..*s })
     }
 
-    /// What it counts as: the type that the user gave it, else its own. The gate of the experts.
+    /// The type that the user set, else its own. It selects the expert.
     pub fn kind(&self) -> AgentType {
         self.conditions.kind_of(self)
     }

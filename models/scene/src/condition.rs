@@ -1,4 +1,4 @@
-//! What a user fixes about a road user: start and goal, each field free (`None`) or fixed, and the places between.
+//! Conditions of a road user: start and goal, each field free (`None`) or fixed, and the via points.
 
 use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Size, Vec2, Via};
 use serde::Serialize;

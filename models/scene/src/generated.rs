@@ -16,13 +16,13 @@ pub struct Future {
     pub first_step: usize,
     /// One state a step, without gaps.
     pub states: Vec<State>,
-    /// What is said about it; nothing where nobody judged it.
+    /// Verdicts on the future; default if it was not judged.
     #[serde(flatten)]
     pub about: About,
 }
 
 impl Future {
-    /// A future of which nothing is said.
+    /// A future without verdicts.
     pub fn bare(probability: f64, first_step: usize, states: Vec<State>) -> Self {
         Self { probability, anchor: None, first_step, states, about: About::default() }
     }
@@ -35,12 +35,12 @@ pub struct AgentFutures {
     pub chosen: usize,
     /// By falling probability, never empty.
     pub modes: Vec<Future>,
-    /// Why it gave up the motion that it had; `None` for one that was asked for.
+    /// The reaction that replaced its motion; `None` for an agent that the call regenerates.
     pub reaction: Option<Reaction>,
 }
 
 impl AgentFutures {
-    /// Futures of one that was asked for.
+    /// Futures of an agent that the call regenerates.
     pub fn of(chosen: usize, modes: Vec<Future>) -> Self {
         Self { chosen, modes, reaction: None }
     }
@@ -55,7 +55,7 @@ pub struct Sample {
     pub score: serde_json::Value,
 }
 
-/// What the generator added to a scene.
+/// Generated futures of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Generated {
     /// Hash of the user part that these futures answer.
@@ -70,7 +70,7 @@ pub struct Generated {
     pub request: serde_json::Value,
     /// Licence of the answer where it is stricter than the scene's own: that of the weights.
     pub licence: Option<String>,
-    /// RFC 3339 time; empty where nobody looked at a clock.
+    /// RFC 3339 time; empty where no clock was read.
     pub created_at: String,
     /// Index into `samples`.
     pub chosen_sample: usize,

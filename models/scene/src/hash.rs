@@ -50,7 +50,7 @@ impl ContentHash {
         self.0.iter().map(|b| format!("{b:02x}")).collect()
     }
 
-    /// Six characters to read out to somebody: 30 bits in Crockford's base 32, which has no I, L, O and U.
+    /// Six characters to read aloud: 30 bits in Crockford's base 32, which has no I, L, O and U.
     pub fn short(&self) -> String {
         const DIGITS: [char; 32] = [
             '0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J',

@@ -1,5 +1,5 @@
-//! What a traffic scene *is*: lane map, signals, road users with their tracks, what the user fixed
-//! about them, and the motion each of them can make.
+//! Data model of a traffic scene: lane map, signals, road users with their tracks, the conditions that the
+//! user fixed, and the motion that each of them can make.
 //!
 //! Units and frame everywhere: metres, seconds, radians; x east, y north, heading counter-clockwise
 //! from +x, wrapped to [-pi, pi); time zero is the first step; one step is [`STEP_S`].
@@ -42,6 +42,7 @@ pub mod routes;
 pub mod scenarios;
 mod scene;
 pub mod score;
+pub mod sentences;
 pub mod shared;
 mod shown;
 pub mod signal;
@@ -72,7 +73,7 @@ pub const MAX_HORIZON_STEPS: usize = 200;
 /// Control knots of a future, one a second from 0 to 9 s (more fit recorded motion no better). One
 /// less than them divides the horizon's steps.
 pub const KNOTS: usize = 10;
-/// Who is slower than this stands, m/s: recorded road users that wait are given speeds up to it.
+/// Agents slower than this stand, m/s: recordings give waiting road users speeds up to it.
 pub const STANDING_MPS: f64 = 0.3;
 /// Steps from a knot to the next.
 pub const KNOT_STEPS: usize = HORIZON_STEPS / (KNOTS - 1);

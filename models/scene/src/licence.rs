@@ -1,6 +1,6 @@
 //! Licences of what is made from several sources: the strictest one holds for the whole.
 
-/// Data of which nobody said a licence.
+/// Licence of data without a stated one.
 pub const UNKNOWN: &str = "unknown";
 
 /// How much a licence asks, by the words that importers set; an unknown one may ask anything but that nothing be

@@ -191,7 +191,7 @@ impl LaneMap {
         self.lanes.iter().position(|l| l.id == id)
     }
 
-    /// The mirror image: y turned over, left and right swapped. Who drives on the right drives on the left in it.
+    /// The mirror image: y negated, left and right swapped. Right-hand traffic becomes left-hand traffic.
     pub fn mirrored(&self) -> Self {
         let point = |p: Vec2| Vec2::new(p.x, -p.y);
         let points = |line: &Points| Points {

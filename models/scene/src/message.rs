@@ -55,6 +55,9 @@ pub struct MessageKind {
     pub code: &'static str,
     /// The sentence in English, its placeholders in braces.
     pub english: &'static str,
+    /// The sentence for a count of one, where it differs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one: Option<&'static str>,
     /// Names of its values.
     pub values: &'static [&'static str],
 }
@@ -106,19 +109,29 @@ impl Placeholder for Word {
 
 /// Declares sentences: `name(value: Type, ..) = "code", "English with {value}";`. Each becomes a function that returns
 /// a [`Message`](crate::message::Message), and a row of the table `MESSAGES`. The compiler checks the placeholders.
+/// `[count] "{count} lane",` before the sentence is its singular, where the value `count` is one.
 #[macro_export]
 macro_rules! messages {
-    ($($name:ident($($value:ident: $kind:ty),* $(,)?) = $code:literal, $english:literal;)*) => {
+    ($($name:ident($($value:ident: $kind:ty),* $(,)?) =
+        $code:literal, $([$counted:ident] $one:literal,)? $english:literal;)*) => {
         $(
             #[doc = $english]
             pub fn $name($($value: $kind),*) -> $crate::message::Message {
                 let values = [$((stringify!($value), $crate::message::Placeholder::value(&$value))),*];
+                $(if $counted == 1 {
+                    return $crate::message::Message::new($code, &values, format!($one));
+                })?
                 $crate::message::Message::new($code, &values, format!($english))
             }
         )*
         /// All sentences of this module.
         pub const MESSAGES: &[$crate::message::MessageKind] = &[$(
-            $crate::message::MessageKind { code: $code, english: $english, values: &[$(stringify!($value)),*] }
+            $crate::message::MessageKind {
+                code: $code,
+                english: $english,
+                one: [$(Some($one),)? None][0],
+                values: &[$(stringify!($value)),*],
+            }
         ),*];
     };
 }
@@ -131,6 +144,7 @@ mod tests {
         narrow(lane: &str, width_m: f64) = "lane-narrow", "Lane {lane} is {width_m:.1} m wide";
         turns(vehicle: Word) = "turns", "A {vehicle} can turn";
         lanes_lead() = "lanes-lead", "Every lane leads somewhere";
+        crossed(count: usize) = "crossed", [count] "{count} lane is crossed", "{count} lanes are crossed";
     }
 
     #[test]
@@ -152,13 +166,26 @@ mod tests {
     }
 
     #[test]
+    fn one_thing_stands_in_the_singular() {
+        assert_eq!(crossed(1).english, "1 lane is crossed");
+        assert_eq!(crossed(2).english, "2 lanes are crossed");
+        assert_eq!(crossed(0).english, "0 lanes are crossed");
+    }
+
+    #[test]
     fn the_table_lists_every_sentence_with_its_values() {
         let rows: Vec<(&str, &[&str])> = MESSAGES.iter().map(|row| (row.code, row.values)).collect();
         let none: &[&str] = &[];
         assert_eq!(
             rows,
-            [("lane-narrow", &["lane", "width_m"][..]), ("turns", &["vehicle"]), ("lanes-lead", none)]
+            [
+                ("lane-narrow", &["lane", "width_m"][..]),
+                ("turns", &["vehicle"]),
+                ("lanes-lead", none),
+                ("crossed", &["count"])
+            ]
         );
+        assert_eq!(MESSAGES[3].one, Some("{count} lane is crossed"));
         assert_eq!(lanes_lead().english, MESSAGES[2].english);
     }
 }

@@ -6,7 +6,7 @@ use serde::de::{
 };
 use std::fmt;
 
-/// A deserializer, or a part of one, that reads structs from objects alone, however deep they lie.
+/// A deserializer, or a part of one, that accepts only objects for structs, at any depth.
 #[derive(Clone, Copy, Debug)]
 pub struct Objects<T>(pub T);
 

@@ -72,7 +72,7 @@ impl Stream {
         ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
-    /// Index in proportion to the weights, those that are not positive left out; `None` when there is no other.
+    /// Index in proportion to the weights, without those that are not positive; `None` if none is positive.
     pub fn among(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<usize> {
         let total: f64 = weights.clone().sum();
         let mut left = self.unit() * total;

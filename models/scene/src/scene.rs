@@ -1,5 +1,7 @@
 //! The whole scene and what makes one valid.
 
+use crate::message::Message;
+use crate::sentences;
 use crate::{
     Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2,
 };
@@ -25,13 +27,13 @@ pub const MAX_SIGNALS: usize = 512;
 /// Farthest a coordinate may lie from the origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 
-/// What an answer knows of how somebody moved before.
+/// The motion of an agent before the start, as far as an answer depends on it.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Before {
     /// Hash of the recording.
     Recorded(ContentHash),
-    /// A lone state: somebody was put there.
+    /// A single state: the agent was placed there.
     Put { step: usize, position: Vec2, heading_rad: f64, speed_mps: f64 },
 }
 
@@ -121,12 +123,19 @@ pub struct SceneError {
     pub code: &'static str,
     /// What was found and what was expected.
     pub reason: String,
+    /// The same as data, where it has a sentence of its own.
+    pub message: Option<Message>,
 }
 
 impl SceneError {
     /// A problem at a JSON pointer.
     pub fn new(at: impl Into<String>, code: &'static str, reason: impl Into<String>) -> Self {
-        Self { at: at.into(), code, reason: reason.into() }
+        Self { at: at.into(), code, reason: reason.into(), message: None }
+    }
+
+    /// A problem with its sentence as data.
+    pub fn of(at: impl Into<String>, code: &'static str, message: Message) -> Self {
+        Self { at: at.into(), code, reason: message.to_string(), message: Some(message) }
     }
 }
 
@@ -146,7 +155,7 @@ impl Scene {
         }
     }
 
-    /// Checks everything that the types alone cannot promise; the only way scenes enter the program.
+    /// Checks everything that the types cannot guarantee; the only way for scenes to enter the program.
     ///
     /// # Errors
     /// Up to 32 problems, each with its place: counts over their limits, coordinates that are not
@@ -185,10 +194,10 @@ impl Scene {
         ]
     }
 
-    /// Hash of what the user made: everything that decides an answer except the generated futures,
-    /// the id and the name. Map and recordings are known by their own hashes, which clones of the scene
-    /// share. What a condition fixes counts as fixed, whatever lies below it: a scene that is asked about with conditions
-    /// beside it has the hash of the one that they are written into.
+    /// Hash of the user's part: everything that decides an answer, without the generated futures, the id and
+    /// the name. Map and recordings enter by their own hashes, which clones of the scene share. A condition
+    /// replaces the value below it: a scene with conditions passed beside it has the hash of the scene that
+    /// contains them.
     pub fn input_hash(&self) -> ContentHash {
         let agents: Vec<_> = self
             .agents
@@ -297,8 +306,8 @@ impl Scene {
 
     fn check_agents(&self, problems: &mut Vec<SceneError>) {
         if self.agents.len() > MAX_AGENTS {
-            let reason = format!("{} agents; at most {MAX_AGENTS}", self.agents.len());
-            problems.push(SceneError::new("/agents", "too-many-agents", reason));
+            let message = sentences::agents_over_limit(self.agents.len(), MAX_AGENTS);
+            problems.push(SceneError::of("/agents", "too-many-agents", message));
         }
         check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
         for (i, agent) in self.agents.iter().enumerate() {
@@ -346,9 +355,9 @@ impl Scene {
 
 fn check_points(at: &str, points: &[Vec2], least: usize, problems: &mut Vec<SceneError>) {
     if points.len() < least || points.len() > MAX_POLYLINE_POINTS {
-        let reason = format!("{} points; {least} to {MAX_POLYLINE_POINTS} expected", points.len());
+        let message = sentences::points_out_of_range(points.len(), least, MAX_POLYLINE_POINTS);
         let code = if points.len() < least { "invalid-field" } else { "map-too-large" };
-        problems.push(SceneError::new(at, code, reason));
+        problems.push(SceneError::of(at, code, message));
     }
     let out = |p: &Vec2| !(p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M);
     if let Some(i) = points.iter().position(out) {

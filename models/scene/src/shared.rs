@@ -5,8 +5,8 @@ use serde::{Serialize, Serializer};
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
 
-/// A value shared by all its clones, with its content hash, which is worked out once for all of them. Who
-/// changes it gets a copy of their own, whose hash is not known yet.
+/// A value shared by all its clones, with its content hash, computed once for all of them. A change makes a
+/// separate copy, whose hash is not yet known.
 #[derive(Debug, Default)]
 pub struct Shared<T>(Arc<Inside<T>>);
 
@@ -24,7 +24,7 @@ impl<T: Clone> Clone for Inside<T> {
 }
 
 impl<T> Shared<T> {
-    /// True for clones of one value. Equal values may still be told apart so.
+    /// True for clones of one value. Equal values from different sources are not the same.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -115,7 +115,7 @@ mod tests {
         let clones: Vec<_> = (0..5).map(|_| first.clone()).collect();
         assert!(clones.iter().all(|clone| clone.hash() == first.hash()));
         assert_eq!(WRITTEN.get(), 1);
-        // Who writes anew is hashed anew, even where one holds it alone.
+        // A change resets the hash, even if only one clone exists.
         let mut own = Shared::from(Counted);
         let before = own.hash();
         *own = Counted;

@@ -5,9 +5,9 @@ use serde::Serialize;
 
 /// Most via points of one road user.
 pub const MAX_VIAS: usize = 4;
-/// How near a via point may be asked to be passed, metres, both ends allowed.
+/// Range of a via point's tolerance, metres, both ends allowed.
 pub const VIA_TOLERANCE_M: (f64, f64) = (0.5, 5.0);
-/// How near where nobody said, metres.
+/// Default tolerance, metres.
 pub const DEFAULT_VIA_TOLERANCE_M: f64 = 1.0;
 /// A via point with a time is passed within this of it, seconds.
 pub const VIA_WITHIN_S: f64 = 0.5;
@@ -46,8 +46,8 @@ impl Via {
         (off_s - VIA_WITHIN_S - 1e-6).max(0.0)
     }
 
-    /// What it costs to take this for its passing: another time than asked is out of the question where the motion
-    /// has that time.
+    /// Cost of taking this for its passing. A time other than the fixed one costs most, so that it is taken
+    /// only where the motion never has that time.
     fn cost(&self, passing: &Passing) -> f64 {
         let missed_m = (passing.distance_m - self.tolerance_m).max(0.0);
         passing.distance_m + MISSED * missed_m + ANOTHER_TIME * self.beyond_s(passing)

@@ -133,7 +133,8 @@ fn with_input<T>(actors: Vec<Actor<'_>>, thresholds: Thresholds, of: impl FnOnce
     })
 }
 
-/// Two road users at steady speeds for 9 s, whose paths cross or do not come near: their post-encroachment time, and the least gap at a step.
+/// Two road users at constant speeds for 9 s, whose paths cross or stay apart: their post-encroachment time,
+/// and the least gap at a step.
 fn encounters() -> Vec<Value> {
     // A little off whole decimetres: boxes that just touch at a step are a matter of rounding.
     let east = |x, speed| car(x + 0.03, 0.0, 0.0, speed);

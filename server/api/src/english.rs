@@ -3,9 +3,11 @@
 scene::messages! {
     unknown_agent(id: &str) = "unknown-agent", "the scene has no road user \"{id}\"";
     no_agents_named() =
-        "no-agents-named", "\"all\" or at least one id expected, or at least one road user that reacts";
+        "no-agents-named", "expected \"all\", at least one id, or at least one road user that reacts";
     too_many_regenerated(count: usize, most: usize) =
-        "too-many-regenerated", "{count} road users to regenerate; at most {most}";
+        "too-many-regenerated",
+        [count] "{count} road user to regenerate; at most {most}",
+        "{count} road users to regenerate; at most {most}";
     too_many_points(points: usize, most: usize) =
         "too-many-points", "the reply would have {points} points; at most {most}";
     no_future_kept() =
@@ -15,12 +17,14 @@ scene::messages! {
         "more-than-a-turn", "{got} rad is more than a turn; {got} degrees are {radians} rad";
     unknown_edge() = "unknown-edge", "the id of a road edge of the map expected";
     unequal_columns(count: usize, expected: usize) =
-        "unequal-columns", "{count} values, as many as x_m ({expected}) expected";
+        "unequal-columns",
+        [count] "{count} value, {expected} expected, as in x_m",
+        "{count} values, {expected} expected, as in x_m";
     one_scene() = "one-scene", "exactly one of scene and scene_id is needed";
-    changed_scene() = "changed-scene", "The stored scene is another than the one you read.";
-    no_network(format: &str) = "no-network", "a file of format {format} comes without a network";
+    changed_scene() = "changed-scene", "The stored scene has changed since it was read.";
+    no_network(format: &str) = "no-network", "a file of format {format} has no network";
     no_columns(format: &str) = "no-columns", "a file of format {format} has no columns to name";
     unknown_format(format: &str, formats: &str) =
         "unknown-format", "No format is named \"{format}\"; there are {formats}.";
-    defect() = "defect", "The server failed; its log says more.";
+    defect() = "defect", "The server failed; see its log.";
 }

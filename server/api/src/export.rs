@@ -25,10 +25,10 @@ pub struct WrittenFile {
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum MotionChoice {
-    /// Chosen futures where there are any, the log before and beside them.
+    /// The chosen futures, and the recording for all else.
     #[default]
     Chosen,
-    /// The recording.
+    /// The recording alone.
     Log,
 }
 

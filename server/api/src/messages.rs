@@ -2,10 +2,11 @@
 
 use scene::message::MessageKind;
 
-/// The table of sentences: of refused requests, the engine, map checks and the readers' warnings. Codes are unique.
+/// The table of sentences: of refused requests and files, the engine, map checks and the readers' warnings. Codes are unique.
 pub fn all() -> impl Iterator<Item = &'static MessageKind> {
     let tables = [
         crate::english::MESSAGES,
+        scene::sentences::MESSAGES,
         experts::sentences::MESSAGES,
         layouts::messages::MESSAGES,
         formats::sentences::MESSAGES,

@@ -185,7 +185,8 @@ impl From<ReadError> for Problem {
         if error.problems.len() > 1 {
             detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
         }
-        let problem = Self::new(code, detail);
+        let message = first.and_then(|p| p.message.clone());
+        let problem = Self::new(code, detail).with(|m| m.message = message);
         match error.kind {
             RefusalKind::MalformedJson { line, column } => {
                 problem.with(|m| (m.line, m.column) = (Some(line), Some(column)))

@@ -22,12 +22,15 @@ fn codes_are_unique_and_every_value_stands_in_its_sentence() {
         assert!(codes.insert(kind.code), "{} stands twice", kind.code);
         for value in kind.values {
             let placed = [format!("{{{value}}}"), format!("{{{value}:")];
-            assert!(
-                placed.iter().any(|place| kind.english.contains(place)),
-                "{}: {value} is not used",
-                kind.code
-            );
+            for english in [Some(kind.english), kind.one].into_iter().flatten() {
+                assert!(
+                    placed.iter().any(|place| english.contains(place)),
+                    "{}: {value} is not used",
+                    kind.code
+                );
+            }
         }
+        assert!(kind.one.is_some() || !kind.values.contains(&"count"), "{}: no singular", kind.code);
     }
     assert!(codes.len() > 90);
 }

@@ -17,7 +17,7 @@ struct CacheEntries<K: Hash + Eq, V> {
 }
 
 impl<K: Hash + Eq, V: Clone> Cache<K, V> {
-    /// An empty cache whose values weigh `most` at most.
+    /// An empty cache with values of total weight `most` at most.
     pub fn new(most: usize) -> Self {
         Self { inside: Mutex::new(CacheEntries { values: LruCache::unbounded(), weight: 0 }), most }
     }

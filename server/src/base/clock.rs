@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Since the program first asked.
+/// Time since the first call of this function.
 pub fn monotonic() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     START.elapsed()

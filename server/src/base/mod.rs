@@ -1,4 +1,4 @@
-//! What every room stands on: ids, the clock, bounds, refusals, counters, facts about the domain.
+//! Foundations of all modules: ids, the clock, limits, refusals, counters, facts about the domain.
 
 pub mod cache;
 pub mod clock;

@@ -11,17 +11,17 @@ use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Where it is, when it is not on the path.
+/// Environment variable with its path, if it is not on PATH.
 const PLACE: &str = "DRAGTRAFFIC_NETCONVERT";
 /// The name of the network that it writes.
 const NETWORK: &str = "map.net.xml";
 /// Longest that it may work: a town of some kilometres takes a few seconds.
 const TIME: Duration = Duration::from_secs(60);
-/// Most bytes that it may write, and that are kept of what it says.
+/// Most bytes of its output, and most bytes kept of its messages.
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_WORDS: u64 = 2_000;
 
-/// The program, looked for anew at each call: it may be installed while we run.
+/// The program, searched at each call: it may be installed while the server runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Installed;
 
@@ -35,7 +35,7 @@ fn program() -> Option<PathBuf> {
     named.into_iter().chain(folders).find(|path| path.is_file())
 }
 
-/// What may come with a file on this machine.
+/// Companions of a file on this machine.
 pub fn companions() -> Companions {
     Companions { netconvert: Some(Arc::new(Installed)), ..Companions::default() }
 }

@@ -24,11 +24,11 @@ pub struct ProblemDoc {
     /// HTTP status.
     #[schemars(range(min = 400, max = 599))]
     status: u16,
-    /// What happened this time.
+    /// Explanation of this occurrence.
     detail: String,
     /// The word to switch on.
     code: CodeName,
-    /// Address that was asked for.
+    /// Requested address.
     #[serde(skip_serializing_if = "Option::is_none")]
     instance: Option<String>,
     /// Id of the request, as in X-Request-Id and in the server's log.
@@ -60,7 +60,7 @@ impl ProblemDoc {
     }
 }
 
-/// Tells the log the cause of a defect, once.
+/// Logs the cause of a defect, once.
 pub fn logged(mut problem: Problem) -> Problem {
     if let Some(cause) = problem.cause.take() {
         tracing::error!(%cause, "defect");

@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 /// Flags of `backup`.
 #[derive(Args, Clone, Debug)]
 pub struct BackupArgs {
-    /// File of the saved scenes; a server may be at work on it. By default the one that `serve` takes.
+    /// Database file of the saved scenes; a server may be using it. Default: that of serve.
     #[arg(long, env = "DRAGTRAFFIC_DB", value_name = "FILE")]
     db: Option<PathBuf>,
-    /// Where the copy goes; `serve --db` takes it as it is.
+    /// File for the copy; serve --db reads it.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Overwrite a file that exists.
+    /// Overwrite the output.
     #[arg(long)]
     force: bool,
 }

@@ -1,6 +1,6 @@
 //! Flags of every command, and what follows from them: log lines, and the engine with its weights.
 
-use super::{Exit, Failure};
+use super::{Exit, Failure, output};
 use crate::base::clock;
 use api::Operations;
 use clap::{Args, ValueEnum};
@@ -9,36 +9,58 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Heading of these flags in every help.
-const HEADING: &str = "Options of every command";
+const HEADING: &str = "Global options";
+/// Most losses, warnings or road users that are listed without `--verbose`.
+const MOST_LISTED: usize = 10;
 
 /// Flags of every command.
 #[derive(Args, Clone, Debug)]
 pub struct Common {
-    /// Say nothing but errors.
+    /// Print errors alone on standard error.
     #[arg(short, long, global = true, help_heading = HEADING)]
     pub quiet: bool,
-    /// Folder with vehicle.safetensors, pedestrian.safetensors, cyclist.safetensors and, if it has
-    /// them, placement.json, in place of the weights inside the program.
+    /// List all losses, warnings and road users on standard error, instead of the first 10.
+    #[arg(short, long, global = true, conflicts_with = "quiet", help_heading = HEADING)]
+    pub verbose: bool,
+    /// Folder with vehicle.safetensors, pedestrian.safetensors, cyclist.safetensors and optionally
+    /// placement.json. Default: the weights inside the program.
     #[arg(long, global = true, env = "DRAGTRAFFIC_WEIGHTS", value_name = "DIR", help_heading = HEADING)]
     pub weights: Option<PathBuf>,
-    /// Log lines as text or JSON.
-    #[arg(long, global = true, value_enum, env = "DRAGTRAFFIC_LOG_FORMAT", help_heading = HEADING)]
+    /// Format of log lines. Default: text.
+    #[arg(long, global = true, value_enum, env = "DRAGTRAFFIC_LOG_FORMAT", value_name = "FORMAT", help_heading = HEADING)]
     pub log_format: Option<LogFormat>,
-    /// Which log lines: error, warn, info, debug, trace, or a tracing filter.
-    #[arg(long, global = true, env = "DRAGTRAFFIC_LOG", default_value = "info", help_heading = HEADING)]
+    /// Level of log lines: error, warn, info, debug, trace, or a tracing filter.
+    #[arg(long, global = true, env = "DRAGTRAFFIC_LOG", value_name = "LEVEL", default_value = "info", help_heading = HEADING)]
     pub log_level: String,
 }
 
 /// Form of log lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LogFormat {
-    /// For people.
+    /// Lines of text.
     Text,
-    /// One object a line.
+    /// One JSON object per line.
     Json,
 }
 
 impl Common {
+    /// Prints a line on stderr; nothing under `--quiet`.
+    pub fn say(&self, line: &str) {
+        if !self.quiet {
+            output::complain(line);
+        }
+    }
+
+    /// The first lines, and how many `things` the rest is about; all of them under `--verbose`.
+    pub fn listed(&self, mut lines: Vec<String>, things: &str) -> Vec<String> {
+        let more = lines.len().saturating_sub(MOST_LISTED);
+        if more > 0 && !self.verbose {
+            lines.truncate(MOST_LISTED);
+            lines.push(format!("{more} more {things}; --verbose lists them"));
+        }
+        lines
+    }
+
     /// Sends log lines to stderr.
     pub fn log(&self) {
         let level = if self.quiet { "error" } else { self.log_level.as_str() };

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Flags of `openapi`, `schema` and `domain`.
 #[derive(Args, Clone, Debug)]
 pub struct CheckArgs {
-    /// Compare with this file and exit 1 on a difference.
+    /// Compare with this file; exit with 1 on a difference.
     #[arg(long, value_name = "FILE")]
     check: Option<PathBuf>,
 }
@@ -53,9 +53,9 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 /// Flags of `info`.
 #[derive(Args, Clone, Debug)]
 pub struct InfoArgs {
-    /// A part of it, such as formats, weights or limits; all when absent.
+    /// Part to print, such as formats, weights or limits. Default: all.
     part: Option<String>,
-    /// The formats as a table in Markdown.
+    /// Print the formats as a Markdown table.
     #[arg(long)]
     markdown: bool,
 }

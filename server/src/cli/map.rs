@@ -11,24 +11,27 @@ use std::path::PathBuf;
 /// Flags of `map`.
 #[derive(Args, Clone, Debug)]
 pub struct MapArgs {
-    /// What to start from; the file of --parameters may name it, too.
+    /// Template to start from. Required unless the file of --parameters names one.
     #[arg(long, value_enum, required_unless_present_any = ["parameters_file", "list"])]
     template: Option<Template>,
-    /// List the templates with their parameters as JSON.
+    /// Print the templates with their parameters as JSON.
     #[arg(long, exclusive = true)]
     list: bool,
-    /// JSON file with `template` and `parameters`, or with parameters alone; - is stdin.
+    /// JSON file with `template` and `parameters`, or with parameters alone; - is standard input.
     #[arg(long = "parameters", value_name = "FILE")]
     parameters_file: Option<PathBuf>,
-    /// One parameter, by its place, such as kerb_radius_m=6 or arms.1.angle_deg=71; after the file's.
+    /// Set one parameter by its path, such as kerb_radius_m=6 or arms.1.angle_deg=71. Overrides the file.
     #[arg(long, value_name = "PATH=VALUE", value_parser = setting)]
     set: Vec<Setting>,
     /// Name of the scene.
     #[arg(long)]
     name: Option<String>,
-    /// File to write the scene to; - or absent is stdout.
+    /// File for the scene; - is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Print the scene as JSON, also on a terminal.
+    #[arg(long, conflicts_with = "output")]
+    json: bool,
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
@@ -75,12 +78,10 @@ pub fn run(args: MapArgs, common: &Common) -> Result<(), Failure> {
             .collect();
         Failure::usage(faults.join("; "))
     })?;
-    if !common.quiet {
-        for check in &built.checks {
-            output::complain(&format!("{} {}", if check.passed { "ok  " } else { "LOOK" }, check.text));
-        }
+    for check in &built.checks {
+        common.say(&format!("{} {}", if check.passed { "ok  " } else { "LOOK" }, check.text));
     }
-    output::write(args.output.as_deref(), &native::write(&scene), args.force)
+    output::write_scene(args.output.as_deref(), &native::write(&scene), args.force, args.json)
 }
 
 /// A pointer into the body as `--set` has it.

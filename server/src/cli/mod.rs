@@ -8,7 +8,8 @@ macro_rules! examples {
             $first,
             "\n  ",
             $second,
-            "\n\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
+            "\n\nGlobal options: -q, -v, --weights DIR, --log-format FORMAT, --log-level LEVEL; see dragtraffic --help",
+            "\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
         )
     };
 }
@@ -38,7 +39,7 @@ mod values;
 pub use common::Common;
 pub use exit::{Exit, Failure};
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
@@ -65,27 +66,30 @@ Each command has examples in its own help: dragtraffic generate --help";
 
 #[derive(Subcommand)]
 enum Command {
-    /// Serve the editor and the HTTP API (the default).
+    /// Serve the editor and the HTTP API (the default command).
     #[command(after_help = examples!("dragtraffic serve --open", "dragtraffic serve --data recordings/ --port 9000"))]
     Serve(serve::ServeArgs),
-    /// Copy the saved scenes, also while a server works on them.
-    #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
-    Backup(backup::BackupArgs),
-    /// Generate futures of scenes.
+    /// Generate futures of road users, towards goals or freely.
     #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
     Generate(Box<generate::GenerateArgs>),
-    /// Draw a map from a template: crossings, roundabouts, merges, roads, car parks.
+    /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
     #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
     Map(map::MapArgs),
-    /// Place road users on the maps of scenes.
+    /// Place road users on the map of a scene.
     #[command(after_help = examples!("dragtraffic place scene.json --count 30 --keep --seed 7 -o placed.json", "dragtraffic place scenes/ --density 12 --types vehicle=0.7,pedestrian=0.3 -o placed/"))]
     Place(place::PlaceArgs),
-    /// Turn files of any format into another.
+    /// Convert scenes between file formats.
     #[command(visible_aliases = ["import", "export"], after_help = examples!("dragtraffic convert record.tfrecord.gz --index 0 -o scene.json", "dragtraffic convert 'runs/*.json' --to csv -o motion.csv"))]
     Convert(convert::ConvertArgs),
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
-    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --samples all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
+    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --sample all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
     Score(score::ScoreArgs),
+    /// Copy the saved scenes of a server, even while it runs.
+    #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
+    Backup(backup::BackupArgs),
+    /// Print version, weights, limits and formats as JSON.
+    #[command(after_help = examples!("dragtraffic info formats --markdown", "dragtraffic info weights --weights DIR"))]
+    Info(document::InfoArgs),
     /// Print the OpenAPI document, or compare it with a file.
     #[command(after_help = examples!("dragtraffic openapi > assets/openapi.json", "dragtraffic openapi --check assets/openapi.json"))]
     Openapi(document::CheckArgs),
@@ -95,28 +99,25 @@ enum Command {
     /// Print motion limits, ranges of conditions and defaults of requests, or compare them with a file.
     #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
-    /// Print version, weights, limits and formats as JSON.
-    #[command(after_help = examples!("dragtraffic info formats --markdown", "dragtraffic info weights --weights DIR"))]
-    Info(document::InfoArgs),
     /// Print the completions of a shell.
     #[command(after_help = examples!("dragtraffic completions bash > ~/.local/share/bash-completion/completions/dragtraffic", "dragtraffic completions fish > ~/.config/fish/completions/dragtraffic.fish"))]
     Completions(shell::CompletionsArgs),
-    /// Print the manual page, or write one for each command.
+    /// Print the manual page, or write one per command.
     #[command(after_help = examples!("dragtraffic man | man -l -", "dragtraffic man -o ~/.local/share/man/man1/"))]
     Man(shell::ManArgs),
+    /// Train and evaluate the networks.
     #[cfg(feature = "lab")]
-    #[command(flatten)]
+    #[command(subcommand, after_help = examples!("dragtraffic lab eval recordings/ --tables 1,2 -o tables/", "dragtraffic lab bench recordings/"))]
     Lab(lab::LabCommand),
 }
 
-/// Parses the command line and does what it says.
+/// Parses the command line and runs the command.
 pub fn run() -> ExitCode {
     let cli = match parsed() {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
-            #[cfg(not(feature = "lab"))]
-            if let Some(message) = of_the_lab(&error) {
+            if let Some(message) = of_the_lab(&error).or_else(|| renamed(&error)) {
                 output::complain(&message);
                 return ExitCode::from(code);
             }
@@ -143,11 +144,21 @@ pub fn run() -> ExitCode {
 }
 
 fn parsed() -> Result<Cli, clap::Error> {
-    let matches = Cli::command().try_get_matches()?;
+    let matches = without_global_options(Cli::command()).try_get_matches()?;
     if let Some((name, _)) = matches.subcommand() {
         stray(&matches, name)?;
     }
     Cli::from_arg_matches(&matches)
+}
+
+/// Hides the options of every command in the help of each; one line there names them.
+fn without_global_options(mut whole: clap::Command) -> clap::Command {
+    fn hidden(command: clap::Command) -> clap::Command {
+        let each = |arg: clap::Arg| if arg.is_global_set() { arg.hide(true) } else { arg };
+        command.mut_args(each).mut_subcommands(hidden)
+    }
+    whole.build();
+    whole.mut_subcommands(hidden)
 }
 
 /// Flags of the server alone stand before another command: they would do nothing there.
@@ -167,19 +178,34 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     Ok(())
 }
 
-/// What to do about a command that only a program with the feature `lab` has.
-#[cfg(not(feature = "lab"))]
-fn of_the_lab(error: &clap::Error) -> Option<String> {
-    use clap::error::{ContextKind, ContextValue};
-    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return None };
-    let is_ours = LAB_COMMANDS.contains(&name.as_str());
-    is_ours.then(|| {
-        format!("{name} is not in this program: build one with cargo build --release --features lab")
-    })
+/// Flags of earlier versions, and those that say the same now.
+const RENAMED: [(&str, &str); 4] = [
+    ("--forget", "--kept-futures forgotten"),
+    ("--replan", "--replan-interval"),
+    ("--format", "--to"),
+    ("--samples", "--sample"),
+];
+
+/// The hint for a flag of an earlier version.
+fn renamed(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg) else { return None };
+    let (old, new) = RENAMED.iter().find(|(old, _)| old == flag)?;
+    (error.kind() == ErrorKind::UnknownArgument).then(|| format!("{old} is {new} now"))
 }
 
-/// Names of the commands that the feature `lab` adds.
-#[cfg(any(test, not(feature = "lab")))]
+/// The hint for a command of the lab that stands outside of `lab`, or that this program lacks.
+fn of_the_lab(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    match (name == "lab" || LAB_COMMANDS.contains(&name.as_str()), cfg!(feature = "lab")) {
+        (true, true) => Some(format!("{name} is a command of the lab: dragtraffic lab {name}")),
+        (true, false) => {
+            Some("this program lacks the lab: build one with cargo build --release --features lab".into())
+        }
+        (false, _) => None,
+    }
+}
+
+/// Names of the commands of the lab.
 const LAB_COMMANDS: &[&str] = &[
     "synthesize",
     "statistics",

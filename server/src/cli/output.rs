@@ -3,7 +3,7 @@
 use super::{Exit, Failure};
 use formats::files;
 use std::collections::HashSet;
-use std::io::{ErrorKind, Read, Write};
+use std::io::{ErrorKind, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -63,6 +63,23 @@ pub fn write(path: Option<&Path>, bytes: &[u8], force: bool) -> Result<(), Failu
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result.map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()))),
     }
+}
+
+/// Standard output would be a terminal: nobody reads a scene there.
+pub fn is_terminal(path: Option<&Path>) -> bool {
+    path.is_none() && std::io::stdout().is_terminal()
+}
+
+/// Writes a scene as [`write`] does. On a terminal its size is printed instead, unless `--json` is given.
+///
+/// # Errors
+/// Those of [`write`].
+pub fn write_scene(path: Option<&Path>, bytes: &[u8], force: bool, json: bool) -> Result<(), Failure> {
+    if json || !is_terminal(path) {
+        return write(path, bytes, force);
+    }
+    let size = bytes.len().div_ceil(1000);
+    print(format!("{size} kB of JSON: --output FILE writes them, --json prints them\n").as_bytes())
 }
 
 /// A folder that results go to, each under a name of its own.

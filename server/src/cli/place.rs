@@ -23,49 +23,55 @@ use std::sync::Arc;
 pub struct PlaceArgs {
     #[command(flatten)]
     inputs: Inputs,
-    /// Scenes to take of each file: one number, or FIRST..LAST. The first when the output is one file, else all.
+    /// Scenes to take from each file, counted from 0: a number, or FIRST..LAST (both included). Default: the
+    /// first for one output file, all for a folder.
     #[arg(long, value_name = "WHICH", value_parser = index)]
     index: Option<Range<usize>>,
-    /// Road users for each kilometre of lane; 12 when neither this nor --count is given.
+    /// Road users per kilometre of lane. Default: 12, unless --count is given.
     #[arg(long, conflicts_with = "count", value_name = "PER_KM", value_parser = within(0.0, MAX_PER_LANE_KM, "for a kilometre"))]
     density: Option<f64>,
-    /// Road users in all.
+    /// Number of road users.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=MAX_COUNT as u64))]
     count: Option<u64>,
-    /// Share of each type, such as vehicle=0.8,pedestrian=0.15,cyclist=0.05; as learned when absent.
+    /// Share of each type, such as vehicle=0.8,pedestrian=0.15,cyclist=0.05. Default: the learned shares.
     #[arg(long, value_delimiter = ',', value_name = "TYPE=SHARE", value_parser = for_one(share))]
     types: Vec<For<f64>>,
-    /// GeoJSON polygon in metres of the scene; the whole map when absent.
+    /// File with a GeoJSON polygon in the frame of the scene, m. Default: the whole map.
     #[arg(long, value_name = "FILE")]
     region: Option<PathBuf>,
-    /// Scene time at which they start, seconds.
+    /// Scene time at which the road users start, s.
     #[arg(long, value_name = "SECONDS", default_value_t = PlaceBody::default().at_s, value_parser = within(0.0, 59.9, "seconds"))]
     at: f64,
-    /// The same seed gives the same answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     #[arg(long, allow_negative_numbers = true, default_value_t = PlaceBody::default().seed, value_parser = whole(0, MAX_SAFE_INTEGER))]
     seed: u64,
-    /// Road users of the scene that stay (--keep=6,7); nobody for --keep alone, all without the flag.
+    /// Road users of the scene to keep (--keep=6,7); --keep alone keeps none. Default: all.
     #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "", value_name = "ID")]
     keep: Option<Vec<String>>,
-    /// Least room along the lane between those who drive, metres.
+    /// Minimum gap between vehicles along a lane, m.
     #[arg(long, default_value_t = PlaceBody::default().min_gap_m, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
     min_gap: f64,
-    /// Speeds between which motor vehicles start that move, such as 8..14, m/s; as on such roads when absent.
+    /// Range of start speeds of moving motor vehicles, such as 8..14, m/s. Default: the speeds typical of
+    /// each road.
     #[arg(long, value_name = "FROM..TO", value_parser = speeds)]
     speeds: Option<[f64; 2]>,
-    /// Motor vehicles an hour that come in by an arm, such as north=600,west-2=300; --arms says which there are.
-    /// Then only as many others as --density or --count says.
+    /// Motor vehicles per hour that arrive on an arm, such as north=600,west-2=300; --arms lists the arms.
+    /// All other road users then need --count or --density.
     #[arg(long, value_delimiter = ',', value_name = "ARM=PER_HOUR", value_parser = for_one(per_hour))]
     arrivals: Vec<For<f64>>,
-    /// Share of the places at kerbs and in lots that parked cars take, 0 to 1.
+    /// Share of the parking places at kerbs and in car parks that are occupied, 0 to 1.
     #[arg(long, value_name = "SHARE", value_parser = within(0.0, 1.0, ""))]
     parked: Option<f64>,
-    /// Lists the arms by which roads come into the first scene, as a table, and places nobody.
+    /// Print the arms of the first scene as a CSV table; place no road user.
     #[arg(long)]
     arms: bool,
-    /// File to write the scene with its new road users to, or folder for a file a scene; - or absent is stdout.
+    /// File for the scene with its road users, or a folder (DIR/) for one file per scene; - is standard
+    /// output.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
+    /// Print the scene as JSON, also on a terminal.
+    #[arg(long, conflicts_with = "output")]
+    json: bool,
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
@@ -90,13 +96,13 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     let folder = args.output.as_deref().filter(|path| Folder::named(path));
     let Some(path) = folder else {
         let [source] = sources.as_slice() else {
-            return Err(Failure::usage("many scenes: --output FOLDER/ says where they go, a file each"));
+            return Err(Failure::usage(
+                "several scenes: give a folder, --output DIR/, for one file per scene",
+            ));
         };
         let (bytes, told) = work.place(source, source.first(&reading)?)?;
-        if !common.quiet {
-            told.iter().for_each(|line| output::complain(line));
-        }
-        return output::write(args.output.as_deref(), &bytes, args.force);
+        told.iter().for_each(|line| common.say(line));
+        return output::write_scene(args.output.as_deref(), &bytes, args.force, args.json);
     };
     let folder = Folder::new(path, args.force)?;
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
@@ -170,7 +176,7 @@ impl Work<'_> {
 
 /// The arms of one scene, a line each.
 fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(), Failure> {
-    let [source] = sources else { return Err(Failure::usage("--arms tells those of one scene")) };
+    let [source] = sources else { return Err(Failure::usage("--arms takes one scene")) };
     let scene = Arc::new(source.first(reading)?.scene);
     let placement = work.body.run(&scene, work.placer, &Cancel::default());
     let placement = placement.map_err(|problem| pointers::refused(source, &problem))?;

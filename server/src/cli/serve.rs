@@ -23,34 +23,35 @@ use tokio::net::TcpListener;
 /// Flags of `serve`.
 #[derive(Args, Clone, Debug)]
 pub struct ServeArgs {
-    /// Address to listen on. Any but this machine's own needs --token-file.
+    /// IP address to listen on. An address that other machines reach needs --token-file.
     #[arg(long, env = "DRAGTRAFFIC_BIND", default_value = "127.0.0.1")]
     bind: String,
-    /// Port; 0 takes a free one.
+    /// Port to listen on; 0 takes a free port.
     #[arg(long, env = "DRAGTRAFFIC_PORT", default_value_t = 8080)]
     port: u16,
-    /// File of the saved scenes; made if missing. By default in the user's data folder.
+    /// Database file of the saved scenes, created if missing. Default: dragtraffic/scenes.sqlite in the
+    /// user's data folder.
     #[arg(long, env = "DRAGTRAFFIC_DB", value_name = "FILE")]
     db: Option<PathBuf>,
-    /// Folder whose scenario files are listed, read-only.
+    /// Folder of scenario files to list, read-only.
     #[arg(long, env = "DRAGTRAFFIC_DATA", value_name = "DIR")]
     data: Option<PathBuf>,
-    /// Further Host that may be asked for, with its port, such as scenes.example:8080.
+    /// Additional Host header to accept, with its port, such as scenes.example:8080.
     #[arg(long, value_name = "HOST")]
     allow_host: Vec<String>,
-    /// Origin of a page of another site that may call the API.
+    /// Origin of another web page that may call the API.
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
-    /// File with a token of at least 32 characters that callers must send; mode 0600.
+    /// File with a token of at least 32 characters that callers must send; its mode must be 0600.
     #[arg(long, value_name = "FILE")]
     token_file: Option<PathBuf>,
-    /// Generations at the same time; half the cores when absent.
+    /// Generations computed in parallel. Default: half the cores.
     #[arg(long, env = "DRAGTRAFFIC_THREADS", value_name = "N")]
     threads: Option<u64>,
     /// Change a limit of /v1/info, such as --limit queue=4.
     #[arg(long, value_name = "NAME=N")]
     limit: Vec<String>,
-    /// Refuse imports whose licence is for non-commercial use only.
+    /// Refuse imports whose licence allows non-commercial use only.
     #[arg(long)]
     refuse_nc: bool,
     /// Open the editor in the browser.

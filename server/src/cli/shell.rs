@@ -12,7 +12,7 @@ const NAME: &str = "dragtraffic";
 /// Flags of `completions`.
 #[derive(Args, Clone, Debug)]
 pub struct CompletionsArgs {
-    /// Whose: bash, zsh, fish, elvish, powershell.
+    /// Shell to complete for.
     #[arg(value_enum)]
     shell: Shell,
 }
@@ -20,10 +20,10 @@ pub struct CompletionsArgs {
 /// Flags of `man`.
 #[derive(Args, Clone, Debug)]
 pub struct ManArgs {
-    /// Folder for a page of the program and of each command; the program's goes to stdout without it.
+    /// Folder for one page per command. Default: the page of the program, on standard output.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Overwrite pages.
+    /// Overwrite existing pages.
     #[arg(long)]
     force: bool,
 }
@@ -47,14 +47,17 @@ pub fn man(args: ManArgs) -> Result<(), Failure> {
     whole.build();
     let Some(path) = &args.output else { return output::print(&page(whole, NAME)?) };
     let folder = Folder::new(path, args.force)?;
-    let commands: Vec<Command> =
-        whole.get_subcommands().filter(|command| command.get_name() != "help").cloned().collect();
-    folder.write(&format!("{NAME}.1"), &page(whole, NAME)?)?;
-    for command in commands {
-        let name = format!("{NAME}-{}", command.get_name());
-        folder.write(&format!("{name}.1"), &page(command, &name)?)?;
+    pages(whole, NAME, &folder)
+}
+
+/// Writes the page of a command and those of its own commands.
+fn pages(command: Command, name: &str, folder: &Folder) -> Result<(), Failure> {
+    let own = command.get_subcommands().filter(|own| own.get_name() != "help").cloned();
+    for own in own.collect::<Vec<_>>() {
+        let name = format!("{name}-{}", own.get_name());
+        pages(own, &name, folder)?;
     }
-    Ok(())
+    folder.write(&format!("{name}.1"), &page(command, name)?).map(drop)
 }
 
 /// A page as roff. It has no date: equal programs give equal pages.

@@ -8,11 +8,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// What one sort of event alone carries.
+/// Body of one type of event.
 pub trait EventBody {
-    /// Values of `event`; the first one, unless the body says otherwise.
+    /// Values of `event`; the first one, unless the body overrides it.
     const NAMES: &'static [&'static str];
-    /// What the event says, for the document.
+    /// Description of the event for the document.
     const ABOUT: &'static str;
 
     /// Value of `event`.
@@ -28,11 +28,11 @@ fn names<T: EventBody>(_: &mut SchemaGenerator) -> Schema {
     }
 }
 
-/// What every event carries.
+/// Envelope of every event.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "{T}Event", description = T::ABOUT, transform = formats::never_null)]
 pub struct Envelope<'a, T: EventBody> {
-    /// What it is.
+    /// Type of the event.
     #[schemars(schema_with = "names::<T>")]
     pub event: &'static str,
     /// Rises by one an event; a gap shows events that were dropped for a slow reader.
@@ -44,7 +44,7 @@ pub struct Envelope<'a, T: EventBody> {
     pub revision: Option<u64>,
     /// Since the request was read, milliseconds.
     pub elapsed_ms: f64,
-    /// What this event alone carries.
+    /// Body of the event.
     #[serde(flatten)]
     pub body: T,
 }
@@ -55,7 +55,7 @@ pub struct Envelope<'a, T: EventBody> {
 pub struct AcceptedBody {
     #[serde(flatten)]
     accepted: Accepted,
-    /// Jobs before this one when it was asked for.
+    /// Jobs before this one when it was queued.
     queue_position: usize,
 }
 
@@ -70,7 +70,7 @@ impl AcceptedBody {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Error")]
 pub struct ErrorBody {
-    /// What a refusal before the stream would have been answered with.
+    /// Problem that a refusal before the stream would have returned.
     problem: ProblemDoc,
 }
 
@@ -89,7 +89,7 @@ pub struct SupersededBody {
     pub by_revision: u64,
 }
 
-/// A sign of life between events, in NDJSON alone: SSE has comments for it.
+/// A sign of life between events, only in NDJSON: SSE has comments for it.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "HeartbeatEvent")]
 pub struct Heartbeat {

@@ -1,4 +1,4 @@
-//! The events of one job: made by its worker or by who stops it, taken by its reader.
+//! The events of one job: its worker or a stop produces them, its reader consumes them.
 
 use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
 use super::outbox::{EventMessage, JobEnd, Outbox};

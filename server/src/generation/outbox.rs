@@ -9,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::Notify;
 
-/// How a job ended.
+/// End of a job.
 #[derive(Clone, Debug)]
 pub enum JobEnd {
     /// With an answer.
@@ -83,7 +83,7 @@ impl Outbox {
         self.lock().closed
     }
 
-    /// How long the reader has left an event waiting.
+    /// Time for which the reader has left an event waiting.
     pub fn stalled(&self) -> Duration {
         let inside = self.lock();
         if inside.waiting.is_empty() { Duration::ZERO } else { inside.since.elapsed() }

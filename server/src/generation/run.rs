@@ -50,8 +50,8 @@ fn events(
             }
             GenerationEvent::Draft(draft) => {
                 feed.send(draft, None);
-                // Who writes it to the socket needs a core now, and all may be at work here: without this it waits
-                // out a time slice.
+                // The thread that writes it to the socket needs a core now, and workers may occupy all of
+                // them: without this it waits for the end of a time slice.
                 std::thread::yield_now();
             }
             GenerationEvent::Final(answered) => {

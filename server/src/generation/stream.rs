@@ -1,4 +1,4 @@
-//! One sequence of events in three representations: SSE, NDJSON, or the last event alone as JSON.
+//! One sequence of events in three representations: SSE, NDJSON, or only the last event as JSON.
 
 use super::feed::EventReader;
 use super::outbox::{EventMessage, JobEnd};
@@ -13,7 +13,7 @@ use futures_util::stream::unfold;
 use std::convert::Infallible;
 use std::time::Duration;
 
-/// When a stream says something.
+/// Timing of a stream.
 #[derive(Clone, Copy)]
 pub struct StreamPace {
     /// A sign of life after so long a silence.
@@ -74,7 +74,7 @@ struct EventSource {
     reader: EventReader,
     form: ReplyFormat,
     heartbeat: Duration,
-    /// What came before the head of the reply was sent.
+    /// Events from before the reply's head was sent.
     begun: Vec<EventMessage>,
     done: bool,
 }

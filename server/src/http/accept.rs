@@ -7,7 +7,7 @@ use mediatype::names::{APPLICATION, EVENT_STREAM, JSON, TEXT};
 use mediatype::{MediaType, Name};
 use std::str::FromStr;
 
-/// How a reply is written.
+/// Format of a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyFormat {
     /// The last event.
@@ -20,7 +20,7 @@ pub enum ReplyFormat {
 
 const X_NDJSON: Name<'static> = Name::new_unchecked("x-ndjson");
 
-/// In the order of what is given to those who take anything.
+/// Preference order for clients that accept any type.
 const OFFERED: &[MediaType<'static>] = &[
     MediaType::new(APPLICATION, JSON),
     MediaType::new(APPLICATION, X_NDJSON),

@@ -27,12 +27,12 @@ const FREE_EXPANSION: u64 = 1 << 20;
 /// Media types of JSON documents.
 pub const JSON: &[&str] = &["application/json", "application/vnd.dragtraffic.scene+json"];
 
-/// What reading a body takes.
+/// Resources for reading a body.
 #[derive(Clone)]
 pub struct Reading {
     /// Bounds.
     pub limits: Arc<Limits>,
-    /// Where long bodies are decoded and parsed.
+    /// Pool that decodes and parses long bodies.
     pub pool: Arc<Pool>,
     /// Room for bodies.
     pub room: Arc<Room>,
@@ -49,7 +49,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// As much as the limits say.
+    /// Room for as many bodies as the limits allow.
     pub fn new(limits: &Limits) -> Self {
         let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
         let places = |number: u64| Arc::new(Semaphore::new(of(number)));
@@ -402,7 +402,7 @@ impl<'a> Unfolding<'a> {
             Encoding::Gzip => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
             Encoding::Zstd => {
                 let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(|e| undecodable(&e))?;
-                // A frame may ask for gigabytes of window; 8 MiB is what level 19 uses.
+                // A frame may request gigabytes of window; level 19 uses 8 MiB.
                 decoder.window_log_max(23).map_err(|e| undecodable(&e))?;
                 Box::new(decoder)
             }

@@ -1,4 +1,4 @@
-//! Replies that travel compressed, for those who take them so.
+//! Compressed replies for clients that accept them.
 
 use axum::http::{HeaderMap, header};
 use flate2::Compression;
@@ -29,7 +29,7 @@ pub fn takes(headers: &HeaderMap, coding: &str) -> bool {
     any.unwrap_or(false)
 }
 
-/// The bytes compressed, where this is asked for and worth it.
+/// The bytes compressed, if the client accepts it and they are large enough.
 pub fn gzip(headers: &HeaderMap, bytes: &[u8]) -> Option<Vec<u8>> {
     if bytes.len() < LEAST_BYTES || !takes(headers, "gzip") {
         return None;

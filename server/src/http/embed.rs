@@ -60,7 +60,7 @@ fn asset(name: &str, plain: &EmbeddedFile, headers: &HeaderMap) -> Response {
     let file = packed.as_ref().map_or(plain, |(_, file)| file);
     let hash: String = file.metadata.sha256_hash().iter().take(8).map(|b| format!("{b:02x}")).collect();
     let etag = format!("\"{hash}\"");
-    // Names below assets/ hold a hash of the content; all else is asked for anew.
+    // Names below assets/ hold a hash of the content; browsers revalidate all other files.
     let keep = if name.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
     let head = [
         (header::ETAG, etag.clone()),

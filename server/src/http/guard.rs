@@ -1,4 +1,4 @@
-//! Who may talk to a server on this machine: Host, Origin, Sec-Fetch-Site, token, sizes of the head.
+//! Access rules of a server on this machine: Host, Origin, Sec-Fetch-Site, token, sizes of the head.
 //!
 //! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
 
@@ -10,7 +10,7 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use std::net::{IpAddr, SocketAddr};
 
-/// What the command line allowed.
+/// Access that the command line allows.
 #[derive(Clone, Debug, Default)]
 pub struct Guard {
     /// Hosts with their port, lower case.
@@ -68,11 +68,12 @@ impl Guard {
     }
 }
 
-/// Tells a browser that pages of this origin may read the reply; never with credentials.
+/// Allows pages of this origin to read the reply; never with credentials.
 pub fn allow_cross_origin(headers: &mut HeaderMap, origin: HeaderValue) {
     headers.insert(header::ACCESS_CONTROL_ALLOW_ORIGIN, origin);
     headers.append(header::VARY, HeaderValue::from_static("Origin"));
-    let exposed = "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss, Dragtraffic-Scene";
+    let exposed =
+        "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss, Dragtraffic-Losses, Dragtraffic-Scene";
     headers.insert(header::ACCESS_CONTROL_EXPOSE_HEADERS, HeaderValue::from_static(exposed));
 }
 
@@ -179,7 +180,7 @@ fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
     Err(Problem::new(Code::Unauthorized, detail))
 }
 
-/// Compares in a time that depends on the lengths alone.
+/// Compares in a time that depends only on the lengths.
 fn same_bytes(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |differ, (x, y)| differ | (x ^ y)) == 0
 }

@@ -1,8 +1,8 @@
-//! An open line: questions over a WebSocket (RFC 6455), each of them a request like any other.
+//! Generation over a WebSocket (RFC 6455): each message is a request like any other.
 //!
-//! A request of its own costs a browser three times the work of a message, and who drags asks sixty times a second.
-//! A question is handed to the router as the `POST` that it would have been, so that limits, refusals, counters and
-//! log are the same.
+//! A separate request costs a browser three times the work of a message, and a drag sends sixty requests a
+//! second. The server passes each one to the router as the `POST` that it replaces, so that limits, refusals,
+//! counters and log are the same.
 
 use super::net::Carrier;
 use crate::base::limits::Limits;
@@ -22,35 +22,35 @@ use tokio::sync::mpsc;
 use tokio::task::{self, AbortHandle, JoinSet};
 use tokio::time::Instant;
 
-/// Pieces of answers that wait for the reader, of all questions together.
+/// Pieces of replies that wait for the reader, over all requests.
 const PIECES: usize = 8;
-/// Questions beyond `line_questions` that wait for their turn; further ones are refused.
+/// Requests beyond `line_questions` that wait for their turn; further ones are refused.
 const WAITING: usize = 64;
 /// Messages of the line itself that wait for the reader; while there are so many, nothing is read.
 const REPLIES: usize = 64;
 /// Keeps a silent line open, and finds out when its other end has vanished.
 const PING: Duration = Duration::from_secs(30);
-/// When a client may ask again whose questions were refused, seconds.
+/// Time after which a refused client may repeat its request, seconds.
 const RETRY_AFTER_S: u64 = 1;
 /// Most of a reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
 
-/// A message of the client: a question, or the number of one that it gives up.
+/// A message of the client: a request, or the number of one to cancel.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ClientMessage<'a> {
-    /// A question, by a number of the client's own.
+    /// Number of a new request, chosen by the client.
     #[serde(default)]
     ask: Option<u64>,
     /// The body of its request.
     #[serde(borrow, default)]
     body: Option<&'a RawValue>,
-    /// The question of that number is given up.
+    /// Number of the request to cancel.
     #[serde(default)]
     end: Option<u64>,
 }
 
-/// The first text line of a message about a question. What follows is a piece of the reply's body.
+/// The first text line of a message of a reply. A piece of the reply's body follows.
 #[derive(Serialize)]
 struct ServerMessage {
     ask: u64,
@@ -69,17 +69,17 @@ impl ServerMessage {
         Ok(Message::Text(Utf8Bytes::try_from(Bytes::from(text)).map_err(axum::Error::new)?))
     }
 
-    /// The last message of a question that is given up.
+    /// The last message of a cancelled request.
     fn given_up(ask: u64) -> Result<Message, axum::Error> {
         Self { ask, head: None, last: true }.with(b"")
     }
 
-    /// The last message of a question that came too late.
+    /// The last message of a request that arrives during shutdown.
     fn closing(ask: u64) -> Result<Message, axum::Error> {
         Self::failed(ask, Problem::new(Code::ShuttingDown, "The server ends."))
     }
 
-    /// The last message of a question that cannot be answered, or no further.
+    /// The last message of a request that failed, at once or midway.
     fn failed(ask: u64, problem: Problem) -> Result<Message, axum::Error> {
         let refusal = Refusal::from(problem);
         let document = ProblemDoc::of(&refusal.0, None, None).text();
@@ -109,7 +109,8 @@ impl ReplyHead {
     }
 }
 
-/// Makes a line of a connection. Questions go to `path`, on behalf of the page or program that opened it.
+/// Upgrades a connection to a WebSocket. Requests go to `path`, with the headers of the page or program that
+/// opened it.
 pub fn open(
     upgrade: WebSocketUpgrade,
     carrier: Carrier,
@@ -134,21 +135,21 @@ struct Line {
 /// A part of an answer on its way.
 struct ReplyPiece {
     ask: u64,
-    /// The question itself: numbers are used again.
+    /// Id of the request's task, because clients reuse numbers.
     task: task::Id,
     message: Message,
     is_last: bool,
 }
 
-/// The questions of a client, by the numbers that it gave them.
+/// Open requests of a client, by the client's numbers.
 #[derive(Default)]
 struct Questions {
     tasks: JoinSet<()>,
-    /// Those whose last piece has not gone out.
+    /// Requests that have not sent their last piece.
     running: HashMap<u64, AbortHandle>,
-    /// Those that are held back, with their bodies.
+    /// Requests held back, with their bodies.
     waiting: VecDeque<(u64, String)>,
-    /// The server ends: no question begins any more.
+    /// The server ends: no request starts any more.
     closing: bool,
 }
 
@@ -157,7 +158,7 @@ impl Questions {
         self.running.contains_key(&number) || self.waiting.iter().any(|(waiting, _)| *waiting == number)
     }
 
-    /// Ends a question; whether its last piece was still to come.
+    /// Ends a request; true if its last piece was still to come.
     fn end(&mut self, number: u64) -> bool {
         let before = self.waiting.len();
         self.waiting.retain(|(waiting, _)| *waiting != number);
@@ -168,7 +169,7 @@ impl Questions {
         task.is_some() || self.waiting.len() < before
     }
 
-    /// Whether a piece belongs to a question that still runs. The last one frees its number.
+    /// Whether a piece belongs to a request that still runs. The last one frees its number.
     fn takes(&mut self, piece: &ReplyPiece) -> bool {
         let runs = self.running.get(&piece.ask).is_some_and(|task| task.id() == piece.task);
         if runs && piece.is_last {
@@ -177,13 +178,13 @@ impl Questions {
         runs
     }
 
-    /// The number of a question whose task has broken down, which it frees.
+    /// Frees and returns the number of a request whose task has panicked.
     fn broken(&mut self, task: task::Id) -> Option<u64> {
         let number = self.running.iter().find(|(_, running)| running.id() == task).map(|(number, _)| *number);
         number.inspect(|number| drop(self.running.remove(number)))
     }
 
-    /// Whether a question of so many bytes may wait: together they take at most twice one message's memory.
+    /// Whether a request of so many bytes may wait: together they take at most twice one message's memory.
     fn may_wait(&self, limits: &Limits) -> bool {
         let bytes: usize = self.waiting.iter().map(|(_, body)| body.len()).sum();
         self.waiting.len() < WAITING && bytes < limits.line_bytes as usize
@@ -266,7 +267,7 @@ impl Line {
         let _ = tokio::time::timeout(self.carrier.patience, sink.send(parting)).await;
     }
 
-    /// Begins, holds back, refuses or ends a question; gives the message that answers it at once.
+    /// Starts, holds back, refuses or cancels a request; returns the immediate reply, if any.
     ///
     /// # Errors
     /// Why the client cannot be understood.
@@ -301,7 +302,7 @@ impl Line {
         reply.transpose().map_err(|error| error.to_string())
     }
 
-    /// Starts questions that wait, as many as may run at the same time.
+    /// Starts waiting requests, as many as may run at the same time.
     fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<ReplyPiece>) {
         while (questions.tasks.len() as u64) < self.carrier.limits.line_questions.max(1)
             && let Some((number, body)) = questions.waiting.pop_front()
@@ -311,7 +312,7 @@ impl Line {
         }
     }
 
-    /// The request that a question would have been.
+    /// The `POST` that a message replaces.
     fn request(&self, body: String) -> Request<Body> {
         let mut request = Request::new(Body::from(body));
         *request.method_mut() = axum::http::Method::POST;
@@ -321,7 +322,7 @@ impl Line {
     }
 }
 
-/// Asks, and passes the reply on until it is over or given up.
+/// Runs a request, and passes the reply on until it ends or is cancelled.
 async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let (reply, _busy) = carrier.ask(request).await;
     pass_on(reply, ask, pieces).await;
@@ -333,7 +334,8 @@ async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let mut body = reply.into_body();
     let mut piece = next(&mut body).await;
     while !head.last {
-        // Whether it is the last is mostly known at once, and each message costs the reader a task.
+        // Usually the next piece shows at once whether this one is the last; a separate message costs the
+        // reader a task.
         let following =
             if matches!(piece, Some(Ok(_))) { next(&mut body).now_or_never() } else { Some(None) };
         head.last = matches!(following, Some(None));

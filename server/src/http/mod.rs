@@ -1,4 +1,4 @@
-//! HTTP itself, whatever is asked: connections, who may ask, bodies, headers, the way replies look.
+//! HTTP for every operation: connections, access rules, bodies, headers, the form of replies.
 
 pub mod accept;
 pub mod body;

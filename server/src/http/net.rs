@@ -27,7 +27,7 @@ const HEAD_FIELDS: usize = 512;
 
 /// Time between two looks at all connections.
 const LOOK: Duration = Duration::from_millis(250);
-/// Before that it cannot be told how fast a body arrives.
+/// Before this the arrival rate of a body is unknown.
 const ARRIVING_GRACE: Duration = Duration::from_secs(1);
 
 /// One open connection, as the table sees it.
@@ -35,7 +35,7 @@ struct ConnectionEntry {
     number: u64,
     socket: Arc<Socket>,
     idle_since: Mutex<Instant>,
-    /// When the reply under way was last asked for more; `None` without one.
+    /// Time at which the reply in progress was last polled for more; `None` without one.
     asked: Mutex<Option<Instant>>,
     /// The body that is arriving.
     arriving: Mutex<Option<BodyProgress>>,
@@ -50,7 +50,7 @@ struct BodyProgress {
 }
 
 impl BodyProgress {
-    /// Bytes a second so far; `None` while it is too early to tell.
+    /// Bytes per second so far; `None` during the grace period.
     fn rate(self) -> Option<u64> {
         let time = self.began.elapsed();
         (time > ARRIVING_GRACE).then(|| (self.bytes as f64 / time.as_secs_f64()) as u64)
@@ -75,8 +75,8 @@ impl ConnectionEntry {
 }
 
 impl ConnectionTable {
-    /// A place for a new connection: where there is none, that of the one longest idle, else of the one whose
-    /// request arrives slowest. `None` when all are taken by requests that are worked on.
+    /// A place for a new connection. A full table closes the connection that is idle longest, else the one
+    /// with the slowest request. `None` if work is under way on all of them.
     fn enter(&self, stream: TcpStream, most: usize) -> Option<Arc<ConnectionEntry>> {
         let mut places = lock(&self.places);
         if places.len() >= most {
@@ -101,7 +101,7 @@ impl ConnectionTable {
         Some(place)
     }
 
-    /// Closes connections whose reader has taken nothing of a reply for so long.
+    /// Closes connections whose reader has taken nothing of a reply for this long.
     fn close_stalled(&self, limit: Duration) {
         let stalled = |p: &&Arc<ConnectionEntry>| lock(&p.asked).is_some_and(|asked| asked.elapsed() > limit);
         lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
@@ -137,7 +137,7 @@ impl Drop for Busy {
     }
 }
 
-/// What a request is given that wants to make a line of its connection (`super::line`).
+/// Extension of a request that may upgrade its connection to a WebSocket (`super::line`).
 #[derive(Clone)]
 pub struct Carrier {
     router: Router,
@@ -146,7 +146,7 @@ pub struct Carrier {
     closing: watch::Receiver<bool>,
     /// Bounds.
     pub limits: Arc<Limits>,
-    /// How long a reader may leave something waiting.
+    /// Longest time for which a reader may leave something waiting.
     pub patience: Duration,
     /// The connection is in use until all of these are gone.
     _in_use: mpsc::Sender<Infallible>,
@@ -161,7 +161,7 @@ impl Carrier {
         (reply, busy)
     }
 
-    /// When the server is asked to end.
+    /// Resolves when the server is asked to end.
     pub async fn closes(&mut self) {
         let _ = self.closing.wait_for(|closing| *closing).await;
     }
@@ -179,7 +179,7 @@ pub async fn serve(
 ) {
     let table = Arc::new(ConnectionTable::default());
     let (closing, closed) = watch::channel(false);
-    // A stream asks again at each heartbeat, so a longer silence is the reader's.
+    // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
     let mut look = tokio::time::interval(LOOK);
     let limits = Arc::new(limits.clone());
@@ -288,7 +288,7 @@ async fn connection(
     }
 }
 
-/// A request's body that tells how it gets on.
+/// Body of a request, with its progress recorded.
 struct Arriving {
     body: hyper::body::Incoming,
     place: Arc<ConnectionEntry>,

@@ -14,13 +14,13 @@ use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long a caller is kept who is told to come back.
+/// Pause before the reply to a client that is refused for overload.
 const REFUSAL_PAUSE: Duration = Duration::from_millis(100);
 /// Stands for the route of what has none.
 const NO_ROUTE: &str = "(none)";
 /// Header that names a request in logs and problems.
 pub const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
-/// What pages may load: this server's own files and nothing else.
+/// Content that pages may load: only this server's own files.
 const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
     font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
@@ -28,7 +28,7 @@ const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'sel
 /// Checks before a handler runs.
 #[derive(Clone)]
 pub struct RequestGate {
-    /// Who may talk to the server.
+    /// Access rules of the server.
     pub guard: Arc<Guard>,
     /// Bounds of a request's head.
     pub limits: Arc<Limits>,
@@ -55,7 +55,7 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     }
     let status = response.status();
     if status == StatusCode::SERVICE_UNAVAILABLE {
-        // Who asks again at once leaves the cores to those who are answered.
+        // A client that retries at once would take cores from requests in progress.
         tokio::time::sleep(REFUSAL_PAUSE).await;
     }
     let seconds = began.elapsed().as_secs_f64();
@@ -102,7 +102,7 @@ fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str
     let headers = response.headers_mut();
     headers.remove(header::CONTENT_LENGTH);
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
-    // HEAD tells the length of what GET would answer.
+    // HEAD reports the length of GET's reply.
     headers.insert(header::CONTENT_LENGTH, HeaderValue::from(body.len()));
     *response.body_mut() = if method == Method::HEAD { Body::empty() } else { Body::from(body) };
     response

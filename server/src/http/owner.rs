@@ -1,12 +1,12 @@
-//! Whose connection it is: on this machine's own addresses every user of it can connect.
+//! Owner of a connection: on this machine's own addresses every local user can connect.
 //!
-//! Linux tells the owner of one socket by its two addresses (sock_diag(7)): the one whose local address is our
-//! peer's is its end of the connection.
+//! Linux reports the owner of one socket by its two addresses (sock_diag(7)). The socket with our peer's
+//! address as its local one is the peer's end of the connection.
 
 use std::net::SocketAddr;
 
 /// True when the other end of a connection is known to belong to another user of this machine than this
-/// process and root. Where that cannot be told (another system, another namespace) it is false.
+/// process and root. If it is unknown (another system, another namespace), it is false.
 pub fn is_strangers(peer: SocketAddr, own: SocketAddr) -> bool {
     // A mapped address is one of the older protocol at its own end.
     let plain = |address: SocketAddr| SocketAddr::new(address.ip().to_canonical(), address.port());
@@ -41,7 +41,7 @@ fn owner_of(_: SocketAddr, _: SocketAddr) -> Option<u32> {
     None
 }
 
-/// SOCK_DIAG_BY_FAMILY: type of questions about sockets, and of their answers.
+/// SOCK_DIAG_BY_FAMILY: type of requests about sockets, and of their replies.
 const BY_FAMILY: u16 = 20;
 
 /// A netlink header (16 bytes) and an `inet_diag_req_v2` (56) about one TCP socket in whatever state.

@@ -23,9 +23,9 @@ pub struct Upload {
     encoded: Blocks,
     encoding: Encoding,
     bounds: Bounds,
-    /// What was found while unpacking.
+    /// First fault found while unpacking.
     fault: Mutex<Option<Problem>>,
-    /// Somebody has come to its end.
+    /// One reader has reached its end.
     read: AtomicBool,
     _kept: Kept,
 }
@@ -196,7 +196,7 @@ impl Source for FormPart {
         Err(io::ErrorKind::UnexpectedEof.into())
     }
 
-    /// That of the whole form.
+    /// Size of the whole form.
     fn encoded_len(&self) -> u64 {
         self.form.encoded_len()
     }

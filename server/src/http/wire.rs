@@ -18,14 +18,14 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, Interest, ReadBuf};
 use tokio::net::TcpStream;
 
-/// What hyper's own answer takes at most: its status line, Connection, Content-Length and Date.
+/// Most bytes of hyper's own answer: status line, Connection, Content-Length and Date.
 const BARE_ANSWER: usize = 192;
-/// What a refused client may still be sending while it gets the answer.
+/// Most bytes that a refused client may still send while it receives the answer.
 const REST_OF_HEAD: usize = 1 << 20;
 /// Time for a refused client to take the answer and end the connection.
 const PARTING: Duration = Duration::from_secs(2);
 
-/// A connection's socket, with what is said about it.
+/// Socket of a connection, with its state.
 pub struct Socket {
     stream: TcpStream,
     /// Requests that are worked on or answered.
@@ -47,13 +47,13 @@ impl Socket {
         &self.stream
     }
 
-    /// Whether the client has ended it, whatever it sent before that nobody has read yet.
+    /// Whether the client has closed its side, even with unread bytes before that.
     pub fn is_left(&self) -> bool {
         let ready = self.stream.ready(Interest::READABLE).now_or_never();
         ready.is_some_and(|ready| ready.map_or(true, |ready| ready.is_read_closed()))
     }
 
-    /// Ends it for both sides, whoever holds it.
+    /// Shuts down both directions, for all owners.
     pub fn end(&self) {
         let _ = socket2::SockRef::from(&self.stream).shutdown(std::net::Shutdown::Both);
     }
@@ -86,11 +86,11 @@ impl Socket {
     }
 }
 
-/// What hyper reads from and writes to.
+/// Stream that hyper reads and writes.
 pub struct Wire(pub std::sync::Arc<Socket>);
 
 impl Wire {
-    /// Whether these bytes are hyper's own answer, which is held back then.
+    /// Whether these bytes are hyper's own answer, which is then held back.
     fn holds_back(&self, bytes: &[u8]) -> bool {
         if self.0.requests.load(Ordering::Relaxed) > 0 {
             return false;
@@ -168,12 +168,12 @@ impl AsyncWrite for Wire {
     }
 }
 
-/// Tells the client that nothing more comes.
+/// Ends the sending direction.
 fn shut(stream: &TcpStream) {
     let _ = socket2::SockRef::from(stream).shutdown(std::net::Shutdown::Write);
 }
 
-/// What to say to a client whose head could not be read; `None` when it has left, or never sent one.
+/// Refusal for a client with an unreadable head; `None` if it has left, or never sent one.
 pub fn refusal(socket: &Socket, error: &hyper::Error, limits: &Limits, unread: &[u8]) -> Option<Problem> {
     let slow = error.is_timeout() && !unread.is_empty();
     match socket.held_back.load(Ordering::Relaxed) {

@@ -28,7 +28,7 @@ pub struct ExportParams {
     format: String,
     /// Which sample of the generated futures; the chosen one when absent.
     sample: Option<usize>,
-    /// `chosen` futures, or the `log` alone.
+    /// `chosen` futures, or only the `log`.
     #[param(default = "chosen", value_type = String, pattern = "^(chosen|log)$")]
     mode: MotionChoice,
 }
@@ -100,6 +100,7 @@ async fn export(
     set("content-disposition", format!("attachment; filename=\"{}{}\"", file_name(&name), file.extension));
     if !file.losses.is_empty() {
         set("dragtraffic-loss", formats::registry::loss_header(&file.losses));
+        set("dragtraffic-losses", formats::registry::losses_header(&file.losses));
     }
     if let Some(licence) = licence {
         set("dragtraffic-licence", licence.chars().filter(char::is_ascii_graphic).take(64).collect());

@@ -24,8 +24,8 @@ use std::time::Duration;
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK,
     NotAcceptable, Exists, Superseded, StaleRevision, ReplyTooLarge, NonFiniteOutput);
 
-/// Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),
-/// by Accept. Stores nothing.
+/// Generates futures. The reply is a stream of events (NDJSON or SSE) or only the last event (JSON), by
+/// Accept. Stores nothing.
 #[utoipa::path(post, path = "/v1/generate", operation_id = "generate", tag = "generate",
     request_body(content = ref("#/components/schemas/GenerateRequest"), content_type = "application/json",
         example = json!({
@@ -70,14 +70,15 @@ pub async fn generate(
 
 refusals!(NoLine: CHANGES, UpgradeRequired);
 
-/// A WebSocket for many generations, one after the other or at the same time, at a third of what requests of their
-/// own cost a browser. Each text message asks, `{"ask": 1, "body": {..}}` with the body of a `POST` and a number of
-/// the client's choice, or gives up: `{"end": 1}`. What is told of a question is a line `{"ask": 1, "status": 200}`,
-/// in the first message with `retry_after_s` and `scene` (the header `Dragtraffic-Scene`) where the reply would have
-/// them, in the last one with `"last": true`; after it come lines as a `POST` streams them as NDJSON, or the problem.
-/// A question that is given up ends with `{"ask": 1, "last": true}` too, and then its number is free. One whose answer
-/// breaks off ends with a second `status` and its problem. Questions beyond `line_questions` wait until another one
-/// ends; while 64 wait, or 1 MB (`line_bytes`), a further one is refused with 503 `busy`.
+/// A WebSocket for many generations, one after the other or at the same time, at a third of a browser's cost
+/// for separate requests. Each text message is a request `{"ask": 1, "body": {..}}` with the body of a `POST`
+/// and a number of the client's choice, or a cancellation `{"end": 1}`. Each message of the reply begins with
+/// a line `{"ask": 1, "status": 200}`. The first one also has `retry_after_s` and `scene` (the header
+/// `Dragtraffic-Scene`) where a `POST` would have them, the last one has `"last": true`. After it come lines
+/// as a `POST` streams them as NDJSON, or the problem. A cancelled request also ends with `{"ask": 1, "last":
+/// true}`, and then its number is free. An interrupted reply ends with a second `status` and its problem.
+/// Requests beyond `line_questions` wait until another one ends; while 64 wait, or 1 MB (`line_bytes`), a
+/// further one is refused with 503 `busy`.
 #[utoipa::path(get, path = "/v1/generate", operation_id = "openLine", tag = "generate",
     responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
 pub async fn line(
@@ -92,7 +93,7 @@ pub async fn line(
     Ok(line::open(upgrade, carrier, "/v1/generate", &headers))
 }
 
-/// Who asks, as the body says.
+/// Caller named by the body.
 fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
     for (pointer, id) in [("/job", &body.job), ("/client", &body.client)] {
         if id.as_ref().is_some_and(|id| !is_id(id)) {

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::Ordering;
 
-/// A word for those who look after the server.
+/// Condition of the server, for its operators.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Condition {
@@ -20,7 +20,7 @@ pub enum Condition {
     Ready,
 }
 
-/// How the server is.
+/// Health of the server.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Health {
     status: Condition,

@@ -6,7 +6,7 @@ use api::info::{BuildInfo, ProgramInfo};
 use axum::extract::State;
 use experts::{Generator, Placer};
 
-/// What this program is; for the command line too.
+/// Description of this program; the command line uses it too.
 pub fn of(generator: &Generator, placer: &Placer, limits: &Limits) -> ProgramInfo {
     let build = BuildInfo { target: env!("BUILD_TARGET"), profile: env!("BUILD_PROFILE") };
     ProgramInfo::new(generator, placer, build, limits.bounds())

@@ -9,7 +9,7 @@ use api::map::{MapBody, TemplateList};
 use axum::extract::State;
 use std::time::Duration;
 
-/// What drawing a map and writing it takes, about.
+/// Approximate time to draw and write a map.
 const MAP_COST: Duration = Duration::from_millis(5);
 
 refusals!(Refused: CHANGES BODY WORK);

@@ -45,8 +45,8 @@ pub fn document() -> Value {
     document
 }
 
-/// What the paths' macros cannot say: a body is needed but for a copy, documents have a media type of their own too,
-/// an uploaded file may come in a form, and an export has its format's media type.
+/// Facts that the paths' macros cannot express. A body is required except for a copy, documents have their
+/// own media type too, an uploaded file may come in a form, and an export has its format's media type.
 fn tidy(document: &mut Value) {
     let operations = document["paths"].as_object_mut().into_iter().flat_map(|paths| paths.values_mut());
     for operation in operations.flat_map(|item| item.as_object_mut().into_iter().flat_map(Map::values_mut)) {
@@ -75,7 +75,7 @@ fn tidy(document: &mut Value) {
     }
 }
 
-/// The media types of files that are written; text and bytes are told apart by them alone.
+/// Media types of written files; only they distinguish text from bytes.
 fn exported() -> Map<String, Value> {
     let written = formats::registry::FORMATS.iter().map(|format| format.info()).filter(|info| info.export);
     let content = |media_type: &'static str| match media_type {
@@ -90,7 +90,7 @@ pub fn text() -> String {
     serde_json::to_string_pretty(&document()).unwrap_or_default() + "\n"
 }
 
-/// What replies are made of: members that are always there are required.
+/// Schemas of replies: members that are always present are required.
 fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ProblemDoc>();
     generator.subschema_for::<events::StreamEvent>();
@@ -106,8 +106,7 @@ fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<TemplateList>();
 }
 
-/// What requests are made of, and the documents that travel both ways: members with a default may be left
-/// out.
+/// Schemas of requests, and of documents in both directions: members with a default are optional.
 fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<SceneDoc>();
     generator.subschema_for::<MapDoc>();

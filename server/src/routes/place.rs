@@ -13,14 +13,14 @@ use experts::Cancel;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What placing takes, about: a few road users, or a town of them.
+/// Approximate time of a placement, from a few road users to a town of them.
 const PLACE_COST: Duration = Duration::from_millis(50);
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 
 /// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-/// cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m apart
-/// and all centres lie in the region. Fewer than asked is no error. Stores nothing.
+/// cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m
+/// apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
 #[utoipa::path(post, path = "/v1/place", operation_id = "place", tag = "generate",
     request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json",
         example = json!({

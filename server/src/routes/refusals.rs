@@ -1,5 +1,5 @@
-//! What an operation can be refused with, declared beside its handler and put into the document from
-//! there. The end-to-end tests hold every refusal they meet against these lists.
+//! Refusals of an operation, declared beside its handler and added to the document from there. The end-to-end
+//! tests check every refusal against these lists.
 
 use crate::base::problem::status_of;
 use api::Code;
@@ -8,7 +8,7 @@ use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
 use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
 
-/// Any operation: what is looked at before a handler is.
+/// Any operation: checks before its handler.
 pub const ANYWHERE: &[Code] = &[
     Code::BadHeader,
     Code::BadHost,
@@ -50,7 +50,7 @@ pub const SCENE_REF: &[Code] = &[Code::NotFound, Code::StaleEtag];
 pub const STORE: &[Code] = &[Code::StoreUnavailable];
 /// Operations that read query parameters.
 pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
-/// Operations whose work may wait for a worker.
+/// Operations that may wait for a worker.
 pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
 
 /// Replies of these codes, one a status.
@@ -74,11 +74,11 @@ fn response(names: &[&'static str]) -> Response {
     ResponseBuilder::new().description(names.join(", ")).content("application/problem+json", content).build()
 }
 
-/// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and what it
-/// alone gives.
+/// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and its own
+/// codes.
 macro_rules! refusals {
     ($name:ident: $($set:ident)* $(, $code:ident)*) => {
-        /// What the operation can be refused with.
+        /// Refusals of the operation.
         struct $name;
 
         impl utoipa::IntoResponses for $name {

@@ -21,7 +21,7 @@ const POINT_BYTES: usize = 20;
 /// Bytes that one line of a map takes in JSON, about.
 const LINE_BYTES: usize = 32 * POINT_BYTES;
 
-/// What the name of a scene begins with that came with a call and is held; ids of saved ones have no colon.
+/// Prefix of a held scene's name, which came with a request; ids of saved scenes have no colon.
 const HELD: &str = "held:";
 
 /// All scenes and maps that the server knows. Cheap to clone.
@@ -124,8 +124,8 @@ impl Catalog {
     }
 }
 
-/// Maps given inline are remembered; documents are read by the pool. Who holds many scenes pushes out the ones that
-/// nobody asked for longest.
+/// Maps given inline are remembered; the pool reads documents. If held scenes exceed the cache, the least
+/// recently used ones are dropped.
 impl Home for Catalog {
     async fn read(&self, doc: SceneDoc) -> Result<Scene, Problem> {
         let wanted = match &doc.map {

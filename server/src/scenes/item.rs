@@ -1,4 +1,4 @@
-//! What is known about a scene without its content.
+//! Facts about a scene without its content.
 
 use super::store::SceneSummary;
 use scene::Scene;
@@ -43,7 +43,7 @@ pub struct Counts {
     pub other: usize,
 }
 
-/// What lists say about a scene's content.
+/// Facts about a scene's content in lists.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Facts {
     /// Road users by type.

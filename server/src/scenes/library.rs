@@ -182,7 +182,7 @@ impl Library {
                     let modified =
                         path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
                     for (index, scene) in scenes.iter().enumerate() {
-                        // What is there already stays: neither a demo nor another file is replaced.
+                        // Existing scenes stay: a file replaces neither a demo nor another file's scene.
                         let ids = [file_id(&path, scene, index), name_id(&path, index)];
                         let Some(id) = ids.into_iter().find(|id| !self.has(id)) else {
                             tracing::warn!(file = %path.display(), "its scene's id is taken");

@@ -1,4 +1,4 @@
-//! What a small picture of a scene shows: its roads in few points, and who is there at first.
+//! Content of a scene's small picture: simplified roads, and the road users present at the first step.
 
 use formats::native::{
     MapDoc, MapField, MapForm, MetaDoc, PointsDoc, SceneDoc, TrackDoc, round_m, round_rad,
@@ -31,7 +31,7 @@ pub fn preview(scene: &Scene) -> SceneDoc {
     doc
 }
 
-/// Nobody who comes in later is in the picture; the last state tells who is parked.
+/// Later road users are not in the picture; the last state shows which ones are parked.
 fn first_and_last(track: &Track) -> Option<TrackDoc> {
     let first = track.states.first().filter(|_| track.first_step == 0)?.as_ref()?;
     let last = track.states.iter().rev().flatten().next()?;

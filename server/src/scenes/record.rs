@@ -34,7 +34,7 @@ pub fn of_scene(mut scene: Scene, id: &str) -> Result<SceneRecord, Problem> {
     })
 }
 
-/// The row of a document whose map is stored already.
+/// The row of a document with a stored map.
 ///
 /// # Errors
 /// When it cannot be written as JSON.

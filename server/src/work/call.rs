@@ -20,7 +20,7 @@ struct ReplySlot<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
 impl<T> ReplySlot<T> {
     /// Gives the answer. False when there is one already.
     fn give(&self, result: Result<T, Problem>) -> bool {
-        // Nobody may wait for it any more; it is the answer all the same.
+        // The caller may have left; the result still ends the call.
         lock(&self.0).take().map(|sender| drop(sender.send(result))).is_some()
     }
 }
@@ -168,7 +168,7 @@ mod tests {
         pool.stop();
     }
 
-    /// Asks for work of so many milliseconds by a connection, and notes its name when it is done.
+    /// Submits work of so many milliseconds for a connection, and records its name when it is done.
     fn noted(
         pool: &Arc<Pool>,
         done: &Arc<Mutex<Vec<&'static str>>>,
@@ -221,7 +221,7 @@ mod tests {
         assert!(!behind.is_finished());
         let behind = behind.await.unwrap();
         assert!(!cfg!(target_os = "linux") || behind == (first + 10).min(19), "{first} and {behind}");
-        // Nor does what takes long hold it up: somebody may wait for it by the time it is there.
+        // A long call does not delay it either: a caller may wait for it by the time it runs.
         let long = call(false, 4_000, 300);
         tokio::time::sleep(Duration::from_millis(5)).await;
         call(true, 1, 1).await.unwrap();

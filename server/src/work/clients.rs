@@ -23,7 +23,7 @@ impl Clients {
         Self { most: most.max(1), idle, seen: HashMap::new() }
     }
 
-    /// Whether a revision is newer than all before it.
+    /// Checks that a revision is newer than all before it.
     ///
     /// # Errors
     /// The highest revision so far, when this one is not above it.

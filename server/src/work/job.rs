@@ -1,4 +1,4 @@
-//! One job: who asked, what is to be done, and its one end.
+//! One job: its caller, its work, and its only end.
 
 use super::kind::{JobKind, PoolLane};
 use super::lock;
@@ -9,19 +9,19 @@ use experts::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a worker does. It ends the job itself unless it is stopped.
+/// Work of a job. It ends the job itself unless it is stopped.
 pub type Work = Box<dyn FnOnce() + Send>;
 
-/// Who asks.
+/// Caller of a job.
 #[derive(Clone, Debug, Default)]
 pub struct Caller {
     /// The caller's own id for the job.
     pub job: Option<String>,
-    /// Client whose newer revisions take over, and this revision.
+    /// Client whose newer revisions supersede this one, and this revision.
     pub client: Option<(String, u64)>,
     /// The connection it came by.
     pub connection: Option<u64>,
-    /// Nobody waits for the answer.
+    /// No caller waits for the answer.
     pub background: bool,
 }
 
@@ -39,11 +39,11 @@ impl Caller {
 /// A request for a job.
 #[derive(Clone, Debug)]
 pub struct JobRequest {
-    /// What is to be done.
+    /// Kind of work.
     pub kind: JobKind,
-    /// How long it will take one thread, about.
+    /// Approximate time on one thread.
     pub cost: Duration,
-    /// Who asks.
+    /// Caller.
     pub caller: Caller,
 }
 
@@ -73,7 +73,7 @@ impl Stop {
     }
 }
 
-/// Where the end of a job goes. The first one counts.
+/// End of a job. Only the first one counts.
 pub trait Ending: Send + Sync {
     /// Ends the job without a result. False when it had ended already.
     fn stop(&self, stop: Stop) -> bool;
@@ -81,18 +81,18 @@ pub trait Ending: Send + Sync {
     /// True when it has ended.
     fn is_over(&self) -> bool;
 
-    /// How long a reader has left something waiting.
+    /// Time for which a reader has left something waiting.
     fn stalled(&self) -> Duration {
         Duration::ZERO
     }
 }
 
-/// What work knows about its job.
+/// Data about the job for its work.
 #[derive(Debug)]
 pub struct Ticket {
     /// Id, unique among jobs under way.
     pub id: String,
-    /// Client whose newer revisions take over, and this revision.
+    /// Client whose newer revisions supersede this one, and this revision.
     pub client: Option<(String, u64)>,
     /// Set when the job is stopped.
     pub cancel: Cancel,
@@ -123,7 +123,7 @@ pub struct Job {
     work: Mutex<Option<Work>>,
     /// When a worker took it.
     began: Mutex<Option<Instant>>,
-    /// How long it has let others go first since.
+    /// Time for which it has yielded to others since then.
     paused: Mutex<Duration>,
 }
 
@@ -152,7 +152,7 @@ impl Job {
         self.ticket.client.as_ref().map(|client| client.0.as_str())
     }
 
-    /// How long a worker has been at it.
+    /// Working time of the worker so far.
     pub(super) fn worked(&self) -> Duration {
         let since = lock(&self.began).map_or(Duration::ZERO, |began| began.elapsed());
         since.saturating_sub(*lock(&self.paused))

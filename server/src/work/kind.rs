@@ -10,11 +10,11 @@ const PATIENT: Duration = Duration::from_millis(150);
 pub enum PoolLane {
     /// Calls that people wait for.
     Quick,
-    /// Calls that take long whoever waits.
+    /// Long calls, with or without a waiting caller.
     Patient,
-    /// Small calls that nobody waits for.
+    /// Small calls without a waiting caller.
     Background,
-    /// Documents, which must be read before it is known what a call asks.
+    /// Documents, which must be read before the cost of a call is known.
     Document,
 }
 
@@ -22,9 +22,9 @@ impl PoolLane {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Quick, Self::Patient, Self::Background, Self::Document];
 
-    /// How far its threads leave the cores to others, as nice(2) counts. What people wait for does so a little, for
-    /// whoever draws the answers on the same machine: late pictures hold up answers too. What takes long, or what
-    /// nobody waits for, gets a tenth of what that gets.
+    /// Niceness of its threads, as in nice(2). The quick lane is slightly nice, so that the browser on the
+    /// same machine can draw its answers in time. Long work, and work without a waiting caller, gets a tenth
+    /// of its share.
     pub fn nice(self) -> i32 {
         match self {
             Self::Document => 0,
@@ -90,7 +90,7 @@ impl JobKind {
         }
     }
 
-    /// Queue of such work that is expected to take so long, or that nobody waits for.
+    /// Lane of this kind of work, by its expected time and whether a caller waits.
     pub fn lane(self, cost: Duration, background: bool) -> PoolLane {
         match self {
             Self::Document => PoolLane::Document,

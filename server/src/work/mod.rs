@@ -1,10 +1,10 @@
 //! CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
 //!
-//! There are four lanes with threads of their own. What is expected to take long (big generations, large
-//! files) never stands before smaller calls, whether somebody waits for them or not, and none of these before
-//! reading and writing of documents, so that a newer revision is read, and a scene saved, while all workers are
-//! busy. Within a lane callers take turns, and a long call lets the smaller ones of others go first between its
-//! steps. Threads for what takes long, or what nobody waits for, leave the cores to the others.
+//! There are four lanes with their own threads. Long work (big generations, large files) never delays smaller
+//! calls, with or without a waiting caller. None of these delays reading and writing of documents, so that a
+//! newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take turns,
+//! and a long call yields to smaller ones of others between its steps. Threads for long work, or work without
+//! a waiting caller, leave the cores to the others.
 //!
 //! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
 //! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
@@ -42,11 +42,11 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The calling thread, and those that it starts, leave the cores to others as the work of a lane does (nice(2)). On
-/// Linux alone: elsewhere this would be said of the whole process.
+/// Sets the niceness of the calling thread, and of threads that it starts, to that of a lane (nice(2)). Only
+/// on Linux: elsewhere niceness applies to the whole process.
 pub fn give_way(lane: PoolLane) {
     #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
-    // Where that is not allowed it works as the others do.
+    // If the system refuses, the thread keeps its priority.
     let _ = rustix::process::nice(lane.nice());
     #[cfg(not(all(target_os = "linux", not(feature = "shuttle"))))]
     let _ = lane.nice();
@@ -55,7 +55,7 @@ pub fn give_way(lane: PoolLane) {
 /// Shared by handlers and workers.
 pub struct Pool {
     state: Mutex<PoolState>,
-    /// One for the threads of each lane: whoever is woken for nothing takes a core from whom it was woken by.
+    /// One for the threads of each lane: waking other threads in vain takes a core from the waker.
     arrived: [Condvar; PoolLane::ALL.len()],
     limits: Arc<Limits>,
     stopped: AtomicBool,
@@ -249,7 +249,7 @@ impl Pool {
         own.paused(began.elapsed());
     }
 
-    /// Ends jobs that take too long or whose reader has stopped reading.
+    /// Ends jobs that exceed their time or whose reader has stopped reading.
     fn watch(&self) {
         let seconds = Duration::from_secs;
         let mut rounds = 0u64;
@@ -257,7 +257,7 @@ impl Pool {
             thread::sleep(Duration::from_millis(100));
             rounds += 1;
             if rounds.is_multiple_of(50) {
-                // The allocator gives memory back when it is asked for some: in a server at rest, here.
+                // The allocator releases memory only during an allocation, so an idle server makes one here.
                 drop(std::hint::black_box(Vec::<u8>::with_capacity(1 << 20)));
             }
             let jobs: Vec<_> = lock(&self.state).jobs.values().cloned().collect();

@@ -1,6 +1,6 @@
-//! The pool under a model checker: small dramas of callers and workers, gone through in thousands of orders in
-//! which their threads can take turns. A schedule that breaks a promise, or in which everybody waits, is printed and
-//! can be done again (`shuttle::replay`).
+//! The pool under a model checker: small dramas of callers and workers, gone through in thousands of orders
+//! in which their threads can take turns. A schedule that violates an invariant, or deadlocks, is printed and
+//! can be repeated (`shuttle::replay`).
 //!
 //! `SCHEDULES` says how many orders of each drama are gone through by each of two ways to draw them.
 
@@ -24,7 +24,7 @@ fn explore(drama: fn()) {
     shuttle::check_pct(drama, count, DEPTH);
 }
 
-/// How a call ended.
+/// Outcome of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum How {
     Done,
@@ -32,7 +32,7 @@ enum How {
     Refused(Code),
 }
 
-/// Where a call ends, and how often it was worked on.
+/// End of a call, and number of times that it was worked on.
 #[derive(Default)]
 struct End {
     how: Mutex<Option<How>>,
@@ -117,7 +117,7 @@ fn revision(number: u64) -> JobRequest {
 
 type Call = (Arc<End>, Handle);
 
-/// Asks for work that takes a few steps and looks between them whether it is still wanted.
+/// Submits work of a few steps that checks between them for cancellation.
 fn ask(pool: &Arc<Pool>, asked: JobRequest, step: impl Fn(&Ticket) + Send + 'static) -> Result<Call, Code> {
     let call = pool.submit(asked, |ticket| {
         let end = Arc::new(End::default());
@@ -142,7 +142,7 @@ fn steps(_: &Ticket) {
     thread::yield_now();
 }
 
-/// What is true whenever nobody holds the state.
+/// Invariants whenever no thread holds the state.
 fn holds(pool: &Pool) {
     let mut state = lock(&pool.state);
     if state.closing {
@@ -155,7 +155,7 @@ fn holds(pool: &Pool) {
     }
 }
 
-/// Everybody has their end; then nothing is left, and the threads go.
+/// Waits until every call has ended; then nothing is left, and the threads end.
 fn close(pool: &Arc<Pool>) {
     loop {
         let mut state = lock(&pool.state);
@@ -170,7 +170,7 @@ fn close(pool: &Arc<Pool>) {
     pool.stop();
 }
 
-/// Three callers ask twice each, for one worker and two places.
+/// Three callers submit two jobs each, for one worker and two places.
 fn a_crowd(generate_s: u64) {
     let limits = Limits { running: 1, queue: 2, generate_s, ..Limits::default() };
     let pool = Pool::start(&Arc::new(limits)).unwrap();

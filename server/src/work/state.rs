@@ -1,4 +1,4 @@
-//! What the pool knows: who waits in which lane, who is worked on, and whose turn it is.
+//! State of the pool: waiting jobs by lane, running jobs, and turns.
 
 use super::clients::Clients;
 use super::fair_queue::FairQueue;
@@ -15,14 +15,14 @@ use std::time::Duration;
 pub struct LaneQueue {
     /// In the order of their arrival.
     pub queue: VecDeque<Arc<Job>>,
-    /// How many are worked on.
+    /// Number of running jobs.
     pub running: usize,
     /// Running mean of the time that jobs take, for each second expected.
     pace: Option<f64>,
 }
 
 impl LaneQueue {
-    /// How long a new job would wait for one of so many threads, seconds.
+    /// Expected wait of a new job for one of so many threads, seconds.
     pub fn wait_s(&self, threads: usize) -> f64 {
         let waiting: f64 = self.queue.iter().map(|job| job.cost.as_secs_f64()).sum();
         waiting * self.pace.unwrap_or(1.0) / threads.max(1) as f64
@@ -39,7 +39,7 @@ impl LaneQueue {
 /// All lanes and jobs.
 pub struct PoolState {
     lanes: [LaneQueue; PoolLane::ALL.len()],
-    /// By id: those that wait and those that are worked on.
+    /// Waiting and running jobs, by id.
     pub jobs: HashMap<String, Arc<Job>>,
     /// Revisions of clients.
     pub clients: Clients,
@@ -51,7 +51,7 @@ pub struct PoolState {
 }
 
 impl PoolState {
-    /// Nobody is there.
+    /// An empty pool.
     pub fn new(limits: &Limits) -> Self {
         let idle = Duration::from_secs(limits.client_idle_s);
         Self {
@@ -74,7 +74,8 @@ impl PoolState {
         self.lanes.iter().map(|lane| lane.running).sum()
     }
 
-    /// How many wait in a lane beside those of this client, which a newer revision of it would end.
+    /// Number of waiting jobs in a lane, without those of this client, which a newer revision of it would
+    /// end.
     pub fn waiting_beside(&mut self, lane: PoolLane, client: Option<&str>) -> usize {
         let own = |job: &&Arc<Job>| client.is_some() && job.client() == client;
         let queue = &self.lane(lane).queue;
@@ -88,7 +89,7 @@ impl PoolState {
         self.show();
     }
 
-    /// Takes the job out of a lane's queue whose caller was served longest ago, among those that fit.
+    /// Takes a job out of a lane's queue: among those that fit, the one whose caller was served longest ago.
     pub fn next(&mut self, lane: PoolLane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
@@ -128,7 +129,7 @@ impl PoolState {
         self.jobs.values().cloned().collect()
     }
 
-    /// Tells the metrics.
+    /// Updates the metrics.
     pub fn show(&self) {
         for (lane, traffic) in PoolLane::ALL.iter().zip(&self.lanes) {
             metrics::load(lane.name(), traffic.queue.len(), traffic.running);

@@ -13,7 +13,7 @@ pub use std::thread;
 pub mod thread {
     pub use shuttle::thread::{Builder, spawn, yield_now};
 
-    /// There are no clocks: whoever sleeps lets all others go first.
+    /// The model has no clock: a sleeping thread yields to all others.
     pub fn sleep(_: std::time::Duration) {
         yield_now();
     }

@@ -116,7 +116,7 @@ journeys('sharing', (stage) => {
     await e.begin();
     await e.drop('junction.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
     await e.page.waitForSelector('.dlg.import');
-    assert.match(await e.text('.dlg.import'), /Lane “E2”: only one point.*Where\s+junction\.json, line \d+/s);
+    assert.match(await e.text('.dlg.import'), /Lane “E2”: 1 point; 2 to .*Where\s+junction\.json, line \d+/s);
     assert.match(await e.text('.dlg pre .here'), /points_m/);
     await e.picture('import-in-part');
     await e.page.getByRole('button', { name: 'Import without lane “E2”' }).click();

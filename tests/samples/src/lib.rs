@@ -1,8 +1,8 @@
-//! Where tests find recorded scenes, which are no part of the repository.
+//! Location of recorded scenes for tests; they are not part of the repository.
 //!
-//! `DRAGTRAFFIC_SAMPLES` names a folder with `womd/train`, `womd/val` and `formats/waymo`. Who sets it says that
-//! all of it is there: a test that does not find its files then fails. Without it the folder `shared/data` beside
-//! the checkout is looked at, and a test that finds nothing there is skipped with a printed reason.
+//! `DRAGTRAFFIC_SAMPLES` names a folder with `womd/train`, `womd/val` and `formats/waymo`. Setting it
+//! promises that all of them exist: a test without its files then fails. Without it the tests read the folder
+//! `shared/data` beside the checkout, and a test without files there is skipped with a printed reason.
 
 #![allow(
     clippy::panic,
@@ -15,14 +15,14 @@ use std::path::{Path, PathBuf};
 
 /// Names the folder of samples.
 pub const VARIABLE: &str = "DRAGTRAFFIC_SAMPLES";
-/// Where samples are looked for without it.
+/// Folder of samples without the variable.
 const BESIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
 
-/// Files of a folder of samples whose names have `part` in them, sorted; `None`, and why, when there are none and
-/// nobody said that there were.
+/// Files of a samples folder with `part` in their names, sorted; `None`, with a printed reason, if there are
+/// none and the variable is not set.
 ///
 /// # Panics
-/// When the variable is set and there are none, or one cannot be read.
+/// If the variable is set and there are none, or one cannot be read.
 pub fn files(folder: &str, part: &str) -> Option<Vec<PathBuf>> {
     let said = std::env::var_os(VARIABLE);
     match find(said.as_ref(), Path::new(BESIDE), folder, part) {

@@ -23,7 +23,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether nothing was found.
+/// Whether the run found no fault.
 fn run(arguments: &[String]) -> anyhow::Result<bool> {
     let [schemathesis, config, examples, seed] = arguments else {
         bail!("usage: api SCHEMATHESIS CONFIG EXAMPLES SEED")

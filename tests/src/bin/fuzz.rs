@@ -1,10 +1,9 @@
-//! `fuzz [TARGET…] [--seconds N] [--seed S]`, `fuzz READER --file PATH`: readers and requests, with inputs that nobody thought of.
+//! `fuzz [TARGET…] [--seconds N] [--seed S]`, `fuzz READER --file PATH`: readers and requests, with unexpected inputs.
 //! `cargo xtask fuzz` builds it and runs it.
 //!
-//! Each target runs in a process of its own with bounded memory, so that a reader that takes the process with
-//! it is a finding like any other. Inputs come from `fuzz/corpus/TARGET`; each is told by seed and number, and
-//! those that break something are written to `target/fuzz`. `cargo fuzz` (see `fuzz/`) looks deeper where a
-//! nightly compiler is at hand.
+//! Each target runs in its own process with bounded memory, so a crash is a finding like any other. Inputs
+//! come from `fuzz/corpus/TARGET`; seed and number identify each, and failing ones are written to
+//! `target/fuzz`. `cargo fuzz` (see `fuzz/`) searches deeper, with a nightly compiler.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -23,7 +22,7 @@ use std::time::{Duration, Instant};
 
 /// An input that takes longer by the clock hangs, on a busy machine too.
 const HANGS: Duration = Duration::from_secs(60);
-/// An input that takes more of a core is told.
+/// Inputs that take more core time are reported.
 const SLOW: Duration = Duration::from_secs(1);
 /// Address space of a reader under test, KB.
 const MEMORY_KB: u64 = 4 << 20;
@@ -106,7 +105,7 @@ fn folder() -> PathBuf {
     root().join("target/fuzz")
 }
 
-/// Where a target's process tells which input it is at.
+/// File in which a target's process records its current input.
 fn place(name: &str) -> PathBuf {
     folder().join(format!("{name}.at"))
 }
@@ -151,7 +150,7 @@ fn outside(name: &str, options: &Options) -> anyhow::Result<Option<String>> {
     )))
 }
 
-/// What a target has been through.
+/// Counts of a target.
 #[derive(Default)]
 struct Tally {
     executions: u64,
@@ -232,7 +231,7 @@ fn one(name: &str, file: &Path) -> anyhow::Result<bool> {
 /// When the input that is worked on was begun, milliseconds from the start; 0 for none.
 static BEGUN_MS: AtomicU64 = AtomicU64::new(0);
 
-/// Ends the process when an input hangs: whoever waits for it is told which one by its place.
+/// Ends the process when an input hangs; the recorded place identifies the input.
 fn watch(began: Instant) {
     std::thread::spawn(move || {
         loop {
@@ -273,8 +272,8 @@ fn drive(
     Ok(tally)
 }
 
-/// Time that this thread has had of a core, where the system tells; a busy machine does not count. Requests are
-/// worked on elsewhere, and the server has bounds of its own for them.
+/// Core time of this thread, where the system reports it; other load does not count. Requests run on other
+/// threads, and the server has its own limits for them.
 fn worked() -> Duration {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     Duration::from_nanos(text.split(' ').next().and_then(|ns| ns.parse().ok()).unwrap_or(0))

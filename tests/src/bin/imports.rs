@@ -23,7 +23,7 @@ const SIZES: [(usize, usize); 8] =
     [(1, 91), (4, 91), (9, 91), (9, 300), (9, 600), (16, 600), (25, 600), (36, 600)];
 /// Most road users of a scene, and most copies of one in a file.
 const MOST: (usize, usize) = (256, 190);
-/// A file is large enough from this share of what was asked on.
+/// A file is large enough from this share of the requested size on.
 const ENOUGH: f64 = 0.8;
 
 fn main() -> ExitCode {
@@ -135,7 +135,7 @@ fn file_of(format: &dyn Format, bytes: f64, folder: &Path) -> anyhow::Result<Opt
             None
         };
         let (file, scenes) = many.unwrap_or((one.bytes, 1));
-        // What is larger than a reader takes is not the question.
+        // Files beyond a reader's limits are out of scope.
         if format.import(&file, &ImportOptions { max_scenes: 1, ..ImportOptions::default() })[0].is_err() {
             break;
         }

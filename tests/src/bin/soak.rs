@@ -8,16 +8,16 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask soak")]
 struct Cli {
-    /// What is tried.
+    /// Trial.
     #[arg(value_enum)]
     name: Name,
-    /// How long clients work, minutes.
+    /// Working time of clients, minutes.
     #[arg(long, default_value_t = 60.0, conflicts_with = "count")]
     minutes: f64,
-    /// How many kills, failing calls or schedules; 1000, 2000 and 200 unless told.
+    /// Number of kills, failing calls or schedules; the defaults are 1000, 2000 and 200.
     #[arg(long)]
     count: Option<u64>,
-    /// What everything is drawn by.
+    /// Seed of all draws.
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
@@ -28,7 +28,8 @@ enum Name {
     Clients,
     /// Kills while six writers work; nothing answered is lost.
     Kills,
-    /// Calls to the disk that fail; nothing answered is lost, and the server says so, stays up and recovers.
+    /// Failing calls to the disk; the server loses no answered write, reports the fault, stays up and
+    /// recovers.
     Faults,
     /// All of it in an order drawn by the seed, which can be done again.
     Schedule,

@@ -1,5 +1,5 @@
-//! Clients of all sorts at the same time, for as long as it is told: every reply is one that the document promises
-//! and this client may get, and memory stays where it is.
+//! Clients of all kinds in parallel, for a given time. Every reply must follow the document and be one that
+//! this client may get, and memory must not grow.
 
 use super::{Tell, fit};
 use crate::http::{Reply, Request};
@@ -26,7 +26,7 @@ const RISE_BYTES: f64 = 8e6;
 /// Bounds of the counted latencies rise by this factor.
 const STEP: f64 = 1.2;
 
-/// What the clients saw.
+/// Counts of the clients.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Run, seconds.
@@ -39,7 +39,7 @@ pub struct Report {
     pub memory: Vec<f64>,
 }
 
-/// What the clients share.
+/// State that the clients share.
 struct Common {
     address: SocketAddr,
     over: AtomicBool,
@@ -49,7 +49,7 @@ struct Common {
 
 type Client = (&'static str, fn(&Common, &mut Random) -> anyhow::Result<()>);
 
-/// Everybody, each with a thread of its own.
+/// All clients, each with its own thread.
 const CLIENTS: &[Client] = &[
     ("drag", drag),
     ("drag", drag),
@@ -65,10 +65,10 @@ const CLIENTS: &[Client] = &[
     ("half", half),
 ];
 
-/// Lets everybody work for so long.
+/// Runs all clients for a given time.
 ///
 /// # Errors
-/// When a reply is not one of those that its client may get, or the server falls.
+/// If a reply is not one that its client may get, or the server ends.
 pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     let server = Server::with_demos()?;
     server.wait_ready()?;
@@ -113,7 +113,7 @@ pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Repo
 }
 
 impl Common {
-    /// Lets one client work until everybody stops; the first that fails stops all.
+    /// Runs one client until all stop; the first failure stops all.
     fn lead(
         &self,
         name: &'static str,
@@ -174,7 +174,7 @@ fn is_busy(status: u16, code: &str) -> bool {
     (status, code) == (503, "busy")
 }
 
-/// Somebody who drags: one revision after another, each leaving the one before behind, some cancelled.
+/// A client that drags: one revision after another, each abandoning the one before, some cancelled.
 fn drag(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let client = format!("hand-{}", common.revisions.fetch_add(1, Ordering::Relaxed));
     let mut left: Option<TcpStream> = None;
@@ -207,7 +207,7 @@ fn drag(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Somebody who asks for much and leaves.
+/// A client that requests a long generation and disconnects.
 fn leave(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let mut body = generate(10);
     (body["agents"], body["steps"]) = (json!("all"), json!(30));
@@ -258,7 +258,7 @@ fn import(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let path = format!("/v1/scenes/{id}");
     common.ask("read", &Request::new("GET", &path), &[])?;
     common.ask("list", &Request::new("GET", "/v1/scenes?limit=20"), &[])?;
-    // What is left when this is refused does not grow: refusals are few.
+    // Refusals are rare, so the scenes that they leave behind do not accumulate.
     common.ask("delete", &Request::new("DELETE", &path).header("if-match", etag), &[])?;
     Ok(())
 }
@@ -288,7 +288,7 @@ fn slow(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What no good client sends.
+/// Requests that no correct client sends.
 fn broken(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let post = |path: &str| Request::new("POST", path).header("content-type", "application/json");
     let (request, code) = match random.below(6) {

@@ -1,4 +1,5 @@
-//! Faults of the disk under a server at work: it says so, stays up, loses nothing, and is well when the disk is.
+//! Faults of the disk under a busy server: it reports them, stays up, loses nothing, and recovers with the
+//! disk.
 
 use super::Tell;
 use crate::faults::{Call, Disk, Fault, How};
@@ -18,14 +19,14 @@ const CHANGES: usize = 40;
 /// A fault that lasts is met by so many changes.
 const REFUSED: usize = 3;
 
-/// What a trial saw.
+/// Counts of a trial.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Report {
     /// Rounds, each with one fault or a run of them.
     pub rounds: u64,
     /// Calls that failed.
     pub failed: u64,
-    /// What the writers did.
+    /// Counts of the writers.
     pub writes: Tally,
     /// Starts that a fault prevented.
     pub starts_refused: u64,
@@ -148,11 +149,11 @@ impl Trial {
             }
         }
         self.recovers()?;
-        // What was refused may lie in the log still: a start must not mistake it for something else.
+        // The log may still hold refused changes: a start must not misread them.
         if self.random.below(6) == 0 { self.kill() } else { Ok(()) }
     }
 
-    /// The disk is full or broken for a while, and everybody can see it.
+    /// The disk is full or broken for a while, and every client sees it.
     fn at_last(&mut self) -> anyhow::Result<()> {
         let how = if self.random.below(2) == 0 { How::Full } else { How::Broken };
         self.disk.fails(Fault::lasting(how))?;
@@ -168,7 +169,7 @@ impl Trial {
         self.recovers()
     }
 
-    /// One change by somebody; true when the disk was in its way.
+    /// One change by a random writer; true if the disk refused it.
     fn change(&mut self) -> anyhow::Result<bool> {
         let at = self.random.below(WRITERS) as usize;
         let address = self.server()?.address;
@@ -197,7 +198,7 @@ impl Trial {
         })
     }
 
-    /// A server starts on a disk that fails: it says why it cannot, or it can.
+    /// A server starts on a failing disk: it starts, or reports why it cannot.
     fn at_the_start(&mut self) -> anyhow::Result<()> {
         self.server.take().context("no server")?.kill()?;
         let fault = Fault { before: self.random.below(6), ..Fault::drawn(&mut self.random) };

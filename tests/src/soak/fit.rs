@@ -1,6 +1,6 @@
 //! A straight line through readings.
 
-/// How much a line through readings, one an equal time after the other, rises from the first to the last.
+/// Rise of a line fitted to equidistant readings, from the first to the last.
 pub fn rise(readings: &[f64]) -> f64 {
     let count = readings.len() as f64;
     if readings.len() < 2 {

@@ -1,4 +1,5 @@
-//! Kills at any moment while six writers are at work: what was answered is there, everything else is whole or not.
+//! Kills at any moment during the work of six writers: answered writes are stored, and every other write is
+//! stored wholly or not at all.
 
 use super::Tell;
 use crate::program::Server;

@@ -1,5 +1,5 @@
-//! Trials without an end of their own: the real program under load, kills and failing disks, held against what it
-//! answered. Each runs for as long as it is told; the tests run a little of each.
+//! Open-ended trials: the real program under load, kills and failing disks, compared with its replies. Each
+//! runs for a given time; the tests run short ones.
 
 pub mod clients;
 pub mod faults;
@@ -7,5 +7,5 @@ mod fit;
 pub mod kills;
 pub mod schedule;
 
-/// Where a trial says how far it is.
+/// Callback for progress messages.
 pub type Tell<'a> = &'a (dyn Fn(&str) + Sync);

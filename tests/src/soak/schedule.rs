@@ -22,11 +22,11 @@ pub enum Step {
     Change(u64),
     /// All writers work side by side for so many milliseconds.
     Crowd(u64),
-    /// Futures are asked for with this seed, the others reacting or not, and read to the end.
+    /// Generates futures with this seed, the others reacting or not, and reads to the end.
     Generate(u64, bool),
-    /// Futures are asked for, and the reader leaves after so many milliseconds.
+    /// Generates futures; the reader disconnects after so many milliseconds.
     Leave(u64),
-    /// Futures are asked for, and cancelled by their id after so many milliseconds.
+    /// Generates futures, and cancels them by their id after so many milliseconds.
     Cancel(u64),
     /// A revision is overtaken by the next after so many milliseconds, as while dragging.
     Overtake(u64),
@@ -48,9 +48,9 @@ pub enum Step {
     Well,
     /// The server is killed while all writers work, after so many milliseconds, and started again.
     Kill(u64),
-    /// The server is asked to stop, and started again.
+    /// Stops the server, and starts it again.
     Stop,
-    /// What is there is held against what must be.
+    /// Compares the store with the expected scenes.
     Compare,
 }
 

@@ -1,4 +1,4 @@
-//! The calls whose answers are kept: three demo scenes and a hand-made one; each expert, with and without goals;
+//! The calls with golden answers: three demo scenes and a hand-made one; each expert, with and without goals;
 //! a long horizon, several samples, a fixed start, a pinned future, a placement.
 
 use dragtraffic_tests::program::root;

@@ -8,7 +8,7 @@ const TOLERANCE: f64 = 1e-4;
 /// Differences that are printed.
 const SHOWN: usize = 12;
 
-/// Where two answers differ.
+/// Differences between two answers.
 #[derive(Default)]
 pub struct Differences {
     /// JSON pointer, before, after.

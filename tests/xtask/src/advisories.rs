@@ -30,7 +30,7 @@ pub fn command() -> anyhow::Result<Outcome> {
     })
 }
 
-/// Where cargo-deny keeps its copies.
+/// Folder of cargo-deny's copies.
 fn copies() -> Option<PathBuf> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")))?;

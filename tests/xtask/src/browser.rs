@@ -39,7 +39,7 @@ const CHROMIUM: Browser = Browser {
     names: &["chromium", "chromium-browser", "google-chrome", "chrome"],
     package: "chromium",
 };
-/// For the first minute alone.
+/// Only for the journey of the first minute.
 const FIREFOX: Browser =
     Browser { variable: "FIREFOX", names: &["firefox", "firefox-esr"], package: "firefox-esr" };
 

@@ -1,6 +1,6 @@
-//! `checkers`: foreign programs read what we write. Each script of `tests/checkers` names the packages that it needs
-//! (PEP 723, and under `[tool.dragtraffic]` those to be had without what they ask for), is called with the program
-//! and a folder to work in, and says `N passed, N failed` in its last line.
+//! `checkers`: foreign programs read our files. Each script of `tests/checkers` names the packages that it
+//! needs (PEP 723, and under `[tool.dragtraffic]` those to install without dependencies). It receives the
+//! program and a folder to work in, and prints `N passed, N failed` as its last line.
 
 use crate::environments::Environment;
 use crate::{Outcome, program, root};
@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 const SCRIPTS: &str = "tests/checkers";
-/// A script whose packages cannot be had fails, where it would be passed over.
+/// With this set, a script without its packages fails instead of being skipped.
 pub static STRICT: AtomicBool = AtomicBool::new(false);
 
 /// All scripts, each in an environment of its own.

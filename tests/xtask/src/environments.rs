@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
-/// Those of checks whose packages stand in a file.
+/// Environments of checks that list their packages in a file.
 const OF_FILES: &[(&str, &str)] = &[
     ("python", "python/requirements-test.txt"),
     ("maps", "tests/equal-maps-requirements.txt"),
@@ -15,20 +15,21 @@ const OF_FILES: &[(&str, &str)] = &[
     ("tools", "tests/tools-requirements.txt"),
 ];
 
-/// How each that was asked for ended: its Python, or why there is none. Held while one is made.
+/// Result of each requested environment: its Python, or the reason why there is none. Locked while one is
+/// made.
 static MADE: Mutex<BTreeMap<String, Result<PathBuf, String>>> = Mutex::new(BTreeMap::new());
 
-/// What an environment is to hold.
+/// Content of an environment.
 pub struct Environment {
     name: String,
-    /// Changes when it has to be made anew.
+    /// Changes if the environment must be rebuilt.
     wanted: String,
     /// Arguments of `pip install`, one entry a call.
     installs: Vec<Vec<String>>,
 }
 
 impl Environment {
-    /// One of those whose packages stand in a file.
+    /// An environment with packages listed in a file.
     ///
     /// # Errors
     /// When the file cannot be read.
@@ -39,8 +40,8 @@ impl Environment {
         Ok(Self { name: name.to_owned(), wanted, installs: vec![vec!["-r".into(), (*file).to_owned()]] })
     }
 
-    /// That of a script, which names its packages itself: those that bring what they ask for, and those that are
-    /// to be had without.
+    /// The environment of a script that lists its own packages: those installed with dependencies, and those
+    /// without.
     pub fn of_script(name: &str, with: Vec<String>, without: Vec<String>) -> Self {
         let wanted = format!("{}\n\n{}\n", with.join("\n"), without.join("\n"));
         let bare = (!without.is_empty()).then(|| [vec!["--no-deps".to_owned()], without].concat());
@@ -90,7 +91,7 @@ impl Environment {
 pub fn begin() -> anyhow::Result<()> {
     let of_files = OF_FILES.iter().map(|(name, _)| Environment::of_file(name));
     let all: Vec<Environment> = of_files.chain(crate::checkers::environments()?).collect::<Result<_, _>>()?;
-    // What goes wrong is told by the check that asks for it.
+    // The check that needs an environment reports its error.
     std::thread::spawn(move || all.iter().for_each(|environment| drop(environment.python())));
     Ok(())
 }

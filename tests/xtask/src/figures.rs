@@ -1,4 +1,4 @@
-//! What a drag takes over HTTP on this machine: a figure to look at, not a gate.
+//! Latency of a drag over HTTP on this machine: a figure for information, not a gate.
 
 use crate::{Outcome, program, root};
 use anyhow::{Context, ensure};
@@ -7,16 +7,16 @@ use std::process::{Command, Stdio};
 
 const SCENE: &str = "assets/scenes/demo-crossing.json";
 
-/// Runs the benchmark briefly and tells its medians.
+/// Runs the benchmark briefly and reports its medians.
 pub fn drag() -> anyhow::Result<Outcome> {
     let mut command = Command::new(program()?);
     let output = command
-        .args(["bench", SCENE, "--http", "--quiet"])
+        .args(["lab", "bench", SCENE, "--http", "--quiet"])
         .current_dir(root())
         .stdin(Stdio::null())
         .stderr(Stdio::inherit())
         .output()?;
-    ensure!(output.status.success(), "dragtraffic bench: {}", output.status);
+    ensure!(output.status.success(), "dragtraffic lab bench: {}", output.status);
     line(&serde_json::from_slice(&output.stdout)?).map(Outcome::Told)
 }
 

@@ -2,7 +2,7 @@
 //! `cargo xtask golden`: shows how the answers of the shipped weights differ from the golden ones.
 //! `cargo xtask soak NAME`: trials that go on for as long as one likes.
 //! `cargo xtask dependencies`: shows which crates came and went since the list of them was committed.
-//! `cargo xtask fuzz`: readers and requests, with inputs that nobody thought of.
+//! `cargo xtask fuzz`: readers and requests, with unexpected inputs.
 //! `cargo xtask imports`: how long readers take, and how much memory.
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
@@ -35,10 +35,10 @@ use environments::Environment;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
-/// How a check ended.
+/// Outcome of a check.
 enum Outcome {
     Passed,
-    /// Passed, with something to tell.
+    /// Passed, with a message.
     Told(String),
     Skipped(String),
     Failed(String),
@@ -247,8 +247,8 @@ fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
     run(Command::new(program()?).args([command, "--check", file]).current_dir(root()))
 }
 
-/// A program, built as `cargo test --workspace` does: with what tests alone ask of our crates, so that nothing is
-/// built twice.
+/// A program, built as `cargo test --workspace` does, with the features that only tests need, so that nothing
+/// is built twice.
 fn built(name: &str) -> anyhow::Result<PathBuf> {
     if let Outcome::Failed(why) = run(cargo_command().arg("test").args(WHOLE).args(["--no-run", "--quiet"]))?
     {

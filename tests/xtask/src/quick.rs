@@ -15,7 +15,7 @@ const MAIN: &[&str] = &["@{upstream}", "origin/main", "main"];
 /// Folders that the checks of the page look at.
 const PAGE: &[&str] = &["web", "tests/browser"];
 
-/// Runs what the changed files ask for.
+/// Runs the checks that the changed files need.
 pub fn run() -> ExitCode {
     let changed = match changed() {
         Ok(changed) => changed,
@@ -48,7 +48,7 @@ pub fn run() -> ExitCode {
     report::run(checks, true)
 }
 
-/// What differs from the commit at which this branch began.
+/// Changes since the commit at which this branch began.
 struct Changed {
     /// Names of packages.
     crates: Vec<String>,
@@ -56,7 +56,7 @@ struct Changed {
 }
 
 impl Changed {
-    /// What changed files belong to. A package may lie in the folder of another one: the innermost has the file.
+    /// Packages of changed files. A package may lie in the folder of another one: the innermost has the file.
     fn of(files: &[&Path], packages: &[(PathBuf, String)]) -> Self {
         let package = |file: &&Path| {
             let around = packages.iter().filter(|(folder, _)| file.starts_with(folder));

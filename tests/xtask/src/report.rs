@@ -4,7 +4,7 @@ use crate::Outcome;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// What a check does.
+/// Body of a check.
 pub type Work<'a> = &'a dyn Fn() -> anyhow::Result<Outcome>;
 
 /// Runs all of them: a check that fails does not stop the others. With `strict`, a skipped check fails.

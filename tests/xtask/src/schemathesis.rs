@@ -16,7 +16,7 @@ pub fn check() -> anyhow::Result<Outcome> {
     examples(EXAMPLES, SEED)
 }
 
-/// As many examples as asked for.
+/// Runs the requested number of examples.
 pub fn command(arguments: &[String]) -> anyhow::Result<Outcome> {
     let (mut number, mut seed) = (500, SEED);
     for pair in arguments.chunks(2) {

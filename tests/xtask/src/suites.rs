@@ -4,7 +4,7 @@
 use crate::{Outcome, WHOLE, cargo_command, run, tools};
 use std::process::Command;
 
-/// The package whose features all others are built with.
+/// The package whose features the build of all others uses.
 const PROGRAM: &str = "dragtraffic";
 /// Packages without a library.
 const WITHOUT_LIBRARY: &[&str] = &[PROGRAM, "xtask"];

@@ -45,7 +45,7 @@ fn has_target() -> anyhow::Result<bool> {
 /// Downloads and unpacks Debian's packages, once.
 ///
 /// # Errors
-/// Where the system is another one, or does not have them.
+/// If the system is not Debian, or lacks the packages.
 fn unpack(folder: &Path) -> anyhow::Result<()> {
     if folder.join("complete").is_file() {
         return Ok(());
@@ -69,7 +69,7 @@ fn unpack(folder: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Names of the packages with those that they need in order to start.
+/// Names of the packages, with the dependencies that they need to run.
 fn packages() -> anyhow::Result<Vec<String>> {
     let mut packages: Vec<String> = PACKAGES.iter().map(|name| (*name).to_owned()).collect();
     let mut next = 0;
@@ -94,7 +94,7 @@ fn use_unpacked(cargo: &mut Command, folder: &Path) -> anyhow::Result<()> {
         .context("folders of libraries")?;
     cargo.args(["-Z", "build-std=std,panic_abort", "--target-dir"]).arg(folder.join("built"));
     cargo.env("RUSTC", folder.join("usr/bin/rustc")).env("LD_LIBRARY_PATH", loaded);
-    // A released compiler builds the standard library only when told so.
+    // A stable compiler builds the standard library only with this variable.
     cargo.env("RUSTC_BOOTSTRAP", "1");
     Ok(())
 }

@@ -202,7 +202,7 @@ export class Client {
       headers: { 'Content-Type': 'application/json' },
     });
     const name = /filename="?([^";]+)/.exec(reply.headers.get('content-disposition') ?? '')?.[1] ?? `scene.${format}`;
-    return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
+    return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-losses') };
   }
 
   /** Does the server answer? A hanging server accepts the connection and sends nothing, hence the limit. */

@@ -250,7 +250,7 @@ describe('a blocked goal', () => {
     limiting: 'traffic',
     needs: null,
     nearest: { x_m: 7, y_m: 10, heading_rad: 0, speed_mps: 0 },
-    words: 'Somebody is in the way of this vehicle. It halts 3 m short of the goal.',
+    words: 'Another road user blocks this vehicle, which stops 3 m short of the goal.',
     with: '2',
   };
   const REACHED = { status: 'reached', position_m: 0.1, heading_rad: 0, speed_mps: 0 };

@@ -16,17 +16,17 @@ use scene::score::Drivable;
 use scene::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use std::sync::Arc;
 
-/// So far beyond the road's edge a corner still counts as on the road, metres.
+/// Distance beyond the road's edge within which a corner still counts as on the road, metres.
 pub const BEYOND_M: f64 = 0.1;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
 pub struct AgentPlan {
-    /// Who and where.
+    /// The agent and its state at the start.
     pub present: AgentAtStart,
     /// How it can move.
     pub model: MotionModel,
-    /// What it must meet.
+    /// The goal to meet.
     pub target: Target,
     /// The via points that it must pass in this window.
     pub vias: Vec<Waypoint>,
@@ -39,13 +39,13 @@ pub struct AgentPlan {
     /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
     /// heading free, radians.
     pub lane_headings: [Option<f64>; MODES],
-    /// How those who stand set off towards a goal, m/s2.
+    /// Acceleration with which a standing agent sets off towards a goal, m/s2.
     pub easy_mps2: f64,
     /// Share of the learned offsets that is driven at each instant: less and less after a goal.
     pub aside_share: [f64; INSTANTS],
     /// Where it may drive: [`World::ground`].
     pub drivable: Arc<Drivable>,
-    /// The same; `None` for who does not start there or is no vehicle.
+    /// As [`AgentPlan::drivable`]; `None` unless the agent is a vehicle that starts on this ground.
     pub ground: Option<Arc<Drivable>>,
     /// For the networks.
     pub features: AgentFeatures,
@@ -92,7 +92,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         own: encode::own(world, who, &model, &target, &frame),
         neighbours: encode::neighbours(world, who, &frame),
         anchors: encoded,
-        // What is learned leaves an end along the lane alone too.
+        // The learned offsets must also keep the end aligned with the lane.
         tangent: Box::new(tangent(&Target {
             heading_rad: target.heading_rad.or(lane_headings[0]),
             ..target
@@ -122,12 +122,12 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
 }
 
 impl AgentPlan {
-    /// Nothing is asked of it: no goal, and nowhere to pass.
+    /// The agent has neither a goal nor a via point.
     pub fn is_free(&self) -> bool {
         self.target.is_free() && self.vias.is_empty()
     }
 
-    /// It stands before a red light that is known to turn green, and nothing else is asked of it.
+    /// The agent stands at a red light that is known to turn green, and has neither a goal nor a via point.
     pub fn sets_off(&self) -> bool {
         self.is_free()
             && self.model.start_speed_mps() < STANDING_MPS
@@ -136,7 +136,8 @@ impl AgentPlan {
 }
 
 /// See [`AgentPlan::ground`].
-/// On wheels it fades after a goal with a place, by e in `fading_s` seconds; on foot nobody keeps to a lane.
+/// On wheels the share decays by e every `fading_s` seconds after a goal with a position. Walkers follow no
+/// lane, so theirs stays 1.
 fn aside_share(model: &MotionModel, target: &Target, fading_s: f64) -> [f64; INSTANTS] {
     let fades = model.kind == MotionKind::Drive && target.position.is_some();
     std::array::from_fn(|i| {

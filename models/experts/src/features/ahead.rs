@@ -1,4 +1,4 @@
-//! What lies ahead on a path: who drives there, lights and signs, who crosses it, the junction.
+//! Facts about a path ahead: leaders, signals, signs, crossing traffic, the junction.
 
 use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
@@ -8,10 +8,10 @@ use scene::{SignalState, wrap_angle};
 
 /// Standing road users this far ahead count as a queue, metres.
 const QUEUE_M: f64 = 60.0;
-/// Whoever comes this near to a path meets it, metres.
+/// Another agent whose centre comes this near to a path meets it, metres.
 const MEETS_M: f64 = 3.0;
 
-/// What can be said of a path whatever the timing on it.
+/// Facts about a path that do not depend on its timing.
 pub(super) struct PathFacts {
     /// The nearest road user ahead on the path.
     pub(super) leader: Option<speed::Leader>,
@@ -23,7 +23,7 @@ pub(super) struct PathFacts {
     pub(super) light: Option<LightAhead>,
     /// Distance to the first stop sign, metres.
     pub(super) stop_sign_m: Option<f64>,
-    /// Whose straight way on crosses the path soonest.
+    /// The earliest crossing by another road user that goes straight on.
     pub(super) crossing: Option<CrossingAhead>,
     /// The first junction on the path.
     pub(super) junction: Option<JunctionAhead>,
@@ -39,7 +39,7 @@ pub(super) struct LightAhead {
     pub(super) age_s: f64,
 }
 
-/// Where another road user, going straight on, meets a path.
+/// Where another road user meets a path if it goes straight on.
 #[derive(Clone, Copy)]
 pub(super) struct CrossingAhead {
     /// Along the path.
@@ -110,7 +110,7 @@ fn beside(route: &Route, graph: &LaneGraph) -> [usize; 3] {
     [count(&lane.left, true), count(&lane.right, true), count(&lane.left, false)]
 }
 
-/// The road user whose straight way on meets the path soonest.
+/// The earliest place at which a road user that goes straight on meets the path.
 fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<CrossingAhead> {
     let mut soonest: Option<CrossingAhead> = None;
     for other in obstacles.iter().filter(|o| o.speed_mps > 0.5) {

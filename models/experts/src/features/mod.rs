@@ -1,7 +1,7 @@
 //! What the experts see and what they say, as plain numbers: one [`AgentFeatures`] per road user. The
 //! tensors of `net` are these arrays stacked. What they know of the map is what its anchors say.
 //!
-//! [`tables`] says what each number is; a new input is a line there and one where it is worked out (`encode`).
+//! [`tables`] defines each number; a new input is a line there and one where it is computed (`encode`).
 
 pub mod agent;
 mod ahead;

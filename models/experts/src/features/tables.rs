@@ -13,7 +13,7 @@ use std::ops::Range;
 pub const NEIGHBOURS: usize = 16;
 
 block! {
-    /// What kind of road user somebody is; all zero for any other.
+    /// Type of a road user, one flag each; all zero for any other type.
     pub struct KindFlags {
         vehicle: (flag) "a vehicle",
         pedestrian: (flag) "on foot",
@@ -23,7 +23,7 @@ block! {
 }
 
 block! {
-    /// The road user itself and what is asked of it. Ahead and left are those of its heading at the start.
+    /// The road user itself and its conditions. Ahead and left are relative to its heading at the start.
     pub struct Own {
         kind: [KindFlags; 1] "what it is",
         motorcycle: (flag) "a motorcycle",

@@ -5,9 +5,9 @@ use nalgebra::DMatrix;
 use scene::motion::Target;
 use scene::{KNOT_S, KNOTS, STEP_S};
 
-/// Projections of the residual knots onto those that leave the fixed goal fields alone. The base meets
-/// the goal already: along, position and speed at the goal's step; across, offset and, where the heading
-/// is fixed, drift.
+/// Projections of the residual knots onto the subspace that does not change the fixed goal fields. The base
+/// meets the goal already: along the path, position and speed at the goal's step; across it, offset and,
+/// where the heading is fixed, drift.
 pub(super) fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
     let t = target.step as f64 * STEP_S;
     let row = |f: fn(usize, f64) -> f64| (0..KNOTS).map(|k| f(k, t)).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! What the networks see of scenes drawn by hand.
+//! Features of hand-made scenes.
 
 use super::agent::{AgentPlan, plan};
 use super::block::{Block, described};
@@ -25,7 +25,7 @@ fn assert_row<B: Block>(row: &[f32], expected: &[(&str, f64)]) {
     }
 }
 
-/// Somebody at a place, heading north, at this speed.
+/// An agent at a place, heading north at `speed_mps`.
 fn north(id: &str, agent_type: AgentType, subtype: Subtype, at: (f64, f64), speed_mps: f64) -> Agent {
     let heading_rad = std::f64::consts::FRAC_PI_2;
     let state = State { x_m: at.0, y_m: at.1, heading_rad, vx_mps: 0.0, vy_mps: speed_mps };

@@ -17,7 +17,7 @@ pub(super) struct PlannedActor {
     pub(super) plan: AgentPlan,
     /// Its motion without this call. A reacting agent keeps it unless another is in the way.
     pub(super) kept: Option<Vec<State>>,
-    /// The future that a person picked: it stays as it is.
+    /// The future that the user picked; it is not changed.
     pub(super) pinned: Option<Vec<State>>,
     /// First drafts.
     pub(super) modes: Modes,
@@ -27,7 +27,7 @@ pub(super) struct PlannedActor {
     pub(super) order: [Slot; MODES],
     /// Stays where it is.
     pub(super) rests: bool,
-    /// It was parked when the call began and has not been asked to go anywhere.
+    /// The agent was parked when the call began and has neither a goal nor a via point.
     pub(super) stays_parked: bool,
     pub(super) stays_probability: f64,
     /// A vehicle that starts within the road's edges.
@@ -81,12 +81,12 @@ impl PlannedActor {
         modes
     }
 
-    /// One that was asked for, or that has no motion of its own to keep.
+    /// An actor that the call regenerates, or that has no motion of its own to keep.
     pub(super) fn asked(world: &World<'_>, who: &AgentAtStart) -> Self {
         Self::new(world.agent(who).id.clone(), plan(world, who), None)
     }
 
-    /// One that may give up the motion it has for others to what it was asked before.
+    /// An actor that may replace its motion `kept` to yield to others; it keeps the goal it had.
     pub(super) fn reacting(world: &World<'_>, who: &AgentAtStart, kept: Vec<State>) -> Self {
         Self::new(world.agent(who).id.clone(), plan(world, who), Some(kept))
     }

@@ -77,7 +77,7 @@ impl Choice<'_> {
         chosen
     }
 
-    /// Road users whose chosen option overlaps another's or a fixed motion.
+    /// Whether the chosen option of each road user overlaps another's chosen option or a fixed motion.
     pub(super) fn in_conflict(&self, chosen: &[usize]) -> Vec<bool> {
         let mut out = vec![false; chosen.len()];
         let near = self.near();
@@ -94,7 +94,8 @@ impl Choice<'_> {
         out
     }
 
-    /// Both of a conflicting pair change at once: what neither could do alone.
+    /// Changes both options of a conflicting pair at once, which escapes conflicts that no single change
+    /// resolves.
     fn pair_moves(
         &self,
         own: &[Vec<f64>],
@@ -146,7 +147,7 @@ impl Choice<'_> {
         self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
 
-    /// For each road user, those whose options could ever meet one of its own.
+    /// For each road user, the others whose options can come near one of its own.
     fn near(&self) -> Vec<Vec<usize>> {
         let n = self.agents.len();
         let mut near = vec![Vec::new(); n];
@@ -165,7 +166,7 @@ impl Choice<'_> {
     }
 }
 
-/// Costs of pairs of options, worked out once.
+/// Costs of pairs of options, each computed once.
 struct Pairs<'a> {
     agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,
@@ -235,7 +236,7 @@ mod tests {
 
     #[test]
     fn pairs_move_together() {
-        // Changing alone meets the other's present choice; only both together are free.
+        // Each single change meets the other's present choice; only changing both is free of conflict.
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
         let kept = ride(8.3, 8.0, 0.0);
         let choice = Choice {

@@ -145,8 +145,8 @@ impl OptionTable<'_> {
         Decisions { actors: actors.collect(), reacted: settled.reacted }
     }
 
-    /// The reactions to each alternative of an actor, with the shown motions of all other actors. The verdicts alone
-    /// need them, and only of the agents that the call regenerates.
+    /// The reactions to each alternative of an actor, with the shown motions of all other actors. Only the
+    /// verdicts need them, and only those of the agents that the call regenerates.
     fn reactions_to_each(
         &self,
         i: usize,

@@ -1,9 +1,9 @@
-//! Six futures that differ by what people can name.
+//! Makes the six modes of an agent six distinguishable futures.
 //!
-//! Modes are told apart by their anchors, yet with a goal, before a junction or in a queue they often do the same.
-//! Of two that coincide one adds nothing. Where the paths of others cross it goes before or after whom the others
-//! do not; else it takes another pace or line. What was made so is unlikely, and keeps what was made of it through
-//! refinement: an offset that the networks do not see.
+//! Modes have different anchors, yet with a goal, before a junction or in a queue they often coincide. The
+//! second of two coinciding modes adds nothing. It is changed to pass a crossing agent in an order that no
+//! other mode has, or else to another pace or lateral offset. The changed mode gets a low probability. Its
+//! change is an offset that the networks do not see, so refinement keeps it.
 
 use super::actor::PlannedActor;
 use super::candidates::middle;
@@ -14,9 +14,9 @@ use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DuplicateTuning;
 use scene::judge::{Trace, crossing};
 
-/// Others whose paths are crossed by the best guess, at most so many count: the closest calls.
+/// Most crossing agents that the best guess considers: those with the smallest time shift.
 const MOST_STREAMS: usize = 3;
-/// Modes that are no copies and make room for an order nobody else has.
+/// Most modes that are not copies but give way to a missing order.
 const MOST_GIVEN_UP: usize = 2;
 
 /// The changes that make the modes of an actor six different futures.
@@ -31,7 +31,7 @@ pub(super) struct DiverseModes {
 }
 
 impl DiverseModes {
-    /// Nothing is done.
+    /// No changes.
     pub(super) fn none(actor: &PlannedActor) -> Self {
         let mut steady = [false; MODES];
         steady[best(actor).index()] = true;
@@ -124,7 +124,8 @@ impl<'a> Diversifying<'a> {
         self.share_out(&copies);
     }
 
-    /// Orders that no accepted mode has, with those whose path the best guess crosses.
+    /// Orders (before, after) that no accepted mode has, relative to the agents whose paths the best guess
+    /// crosses.
     fn missing_orders(&self, first: usize) -> Vec<(&'a Trace, bool)> {
         let me = self.views[first].trace();
         let mut streams: Vec<(i64, &'a Trace)> =
@@ -141,8 +142,8 @@ impl<'a> Diversifying<'a> {
         wants.filter(|(other, before)| !has(other, if *before { 1 } else { -1 })).collect()
     }
 
-    /// When those have passed before whom a walker would step out by the best guess, while no other mode waits for
-    /// them at the kerb; seconds.
+    /// The time at which the last vehicle has passed that the best guess, a walker, would step out before,
+    /// seconds. `None` where an accepted mode waits at the kerb until then.
     fn waits_until(&self, first: usize) -> Option<f64> {
         let plan = &self.actor.plan;
         let kerb = plan.kerbs[first].as_ref().filter(|_| plan.target.position.is_none())?;
@@ -198,7 +199,7 @@ impl<'a> Diversifying<'a> {
             .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
     }
 
-    /// It meets nobody that the draft it was made from does not meet.
+    /// The changed draft meets no agent that the original draft does not meet.
     fn is_free(&self, from: &DraftView<'_>, made: &DraftView<'_>) -> bool {
         self.near.iter().all(|other| !made.trace().meets(other) || from.trace().meets(other))
     }

@@ -1,9 +1,10 @@
 //! Six modes that are six futures.
 //!
-//! Modes are told apart by their anchors, yet before a junction or in a queue they often do the same on every
-//! route. Of two that coincide one adds nothing, while no mode covers an unlikely pulling away or halting. So the
-//! less probable of the two does that. In one recorded case of fifteen in which this happens it is then the best of
-//! the six; on synthetic traffic, where the modes are sure with reason, next to nothing is lost.
+//! Modes have different anchors, yet before a junction or in a queue they often coincide on every route. The
+//! second of two coinciding modes adds nothing, while no mode covers an unlikely start or stop. The less
+//! probable of the two takes that role. This occurs in one of fifteen recorded cases, and there the changed
+//! mode is the best of the six. On synthetic traffic, where the modes are rightly certain, almost nothing is
+//! lost.
 
 use super::slot::Slot;
 use super::trajectory::{BASIS, places};
@@ -53,8 +54,8 @@ impl Rule {
     }
 }
 
-/// Where nothing is asked of a road user and its two nearest modes coincide, replaces the less probable one: it
-/// goes or halts on its path, whichever is farther from all other modes.
+/// Replaces the less probable of the two nearest modes, where they coincide and the road user has no goal.
+/// The new mode starts or stops on the same path, whichever is farther from all other modes.
 pub(super) fn replace(
     plan: &AgentPlan,
     modes: &mut Modes,

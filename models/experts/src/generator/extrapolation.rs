@@ -2,7 +2,7 @@
 
 use scene::{Agent, STANDING_MPS, STEP_S, Scene, State, Track};
 
-/// From where on nothing is known of a road user that keeps its motion.
+/// The step from which a kept motion is extrapolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Guessed {
     /// First scene step of which neither future nor log speaks.
@@ -11,10 +11,9 @@ pub(super) struct Guessed {
     pub(super) moving: bool,
 }
 
-/// A road user's track as it is planned against up to scene step `last`: its pinned or chosen future after `start`,
-/// else its log, and where neither says more, straight on from where it was last seen. Also the first step of
-/// which nothing is known, where that comes before `last`. Who was seen to go away before the recording ends
-/// stays away.
+/// A road user's track as others plan against it, up to scene step `last`. It is the pinned or chosen future
+/// after `start`, else the log, else straight on from the last known state. Also the first step that is
+/// extrapolated, if it comes before `last`. An agent that left before the recording ends stays away.
 pub(super) fn extrapolated(
     scene: &Scene,
     agent: &Agent,

@@ -6,9 +6,9 @@ use scene::geometry::overlap_energy::OverlapEnergy;
 use scene::score::Drivable;
 use scene::{Size, Vec2};
 
-/// Energy of a box whose centre and heading at the instants are `places`, by how far each corner lies off
-/// the road (`weight` a square metre), and its gradient to the centre, headings held. Zero where the map does not
-/// say.
+/// Energy of a box whose centre and heading at the instants are `places`, and its gradient with respect to
+/// the centre, headings held. Each corner costs `weight` times the square of its distance off the road in
+/// metres. Zero where the map has no road bounds.
 pub(super) fn kerb(
     ground: &Drivable,
     size: &Size,

@@ -177,7 +177,7 @@ impl Generator {
         scene::licence::strictest(self.info.values().map(|info| info.licence.as_str()))
     }
 
-    /// The maps that it knows.
+    /// The cache of maps.
     pub fn maps(&self) -> &Maps {
         &self.maps
     }

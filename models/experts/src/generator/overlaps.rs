@@ -21,7 +21,7 @@ pub(super) fn resolve_overlaps(
     // The order of road users in the scene must not show.
     let mut order: Vec<usize> = (0..actors.len()).collect();
     order.sort_by(|a, b| actors[*a].id.cmp(&actors[*b].id));
-    // An actor that has found nothing to gain looks again when somebody near it has moved.
+    // An actor without an improving change looks again only after a nearby actor has moved.
     let may_look: Vec<bool> = actors.iter().map(|actor| !actor.keeps_still()).collect();
     let mut looks = may_look.clone();
     for _ in 0..energy.tuning.rounds as usize {

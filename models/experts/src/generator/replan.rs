@@ -30,7 +30,7 @@ const SHIFTS: usize = ACROSS * ALONG;
 /// Most shifts that are changed at once, aside and ahead.
 const MOST_ASIDE: i32 = 2;
 const MOST_AHEAD: i32 = 1;
-/// Steps about an instant at which boxes are looked at.
+/// Steps around an instant at which boxes are checked.
 const ABOUT: [isize; 3] = [-2, 0, 2];
 /// Goes on beyond the last place, metres.
 const TAIL_M: f64 = 20.0;
@@ -77,9 +77,9 @@ pub(super) struct ReplanField<'a> {
     pub(super) others: &'a [&'a Sweep],
 }
 
-/// A step at which boxes are looked at, with somebody near.
+/// A step at which boxes are checked, with another agent near.
 struct ReplanMoment<'a> {
-    /// The boxes of those who are within reach of the shifts.
+    /// Boxes of other agents within reach of the shifts.
     near: Vec<&'a OrientedBox>,
     /// One for each shift along the path.
     unshifted: Vec<Unshifted>,
@@ -89,7 +89,7 @@ struct ReplanMoment<'a> {
 struct Unshifted {
     position: Vec2,
     left: Vec2,
-    /// Where others count as met there, and where as close.
+    /// An agent in `met` counts as met, in `close` as close.
     met: OrientedBox,
     close: OrientedBox,
 }
@@ -125,8 +125,8 @@ struct ShiftSearch<'a> {
     near: Vec<&'a Sweep>,
 }
 
-/// The motion on the path of `slot` beside, before or behind which nobody is met; `None` where the motion
-/// as it is serves as well.
+/// The motion on the path of `slot` that avoids all other agents: to the side, earlier or later. `None` where
+/// shifting does not lower the cost.
 pub(super) fn swerve(
     plan: &AgentPlan,
     field: ReplanField<'_>,
@@ -140,13 +140,13 @@ pub(super) fn swerve(
     Some(along_places(plan, slot, &centres))
 }
 
-/// The motion on the same path that halts before whoever would be met; `None` where no braking is
-/// enough. The goal is missed, unless nothing was asked.
+/// The motion on the same path that stops before the agent it would meet; `None` where no braking suffices.
+/// It misses its goal, if it has one.
 pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Trajectory) -> Option<Rollout> {
     let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
-        // The later, the farther.
+        // The later the stop, the farther the motion gets.
         let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
         let along_m = halts
             .map(|from| search.halting(from, share * plan.model.limits.brake_mps2))
@@ -217,7 +217,9 @@ impl<'a> ShiftSearch<'a> {
         OrientedBox::new(pose.position, 0.5 * size.length_m, 0.5 * size.width_m, pose.heading_rad)
     }
 
-    /// Shifts that an instant may have: none where the goal is due, hardly any between whose instants it is.
+    /// Whether a shift is allowed at an instant: none at the goal's instant; at most one unit each way at the
+    /// two instants around a goal that lies between them.
+    /// around it.
     fn allows(&self, instant: usize, shift: Shift) -> bool {
         let due = self.plan.target.position.is_some()
             && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;

@@ -179,8 +179,8 @@ fn reason(
     }
 }
 
-/// Warnings about unlikely starts and goals, which are generated all the same. `world` is that of the first window;
-/// `asked` gives an agent's conditions and the number of steps until its goal is due.
+/// Warnings about unlikely starts and goals, which are generated nevertheless. `world` is that of the first
+/// window; `asked` returns an agent's conditions and the number of steps until its goal is due.
 pub(super) fn warnings<'a>(
     world: &World<'_>,
     actors: &[PlannedActor],

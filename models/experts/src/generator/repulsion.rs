@@ -139,7 +139,7 @@ impl SceneEnergy<'_> {
     }
 }
 
-/// The energy among those of many who come near at all.
+/// The energy of the overlaps with those agents that come near.
 fn energy_among(
     own: &Poses<INSTANTS>,
     half: [f32; 2],
@@ -186,7 +186,7 @@ pub(super) fn leading_outlines(
     let outline = |(actor, drafts): (&PlannedActor, &Drafts)| {
         let start = &actor.plan.present.start;
         let places = if let Some(pinned) = &actor.pinned {
-            // A picked future stays as it is, whatever the drafts are.
+            // A picked future does not depend on the drafts.
             as_it_is(&actor.plan, pinned).places()
         } else if actor.rests {
             [Some((start.position(), start.heading_rad)); INSTANTS]
@@ -218,7 +218,7 @@ mod tests {
     use crate::tuning::SHIPPED;
     use scene::Goal;
 
-    /// A car at 8 m/s, and somebody who stands at `x`, `y`.
+    /// Energy and gradient of a car at 8 m/s near an agent that stands at `x`, `y`.
     fn energy_of(x: f64, y: f64, terms: Terms, draft: &Residual) -> Option<(f32, Residual)> {
         let plan = car_on_a_street(8.0, Goal::default());
         let size = plan.present.size;

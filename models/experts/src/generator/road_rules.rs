@@ -11,7 +11,7 @@ use scene::motion::MotionState;
 use scene::score::Drivable;
 use scene::{AgentType, STANDING_MPS, State};
 
-/// A vehicle whose box lies within the road's edges at the start.
+/// Whether the actor is a vehicle whose box lies within the road's edges at the start.
 pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) -> bool {
     let present = &actor.plan.present;
     let outline = OrientedBox::of_state(&present.start, &present.size);

@@ -4,7 +4,8 @@ use crate::request::{Answer, React, Request};
 use scene::preference::{Candidate, Feedback, choose as next_cards};
 use scene::{AgentFutures, Sample};
 
-/// Leaves the next cards of a wide draw: futures where one road user is asked for and nobody answers it, else samples.
+/// Keeps the next cards of a wide draw. With one regenerated agent and no reactions a card is a future, else
+/// a sample.
 pub(super) fn choose(request: &Request, feedback: &Feedback, answer: &mut Answer) {
     let alone = request.agents.as_ref().filter(|agents| agents.len() == 1 && request.react == React::Nobody);
     let only = alone.and_then(|agents| agents.first());

@@ -46,7 +46,7 @@ pub(super) fn widen(
         let slot = from.slot;
         let drawn = draws.iter().map(|normals| {
             let (offset, far, made) = spread.offset(actor, &from, slot.of(normals));
-            // Away from all others; of those that are as far, what is not near any one.
+            // Maximizes the sum of the distances to all others plus the least of them.
             let apart = taken.iter().chain(&waiting).map(|t| t.apart_m(&made));
             let (sum, least) = apart.fold((0.0, f64::INFINITY), |(sum, least), m| (sum + m, m.min(least)));
             (sum + least, offset, far, made)
@@ -64,7 +64,7 @@ pub(super) fn widen(
 struct DrawSpread {
     along_m: f64,
     across_m: f64,
-    /// The way over which it reaches so far: who hardly moves is hardly moved.
+    /// Length of motion at which the full spread applies, metres; shorter motions spread less.
     way_m: f64,
     /// How far over the caps of its path it may be.
     hurry: f64,

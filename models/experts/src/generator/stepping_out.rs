@@ -49,6 +49,6 @@ mod tests {
         assert!((3.0..4.5).contains(&passed_s), "{passed_s}");
         assert_eq!(steps_out(&walker, &car(-90.0, 12.0)), None, "over by then");
         assert_eq!(steps_out(&walker, &car(-10.0, 12.0)), None, "it has passed");
-        assert_eq!(steps_out(&walker, &car(-11.0, 3.0)), None, "slow enough to let somebody go");
+        assert_eq!(steps_out(&walker, &car(-11.0, 3.0)), None, "slow enough to let the pedestrian go");
     }
 }

@@ -1,4 +1,4 @@
-//! Subgoals: where a window should lead a road user whose goal is due after the window's end.
+//! Subgoals: the state at a window's end for a road user whose goal is due later.
 
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::NearestState;

@@ -239,7 +239,7 @@ fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INST
 /// Shorter chords have no heading, metres.
 const LEAST_CHORD_M: f64 = 0.2;
 
-/// The target that motions are projected onto: the goal, or the limits alone.
+/// The target that motions are projected onto: the goal, or a free target that only enforces the limits.
 fn projected_onto(plan: &AgentPlan) -> Target {
     let target = plan.target;
     if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
@@ -352,8 +352,8 @@ pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
     Rollout { reach: Reach::Reached(TargetError::of(&due, &plan.target)), states }
 }
 
-/// A road user that stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in the whole
-/// window is rest.
+/// Replaces creeping by rest: a free road user that stands and moves less than [`STAYS_WITHIN_M`] in the
+/// whole window stays.
 pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Rollout) -> Rollout {
     let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;

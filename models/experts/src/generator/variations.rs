@@ -137,7 +137,7 @@ impl<'a> DraftView<'a> {
     pub(super) fn ordered(&self, other: &Trace, before: bool) -> Option<Self> {
         let ground = crossing(self.trace(), other)?;
         let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
-        // An agent that goes first, or lets another pass, is brisker than one that is alone.
+        // An agent that goes first or lets another pass accelerates and brakes harder than without traffic.
         let (brakes, speeds_up) = usual_rates(self.actor.plan.present.agent_type);
         let brisk = (1.15 * brakes, 1.4 * speeds_up);
         let made = GAPS_S.iter().find_map(|gap_s| {
@@ -158,7 +158,7 @@ impl<'a> DraftView<'a> {
     }
 }
 
-/// Braking and speeding up that nobody would remark, m/s2.
+/// Usual braking and acceleration, m/s2.
 fn usual_rates(agent_type: AgentType) -> (f64, f64) {
     match agent_type {
         AgentType::Pedestrian => (1.3, 1.3),

@@ -9,11 +9,11 @@ use scene::motion::{Knots, Pass, Projection, Target, TargetError, project, proje
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
-/// Places on the way change when one of them is asked for; this often they are looked for anew.
+/// Most projections onto the via points. Each moves the passing places, so they are searched again.
 const ROUNDS: usize = 4;
 
-/// Progress and offset at the instants, led to the via points: at a fixed time the progress is that of the place,
-/// and beside each the offset is no more than its tolerance lets.
+/// Progress and offset at the instants, steered to the via points. At a fixed time the progress is that of
+/// the place; beside each the offset stays within its tolerance.
 pub(super) fn steer_to_vias(
     plan: &AgentPlan,
     slot: Slot,
@@ -109,7 +109,7 @@ pub(super) fn projected(plan: &AgentPlan, knots: &Knots, target: &Target) -> Pro
     }
 }
 
-/// A motion, how it passes the via points, and what it would be asked next.
+/// A motion, how it passes the via points, and the constraints of the next projection.
 struct Tried {
     motion: Projection,
     /// All are passed well within their tolerance.

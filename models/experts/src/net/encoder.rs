@@ -12,7 +12,7 @@ use super::params::Params;
 use crate::features::{ANCHOR, NEIGHBOUR, NEIGHBOURS, OWN};
 use crate::planning::MODES;
 
-/// What the initializer and the refiner know about a batch of road users.
+/// Input of the initializer and the refiner for a batch of road users.
 #[derive(Clone, Debug)]
 pub struct Context {
     /// Context vector [batch, width].

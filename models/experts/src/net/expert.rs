@@ -173,8 +173,7 @@ impl Expert {
         &self.device
     }
 
-    /// Contexts of a batch of road users. A road user's context is the same, bit for bit, alone and in a
-    /// batch.
+    /// Contexts of a batch of road users. A road user's context does not depend on the batch, bit for bit.
     ///
     /// # Errors
     /// When the tensor library fails.

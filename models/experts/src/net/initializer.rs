@@ -86,7 +86,8 @@ impl Initializer {
         let known = self.context.forward(&context.vector)?.unsqueeze(1)?;
         let x = self.anchor.forward(&anchors)?.broadcast_add(&self.queries)?.broadcast_add(&known)?;
         let x = self.block.forward(&x, &context.tokens, &context.mask)?;
-        // The modes see each other: gated by the context, whose update is their maximum.
+        // The modes exchange information by gating: the context is the gate, and the maximum over modes
+        // updates it.
         let gate = (candle_nn::ops::sigmoid(&self.gate.forward(&context.vector)?)? * 2.0)?;
         let x = self.norm.forward(&ops::gate_mix(&x, &self.token.forward(&x)?, &gate, 0.5)?)?;
         let none = Tensor::zeros((batch, modes), x.dtype(), x.device())?;

@@ -101,7 +101,7 @@ impl Params {
     /// All parameters handed out, and their variables where they are trainable.
     ///
     /// # Errors
-    /// When a file has tensors that no part of the network asked for.
+    /// When a file has tensors that no part of the network uses.
     pub fn finish(self) -> Result<Finished, NetError> {
         if let ParamSource::Given(left) = &self.source
             && let Some((name, tensor)) = left.first_key_value()

@@ -4,9 +4,9 @@
 
 /// Number of noise levels; level 0 has no noise.
 pub const LEVELS: usize = 100;
-/// Level at which refinement begins unless told otherwise.
+/// Default level at which refinement begins.
 pub const START: usize = 10;
-/// Refinement steps unless told otherwise.
+/// Default number of refinement steps.
 pub const STEPS: usize = 5;
 
 /// Share of signal power at a level, `alpha bar`.

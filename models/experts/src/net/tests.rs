@@ -1,4 +1,4 @@
-//! The networks as a whole: gradients, files, and the same bits alone and in a batch.
+//! The networks as a whole: gradients, files, and equal bits for one road user and for a batch.
 
 use candle_core::{DType, Device, Tensor};
 use scene::random::Key;
@@ -7,7 +7,7 @@ use super::*;
 use crate::features::{AgentFeatures, NEIGHBOURS};
 use crate::planning::{MODES, RESIDUAL};
 
-/// A road user that sees `neighbours`, whose last along knot is held by a goal.
+/// A road user with `neighbours` neighbours, whose last along knot a goal holds fixed.
 fn agent(neighbours: usize, seed: u64) -> AgentFeatures {
     let mut rng = Key::default().number(seed).stream();
     let mut draw = || rng.normal() as f32;

@@ -14,10 +14,10 @@ use scene::{AgentType, Vec2, wrap_angle};
 use std::collections::HashSet;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// Where a lane comes into a region is looked for at this distance, metres.
+/// Distance between the places at which a lane is tested for entering a region, metres.
 const LOOK_STEP_M: f64 = 2.0;
 const MOST_LEGS: usize = 200;
-/// Travel times are worked out at this distance, metres.
+/// Distance between the places at which travel times are computed, metres.
 const TIME_STEP_M: f64 = 2.0;
 
 /// A lane by which an arm leads in.
@@ -27,7 +27,7 @@ pub struct ArmLane {
     pub lane: usize,
     /// Arc length at which it comes in, metres.
     pub s_m: f64,
-    /// The map begins there: whoever comes later appears at this place.
+    /// The map begins there: later arrivals appear at this place.
     pub at_map_edge: bool,
 }
 
@@ -56,7 +56,7 @@ pub fn arms(graph: &LaneGraph, region: &Region) -> Vec<Arm> {
             entries.push((ArmLane { lane: index, s_m, at_map_edge }, lane.path.sample(s_m)));
         }
     }
-    // Buses alone come by a bus lane; it counts where a road has no other.
+    // Only buses use a bus lane; it counts where a road has no other lane.
     let groups = grouped(&entries).into_iter().map(|group| {
         let common = |at: &&usize| graph.lanes()[entries[**at].0.lane].lane_type != LaneType::BusLane;
         let kept: Vec<usize> = group.iter().filter(common).copied().collect();
@@ -81,7 +81,7 @@ pub fn arms(graph: &LaneGraph, region: &Region) -> Vec<Arm> {
 const COMPASS: [&str; 8] =
     ["east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east"];
 
-/// The compass point from which somebody with this heading comes.
+/// The compass point from which an agent with this heading comes.
 fn compass(heading_rad: f64) -> usize {
     ((wrap_angle(heading_rad + PI) / FRAC_PI_4).round() as i64).rem_euclid(8) as usize
 }
@@ -364,7 +364,7 @@ mod tests {
         let region = Region::Circle { center: Vec2::new(-40.0, 0.0), radius_m: 30.0 };
         let found = arms(&graph, &region);
         assert_eq!(found.len(), 1, "{found:?}");
-        // The turning lane opens inside: who turns comes in by the lane beside it.
+        // The turning lane opens inside the region; turning vehicles enter by the lane beside it.
         assert_eq!((found[0].id.as_str(), found[0].lanes.len()), ("west", 2));
         for entry in &found[0].lanes {
             let place = graph.lanes()[entry.lane].path.position_at(entry.s_m);

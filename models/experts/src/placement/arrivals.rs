@@ -1,9 +1,10 @@
-//! Traffic by arms: so many vehicles an hour come in by each, as if they had done so for a while and went on to.
+//! Traffic by arms: a flow in vehicles per hour enters by each arm, before the scene begins and throughout
+//! it.
 //!
-//! On each lane the times between two of them are the least headway and an exponential rest (Cowan 1975, "Useful
-//! headway models", Transportation Research 9, the model M2): a renewal process, begun in its steady state, so that
-//! on average exactly rate times duration pass any place of an arm. Who came in before the scene begins is where
-//! free traffic is by then; who comes in later has a motion from the map's edge on.
+//! Headways on a lane are a least headway plus an exponential rest (Cowan 1975, "Useful headway models",
+//! Transportation Research 9, the model M2). The renewal process begins in its steady state, so that on
+//! average exactly rate times duration pass any place of an arm. A vehicle that entered before the scene
+//! begins stands where free traffic would be by then. A later one has a motion from the map's edge on.
 
 use super::arms::{Arm, ArmLane, ArmPath, arms};
 use super::cells::CellKind;
@@ -33,11 +34,11 @@ struct Arrival {
     size: Size,
     subtype: Subtype,
     share: f64,
-    /// Index among the placed, for those who are there at the start.
+    /// Index among the placed, for vehicles that are there at the start.
     placed: Option<usize>,
 }
 
-/// The vehicles of one lane, those in front first.
+/// The vehicles of one lane, from front to back.
 struct FreeStretch {
     arm: usize,
     entry: ArmLane,
@@ -46,13 +47,13 @@ struct FreeStretch {
     all: Vec<Arrival>,
 }
 
-/// What was made of all arms so far, and who is still to come in.
+/// The vehicles made for all arms so far, and those still to enter.
 pub(super) struct TrafficByArms {
     pub(super) arms: Vec<ArmTraffic>,
     stretches: Vec<FreeStretch>,
-    /// Those for whom there was no room or no time.
+    /// Number of vehicles without room or time to enter.
     pub(super) unplaced: usize,
-    /// Why, a sentence each.
+    /// One sentence for each reason.
     pub(super) reasons: Vec<String>,
 }
 
@@ -63,7 +64,7 @@ fn times(per_s: f64, least_s: f64, (from_s, to_s): (f64, f64), stream: &mut Stre
     }
     let mean_s = 1.0 / per_s;
     let rest_s = (mean_s - least_s).max(0.0);
-    // What is left of a headway at a time that is nobody's: the equilibrium of the process.
+    // Remaining headway at an arbitrary time: the equilibrium distribution of the process.
     let first_s = if stream.unit() < least_s / mean_s {
         least_s * stream.unit()
     } else {
@@ -132,7 +133,7 @@ impl Sampler<'_> {
         Ok(traffic)
     }
 
-    /// Draws who comes in by an arm; how many its lanes do not take.
+    /// Draws the vehicles that enter by an arm. Returns the number that exceeds the capacity of its lanes.
     fn stretches(
         &self,
         traffic: &mut TrafficByArms,
@@ -165,7 +166,7 @@ impl Sampler<'_> {
         lost.round() as usize
     }
 
-    /// Drivers on these lanes come from arms alone.
+    /// Bars all other drivers from these lanes, so that only the arms supply their traffic.
     fn keep_off(&mut self, lanes: &HashSet<usize>) {
         if lanes.is_empty() {
             return;
@@ -179,8 +180,8 @@ impl Sampler<'_> {
         }
     }
 
-    /// Those who came in before the start stand where they are by then; who has no room there is farther back, or
-    /// not in yet.
+    /// Puts vehicles that entered before the start where they are by then. Without room there a vehicle
+    /// stands farther back, enters later, or stays unplaced.
     fn stand_all(&mut self, traffic: &mut TrafficByArms, free: &mut usize) {
         let (mut crowded, mut full, mut outside) = (0, 0, 0);
         for stretch in &mut traffic.stretches {
@@ -192,7 +193,7 @@ impl Sampler<'_> {
             for mut arrival in std::mem::take(&mut stretch.all) {
                 let half_m = 0.5 * arrival.size.length_m;
                 if arrival.enters_s <= 0.0 {
-                    // Nobody hangs over the edge of the map.
+                    // No vehicle overhangs the edge of the map.
                     let least_m = if stretch.entry.at_map_edge { half_m } else { 0.05 };
                     if leaves && way.after_s(-arrival.enters_s) > way.length_m() - half_m - END_M {
                         // It has left the map, or is about to.
@@ -269,7 +270,7 @@ impl Sampler<'_> {
         }
     }
 
-    /// Those who come in later, with their motion; `speeds` are those of the placed.
+    /// Vehicles that enter later, with their motion; `speeds` are those of the placed.
     pub(super) fn late_comers(
         &self,
         traffic: &mut TrafficByArms,
@@ -331,7 +332,7 @@ impl Sampler<'_> {
         let reach_m = way.length_m() + 40.0 * self.duration_s().min(60.0) + 50.0;
         let course = Course::of(scene, self.cells.graph, way, reach_m, range, stream);
         let length_m = arrival.size.length_m;
-        // Free traffic is a little below what is allowed; nobody drives faster than that.
+        // Free traffic drives a little below the speed limit, and no vehicle exceeds it.
         let share = (0.95 * arrival.share).min(1.0);
         let mut own =
             FollowingDriver { course, length_m, share, first_step: self.request.step, steps: Vec::new() };
@@ -367,7 +368,7 @@ impl Sampler<'_> {
         None
     }
 
-    /// Nobody of the scene is where a vehicle would come in at a step.
+    /// No agent of the scene occupies the place at which a vehicle would enter at a step.
     fn is_clear(&self, path: &Polyline, arrival: &Arrival, kept: &[&Agent], step: usize) -> bool {
         let place = path.sample(0.5 * arrival.size.length_m);
         let size = Size { length_m: arrival.size.length_m + 2.0 * ENTRY_GAP_M, ..arrival.size };
@@ -513,7 +514,7 @@ mod tests {
                     "{agent:?}"
                 );
                 let fixed = agent.conditions.start.position.is_some();
-                assert_eq!(fixed, first == 0, "who is there at the start has a fixed one");
+                assert_eq!(fixed, first == 0, "only an agent present at the start has a fixed one");
             }
             let start = boxes_at(&placement.agents, 0);
             for (i, a) in start.iter().enumerate() {
@@ -521,7 +522,7 @@ mod tests {
                 let behind = near.filter(|b| (a.center().y - b.center().y).abs() < 1.0).count();
                 assert_eq!(behind, 0, "seed {seed}: two are less than 2 m apart on a lane");
             }
-            // Those who come in later keep apart for as long as they are known.
+            // Later arrivals keep apart for as long as their motion is known.
             let late: Vec<Agent> =
                 placement.agents.iter().filter(|a| a.track.first_step > 0).cloned().collect();
             for step in (0..301).step_by(5) {

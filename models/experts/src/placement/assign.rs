@@ -5,7 +5,7 @@ use crate::tuning::placing::assign::{CROSSWALK_M, PARKED_EXTENT_M, PARKED_M, PAV
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{Agent, AgentType, State, Vec2, wrap_angle};
 
-/// The lane that somebody drives on: near its middle and along it.
+/// The lane that an agent drives on: near its middle and along it.
 pub(super) fn driven_lane(graph: &LaneGraph, agent_type: AgentType, state: &State) -> Option<LaneHit> {
     let turn = |hit: &LaneHit| wrap_angle(state.heading_rad - hit.heading_rad).abs();
     let on = |hit: &LaneHit| {
@@ -20,7 +20,7 @@ pub(super) fn driven_lane(graph: &LaneGraph, agent_type: AgentType, state: &Stat
     })
 }
 
-/// The cell somebody is in, and the lane if they drive.
+/// The cell of an agent, and its lane if it drives.
 pub(super) fn assign(
     cells: &Cells<'_>,
     agent: &Agent,
@@ -81,7 +81,7 @@ fn walk_at(cells: &Cells<'_>, position: Vec2) -> Option<usize> {
     })
 }
 
-/// The cell with the least cost among those near a point whose stretch of line passes it.
+/// The cell of least cost among the wanted ones near a point.
 fn nearest(
     cells: &Cells<'_>,
     position: Vec2,

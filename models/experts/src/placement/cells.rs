@@ -1,5 +1,5 @@
-//! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements, each with the few
-//! features of its surroundings that say how often somebody is there.
+//! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements. A few features of its
+//! surroundings decide how often a cell is occupied.
 
 mod build;
 
@@ -41,7 +41,7 @@ pub enum CellKind {
     Driveway,
 }
 
-/// Kinds of cells where a type is looked for.
+/// Kinds of cells that a type may occupy.
 pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
     match agent_type {
         AgentType::Vehicle => &[CellKind::Lane, CellKind::Kerb, CellKind::Driveway],
@@ -128,7 +128,7 @@ fn class(value: f64, bounds: &[f64]) -> u8 {
 }
 
 impl<'a> Cells<'a> {
-    /// Cells whose centre may lie in the region, with the features that hold at `step`.
+    /// Cells whose centre may lie in the region, with their features at `step`.
     pub(super) fn new(scene: &'a Scene, graph: &'a LaneGraph, step: usize, region: &Region) -> Self {
         let map = &scene.map;
         let edges: Vec<Polyline> =
@@ -146,7 +146,7 @@ impl<'a> Cells<'a> {
         cells
     }
 
-    /// A type is looked for in such a cell.
+    /// A type may occupy such a cell.
     pub(super) fn may_hold(&self, cell: &MapCell, agent_type: AgentType) -> bool {
         let lane_fits = || self.graph.lanes().get(cell.line).is_some_and(|l| l.carries(agent_type));
         cell_kinds(agent_type).contains(&cell.kind) && (cell.kind != CellKind::Lane || lane_fits())

@@ -1,4 +1,4 @@
-//! What a drawn pose must keep to: it touches nobody, and it is where such a road user may be.
+//! Constraints on a drawn pose: it touches no other agent, and its type may be there.
 
 use super::cells::{CellKind, Cells};
 use super::placed::PlacedAgent;
@@ -28,7 +28,7 @@ impl Neighbours {
         self.driving.push(drives);
     }
 
-    /// Nobody is too near; `min_gap_m` is the room along the lane between those who drive the same way.
+    /// No obstacle is too near; `min_gap_m` is the room along the lane between drivers of the same direction.
     pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
         let outline = placed.outline();
         let near = outline.grown(MARGIN_M);
@@ -47,7 +47,7 @@ impl Neighbours {
     }
 }
 
-/// Drivers wait at red lights, nobody parks on a lane, and people stand on the pavement.
+/// Drivers wait at red lights, parked vehicles stay off the lanes, and pedestrians stand on the pavement.
 pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     let outline = placed.outline();
     match placed.kind {
@@ -68,7 +68,7 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     }
 }
 
-/// Nobody hangs over the edge of the map, and no long vehicle stands across lanes.
+/// The vehicle does not overhang the edge of the map, and a long one does not stand across lanes.
 fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     let Some(lane) = placed.lane.map(|lane| &graph.lanes()[lane]) else { return true };
     let half_m = 0.5 * placed.size.length_m;
@@ -138,7 +138,7 @@ mod tests {
         assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap");
         assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
         let across = car(10.0, 0.0, 1.0, CellKind::Lane);
-        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "nobody follows across");
+        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "a crossing vehicle has no follower");
         assert!(beside(&leader, true).is_free(&car(10.0, 2.45, 0.0, CellKind::Lane), 2.0));
         assert!(!beside(&leader, true).is_free(&car(10.0, 2.35, 0.0, CellKind::Lane), 2.0));
     }

@@ -10,7 +10,7 @@ pub enum RoadAhead {
     Clear,
     /// Inside a junction without a lit red light.
     Junction,
-    /// Inside a junction whose light is red.
+    /// Inside a junction while its light is red.
     JunctionOnRed,
     /// A stop sign or a junction without lights within 12 m.
     YieldWithin12M,
@@ -58,9 +58,9 @@ pub enum SpeedContext {
     DriverAnyLeader(RoadAhead),
     /// All drivers together.
     AnyDriver,
-    /// Somebody on a crosswalk.
+    /// A pedestrian on a crosswalk.
     Crosswalk,
-    /// Somebody on a pavement.
+    /// A pedestrian on a pavement.
     Pavement,
 }
 

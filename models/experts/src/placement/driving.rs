@@ -1,4 +1,4 @@
-//! How fast a place may be driven, and what a driver there has in front.
+//! Speed limits of a place, and the leader of a driver there.
 
 use super::model::{SPEED_CLASSES, SPEED_STEP};
 use super::stop_lines::straightest;
@@ -9,7 +9,7 @@ use scene::routes::speed::{Leader, Obstacle, leader};
 use scene::routes::{LaneGraph, Polyline};
 use scene::{AgentType, Vec2};
 
-/// Between which speeds those start who drive and do not stand, m/s.
+/// Range of the start speeds of moving drivers, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct SpeedRange {

@@ -1,5 +1,5 @@
-//! Those who come into the map later: driven along the lanes behind whoever is there, so that they have a motion
-//! to keep until they answer others.
+//! Later arrivals: each drives along the lanes behind the traffic ahead, so that it has a motion to keep
+//! until it reacts.
 //!
 //! The Intelligent Driver Model (Treiber, Hennecke and Helbing 2000, "Congested traffic states in empirical
 //! observations and microscopic simulations", Physical Review E 62), with red lights as standing leaders.
@@ -17,7 +17,7 @@ use std::collections::HashSet;
 /// Speeds along a course are known at this distance, metres.
 const SPEED_STEP_M: f64 = 2.0;
 
-/// Where one vehicle goes: in by its arm, then on through the map.
+/// The course of one vehicle: in by its arm, then on through the map.
 pub(super) struct Course {
     pub(super) path: Polyline,
     lanes: Vec<(usize, f64)>,
@@ -114,7 +114,7 @@ impl Course {
 pub(super) struct FollowingDriver {
     pub(super) course: Course,
     pub(super) length_m: f64,
-    /// Share of what is allowed that it drives when it is alone.
+    /// Speed in free traffic as a share of the speed limit.
     pub(super) share: f64,
     /// Step of its first place.
     pub(super) first_step: usize,
@@ -129,8 +129,8 @@ impl FollowingDriver {
     }
 }
 
-/// Drives one vehicle from its first place to the last step, or to the end of its course. `before` are those of the
-/// same lane that came in earlier, `kept` those of the scene who stay.
+/// Drives one vehicle from its first place to the last step, or to the end of its course. `before` holds
+/// earlier arrivals on the same lane, `kept` the agents of the scene that stay.
 pub(super) fn drive(
     scene: &Scene,
     kept: &[&Agent],
@@ -163,7 +163,8 @@ pub(super) fn drive(
         let next_mps = (v_mps + a * STEP_S).max(0.0);
         own.steps.push((s_m + 0.5 * (v_mps + next_mps) * STEP_S, next_mps));
     }
-    // Who has left the map is gone; where the course alone ends it stays as long as it is known.
+    // A vehicle beyond the map's edge is removed. Where only the course ends, it stays for as long as it is
+    // known.
     let end_m = own.course.path.length_m();
     if !own.course.cut {
         let half_m = 0.5 * own.length_m;
@@ -173,7 +174,7 @@ pub(super) fn drive(
     }
 }
 
-/// Gap and speed of those of the scene who are on the course ahead, by what is known of them at a step.
+/// Gap and speed of each kept agent ahead on the course, from its known state at a step.
 fn others_ahead(
     kept: &[&Agent],
     own: &FollowingDriver,

@@ -1,4 +1,4 @@
-//! What training needs: observations of recorded scenes, and the form of the weights that they become.
+//! Input of training: observations of recorded scenes, and the form of the weights that are fitted to them.
 //!
 //! [`observe`] reads a recorded scene with the same cells, features and situations that placing uses, so
 //! the two cannot drift apart. How the numbers are fitted is the trainer's own affair; it writes them as a
@@ -21,8 +21,8 @@ pub use super::driving::speed_class;
 pub use super::model::{FORMAT, Histogram, PlacementModel, Rate, SPEED_CLASSES, TypeModel, VERSION};
 pub use super::pose::{heading_classes, lateral_classes};
 
-/// Half a side of the square about the ego in which everybody is recorded, metres. Synthetic windows keep
-/// who comes within 60 m.
+/// Half the side of the square around the ego in which all agents are recorded, metres. Synthetic windows
+/// keep agents within 60 m.
 pub const SEEN_M: f64 = 60.0;
 
 /// Cells alike: type, kind and features; with their metres (or driveways) and the road users in them.
@@ -50,13 +50,13 @@ struct SeenAgent<'a> {
     agent: &'a Agent,
     state: State,
     cell: Option<usize>,
-    /// Lane and arc length for those who drive.
+    /// Lane and arc length of an agent that drives.
     lane: Option<(usize, f64)>,
     in_square: bool,
     ego: bool,
 }
 
-/// Looks at a scene at one step. Cells and road users count within [`SEEN_M`] of the ego alone.
+/// Observes a scene at one step. Only cells and road users within [`SEEN_M`] of the ego count.
 ///
 /// The ego itself and its cell are left out: windows are cut about road users, so one is always there, and
 /// the rest is distributed as if it were not (Slivnyak's theorem).

@@ -1,9 +1,9 @@
 //! Placement G(map): road users where there are none yet (`POST /v1/place`).
 //!
 //! Cells of lanes, kerbs, crosswalks, pavements and driveways are drawn one at a time in proportion to
-//! learned rates; who is placed changes the rates behind it. Pose and box come from learned
-//! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
-//! to a conflict first, so that everybody knows who is in front.
+//! learned rates. Each placed agent changes the rates behind it. Pose and box come from learned
+//! distributions, and a pose that touches another agent is redrawn. Speeds are drawn last, nearest to a
+//! conflict first, so that each follower knows its leader.
 
 mod arms;
 mod arrivals;

@@ -1,4 +1,4 @@
-//! The learned numbers: how often somebody is in a cell, and how they stand and move there.
+//! The learned numbers: occupancy of cells, and pose and speed of their road users.
 //!
 //! Rates are log-linear: per metre (per driveway) times one factor for each feature of the cell. The rest
 //! are histograms by context. All of it is one JSON file, small enough to read.

@@ -24,7 +24,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Draws of a box that fits a place.
 const TRIES: usize = 6;
 
-/// Where a car could park.
+/// A place where a car can park.
 #[derive(Clone, Copy, Debug)]
 struct ParkingPlace {
     /// Middle of the place; at a kerb of its edge on the kerb's side.
@@ -39,7 +39,7 @@ struct ParkingPlace {
 /// Result of placing parked cars.
 #[derive(Default)]
 pub(super) struct ParkingResult {
-    /// Places that there are; `None` where nobody asked.
+    /// Number of parking places; `None` if the request has no parked cars.
     pub(super) places: Option<usize>,
     pub(super) unplaced: usize,
     pub(super) reason: Option<String>,
@@ -59,7 +59,7 @@ impl Sampler<'_> {
             let none = "the map has no room for parked cars at its kerbs and no lots".to_owned();
             return Ok(ParkingResult { places: Some(0), unplaced: 0, reason: (share > 0.0).then_some(none) });
         }
-        // Each place has a draw of its own: with more cars those that stand stay.
+        // Each place has its own draw, so that a larger number of cars keeps those already placed.
         let mut order: Vec<(f64, usize)> = (0..places.len())
             .map(|at| (random::stream(self.request.seed, "parked", at).unit(), at))
             .collect();
@@ -87,7 +87,7 @@ impl Sampler<'_> {
         Ok(ParkingResult { places: Some(places.len()), unplaced, reason })
     }
 
-    /// A car that stands in a place, where it touches nobody.
+    /// A car parked in a place where it touches no other agent.
     fn car_in(&self, place: &ParkingPlace, stream: &mut Stream) -> Option<PlacedAgent> {
         for number in 0..TRIES {
             let (size, subtype) = match self.of_type(AgentType::Vehicle) {

@@ -24,7 +24,7 @@ const TRIES: usize = 128;
 /// Draws of a pose in one cell that may fail before the cell counts as full.
 const CELL_TRIES: u8 = 4;
 
-/// Draws cells in proportion to rates that change with whoever is placed.
+/// Draws cells in proportion to rates that each placed agent changes.
 pub(super) struct Sampler<'a> {
     pub(super) request: &'a PlaceRequest,
     model: Option<&'a PlacementModel>,
@@ -33,7 +33,7 @@ pub(super) struct Sampler<'a> {
     gaps: Vec<f64>,
     /// How likely each cell is drawn, by type.
     pub(super) rates: BTreeMap<AgentType, WeightTree>,
-    /// Lanes that drivers reach by an arm alone.
+    /// Lanes that drivers may only reach by an arm.
     pub(super) arrival_lanes: HashSet<usize>,
     /// Failed draws by type and cell.
     failed: BTreeMap<AgentType, Vec<u8>>,
@@ -166,7 +166,7 @@ impl<'a> Sampler<'a> {
         self.of_type(agent_type).and_then(|m| m.rates.get(&cell.kind)).map_or(0.0, |rate| rate.of(cell))
     }
 
-    /// Somebody drives at `s_m` of a lane: cells behind have a leader.
+    /// Marks an agent that drives at `s_m` of a lane as the leader of the cells behind it.
     fn lead(&mut self, lane: usize, s_m: f64) {
         let mut nearer = Vec::new();
         self.cells.behind(lane, s_m, |at, gap_m| {
@@ -210,7 +210,7 @@ impl<'a> Sampler<'a> {
         Ok(done)
     }
 
-    /// Somebody has found a place: it is in the way of those who come after it, and leads those behind.
+    /// Settles a placed agent: later agents must keep clear of it, and it leads those behind it.
     pub(super) fn settle(&mut self, placed: PlacedAgent) {
         let obstacle = Obstacle { outline: placed.outline(), speed_mps: 0.0 };
         self.neighbours.push(obstacle, placed.lane.is_some());
@@ -274,7 +274,7 @@ impl<'a> Sampler<'a> {
             && (self.model.is_none() || is_sensible(placed, &self.cells))
     }
 
-    /// Speeds of the placed, m/s, in order; `None` where none of those that are wanted is possible.
+    /// Speeds of the placed, m/s, in order; `None` where no speed of the wanted range is possible.
     fn speeds(&self) -> Vec<Option<f64>> {
         let obstacles = self.neighbours.obstacles.clone();
         let (seed, model, kept, range) = (self.request.seed, self.model, self.kept, self.request.speeds);

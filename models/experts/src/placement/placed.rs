@@ -7,7 +7,7 @@ use scene::geometry::obb::OrientedBox;
 use scene::{Agent, AgentId, AgentType, Conditions, Size, Start, State, Subtype, Track};
 use std::ops::Range;
 
-/// Somebody who was placed, before the speed is known.
+/// A placed agent before its speed is known.
 pub(super) struct PlacedAgent {
     pub(super) agent_type: AgentType,
     pub(super) subtype: Subtype,
@@ -15,9 +15,9 @@ pub(super) struct PlacedAgent {
     pub(super) pose: Pose,
     /// Kind of the cell it was placed in.
     pub(super) kind: CellKind,
-    /// Graph lane of those who drive.
+    /// Graph lane of an agent that drives.
     pub(super) lane: Option<usize>,
-    /// Speed that it would have alone, m/s, where that is not drawn.
+    /// Speed in free traffic, m/s, where it is fixed and not drawn.
     pub(super) free_mps: Option<f64>,
     /// It is part of the street: it stands for as long as the scene lasts.
     pub(super) parked: bool,
@@ -35,8 +35,8 @@ impl PlacedAgent {
         OrientedBox::new(self.pose.position, half_length, half_width, self.pose.heading_rad)
     }
 
-    /// The road user as a scene holds it: one state, and the same start as a condition. Who is parked stands at
-    /// all of `steps` in place of both.
+    /// The road user as a scene holds it: one state, and the same start as a condition. A parked one has no
+    /// condition and stands at all of `steps`.
     pub(super) fn agent(&self, id: AgentId, speed_mps: f64, steps: Range<usize>) -> Agent {
         let velocity = direction(self.pose.heading_rad) * speed_mps;
         let state = State {

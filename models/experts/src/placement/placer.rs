@@ -1,4 +1,4 @@
-//! Placement with its weights and the maps that it knows.
+//! Placement with its weights and its cache of maps.
 
 use super::model::{PlacementInfo, PlacementModel};
 use super::place::place;

@@ -2,7 +2,7 @@
 
 use scene::{LaneMap, Vec2};
 
-/// Where placed centres may lie.
+/// The region in which placed centres may lie.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Region {
     /// The whole map.

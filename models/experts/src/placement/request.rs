@@ -1,4 +1,4 @@
-//! What placing is asked for, and its answer.
+//! Request and result of placement.
 
 use super::arms::Arm;
 use super::driving::SpeedRange;
@@ -7,21 +7,21 @@ use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
-/// Most road users asked for by count.
+/// Most road users in a request by count.
 pub const MAX_COUNT: usize = MAX_AGENTS;
 /// Highest density, road users a kilometre of lane.
 pub const MAX_PER_LANE_KM: f64 = 200.0;
-/// Greatest room along the lane that may be asked for, metres.
+/// Greatest room along the lane that a request may set, metres.
 pub const MAX_GAP_M: f64 = 50.0;
 
-/// Most vehicles an hour that may be asked of one arm.
+/// Highest flow of one arm, vehicles an hour.
 pub const MAX_PER_HOUR: f64 = 20_000.0;
 /// Most parked cars for each 100 m of kerb.
 pub const MAX_PARKED_PER_100M: f64 = 20.0;
-/// Highest starting speed that may be asked for, m/s: the top speed of cars.
+/// Highest starting speed in a request, m/s: the top speed of cars.
 pub const MAX_SPEED_MPS: f64 = 40.0;
 
-/// Traffic that is to come in by an arm.
+/// Flow of vehicles that enter by an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrivals {
     /// [`Arm::id`].
@@ -30,7 +30,7 @@ pub struct Arrivals {
     pub per_hour: f64,
 }
 
-/// How many cars are parked where there is room at kerbs and in lots.
+/// Number of parked cars, relative to the room at kerbs and in lots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parked {
     /// Share of the places that are taken, 0 to 1.
@@ -39,7 +39,7 @@ pub enum Parked {
     Per100M(f64),
 }
 
-/// What was made of an arm.
+/// The vehicles made for an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmTraffic {
     /// The arm.
@@ -50,11 +50,11 @@ pub struct ArmTraffic {
     pub most_per_hour: f64,
     /// Vehicles of its traffic that are there at the start.
     pub placed: usize,
-    /// Those that come in later.
+    /// Vehicles that enter later.
     pub later: usize,
 }
 
-/// How many road users.
+/// Number of road users.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Amount {
     /// For each kilometre of lane for motor vehicles in the region, junctions left out.
@@ -92,13 +92,13 @@ pub struct PlaceRequest {
     pub keep: Option<BTreeSet<AgentId>>,
     /// Repeats the answer.
     pub seed: u64,
-    /// Least room between those who drive, along the lane, metres.
+    /// Least room along the lane between agents that drive, metres.
     pub min_gap_m: f64,
-    /// Bounds of the speeds of motor vehicles that move; as they are on such roads without.
+    /// Bounds of the speeds of moving motor vehicles; `None` keeps the usual speeds of such roads.
     pub speeds: Option<SpeedRange>,
-    /// Traffic by arm. Drivers on the lanes of these arms come from here alone.
+    /// Traffic by arm. Only these arms supply the drivers on their lanes.
     pub arrivals: Vec<Arrivals>,
-    /// Parked cars beside those that [`PlaceRequest::amount`] asks for.
+    /// Parked cars, in addition to those of [`PlaceRequest::amount`].
     pub parked: Option<Parked>,
 }
 
@@ -125,10 +125,10 @@ impl PlaceRequest {
 /// The answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// New road users with one state at the step and the same start as a condition; goals are free. Who comes in
-    /// later has a motion from where the map begins on, who is parked one that stands, and nothing is fixed.
+    /// New road users with one state at the step and the same start as a condition; goals are free. A later
+    /// arrival has a motion from the map's edge on, a parked vehicle a standing one; neither has a condition.
     pub agents: Vec<Agent>,
-    /// Those that were asked for and found no place, by type.
+    /// Requested road users without a place, by type.
     pub unplaced: BTreeMap<AgentType, usize>,
     /// Why, in one sentence; `None` when all were placed.
     pub reason: Option<String>,
@@ -136,7 +136,7 @@ pub struct Placement {
     pub method: PlacementMethod,
     /// All arms of the map or region, with what was made of them.
     pub arms: Vec<ArmTraffic>,
-    /// Places where a car could park; `None` where nobody asked.
+    /// Number of parking places; `None` if the request has no parked cars.
     pub parking_places: Option<usize>,
 }
 

@@ -1,5 +1,5 @@
-//! Speeds of those who were placed: drawn last, those nearest to a conflict first and leaders before
-//! followers, so that everybody knows how fast the one in front is.
+//! Speeds of the placed agents: drawn last, nearest to a conflict first and leaders before followers, so that
+//! each follower knows its leader's speed.
 
 use super::cells::Cells;
 use super::context::SpeedContext;
@@ -24,11 +24,11 @@ pub(super) struct StartSpeeds<'a> {
     pub(super) model: Option<&'a PlacementModel>,
     pub(super) cells: &'a Cells<'a>,
     pub(super) placed: &'a [PlacedAgent],
-    /// Number of kept road users, whose speeds stay.
+    /// Number of kept road users; their speeds stay.
     pub(super) kept: usize,
     /// Kept road users, then the placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
-    /// Between which speeds motor vehicles start that move; as they come without.
+    /// Range of the start speeds of moving motor vehicles; `None` keeps the drawn ones.
     pub(super) range: Option<SpeedRange>,
 }
 
@@ -118,13 +118,13 @@ impl StartSpeeds<'_> {
             (Some(free_mps), _) => free_mps,
             (None, Some(model)) => {
                 let context = SpeedContext::driver(ahead.road_ahead(), leader);
-                // Nobody stands amid a junction for no reason that is in the scene.
+                // An agent stands inside a junction only for a cause in the scene.
                 let slowest = usize::from(matches!(ahead, LineAhead::Inside(_)));
                 drawn_speed(model, context, slowest, unit_mps, f64::INFINITY, stream)
             }
             (None, None) => unit_mps,
         };
-        // Who stands goes on standing: a queue is no matter of speed.
+        // Standing agents stay: the speed range does not dissolve a queue.
         let wanted = match range {
             Some(range) if drawn > 0.0 => drawn.clamp(range.min_mps, range.max_mps),
             _ => drawn,

@@ -1,4 +1,4 @@
-//! What a driver on a lane has to stop for: lights, stop signs, junctions.
+//! Causes for a driver on a lane to stop: lights, stop signs, junctions.
 
 use super::context::RoadAhead;
 pub(super) use crate::tuning::placing::stop_lines::{LOOK_M, STOP_LINE_M};
@@ -87,7 +87,7 @@ impl LineAhead {
 pub(super) struct ShownLights(HashMap<usize, (SignalState, f64)>);
 
 impl ShownLights {
-    /// Signals of a scene at a step. Those that show nothing known are left out.
+    /// Signals of a scene at a step, without those in an unknown state.
     pub(super) fn new(scene: &Scene, graph: &LaneGraph, step: usize) -> Self {
         let lit = scene.signals.iter().filter_map(|signal| {
             let lane = graph.lane_index(&signal.lane)?;

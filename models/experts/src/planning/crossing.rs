@@ -16,7 +16,7 @@ use scene::motion::{MotionModel, Target};
 use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
-/// Distance between the places of a path that are looked at, metres.
+/// Distance between the places at which a path is sampled, metres.
 const LOOK_M: f64 = 0.5;
 /// Over these two a corner of a path is rounded off, metres.
 const SPACING_M: f64 = 0.5;
@@ -25,7 +25,7 @@ const IDENTITY: u64 = 1_000;
 /// A walker sets off so long after the lanes are stopped, steps.
 const NOTICING_STEPS: usize = 5;
 
-/// Where a walker's path steps onto the lanes.
+/// The place at which a walker's path steps onto the lanes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kerb {
     /// Progress of the box centre at which its front is at the kerb, metres.
@@ -36,7 +36,8 @@ pub struct Kerb {
     stopped: Steps,
 }
 
-/// The kerb on a walker's path; `None` for others, for who is on the lanes already, and where it crosses none.
+/// The kerb on a walker's path; `None` for other types, for a walker already on the lanes, and where the path
+/// crosses none.
 pub fn kerb(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Option<Kerb> {
     if who.agent_type != AgentType::Pedestrian {
         return None;
@@ -212,7 +213,7 @@ pub(super) fn by_crosswalk(
     Some(UntimedPath { pace: Some(pace), ..way })
 }
 
-/// The fastest that somebody walks without being asked to run, m/s.
+/// The fastest walk that is not a run, m/s.
 pub fn brisk_mps(v0: f64) -> f64 {
     PACE_MPS.max(v0)
 }
@@ -266,8 +267,8 @@ impl Kerb {
         Some(out)
     }
 
-    /// Along with what is wanted, but never past the kerb in the first `until` steps; after them it sets off.
-    /// `None` for who cannot stop before it any more.
+    /// As `wanted`, but before the kerb in the first `until` steps; the walker then sets off. `None` if it
+    /// cannot stop before the kerb any more.
     pub fn held(&self, wanted: &Progress, v0: f64, until: usize) -> Option<Progress> {
         let needs = v0 * v0 / (2.0 * self.line_m.max(0.05));
         if needs > STOPPING_MPS2 && v0 > 0.3 {

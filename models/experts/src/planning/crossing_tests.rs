@@ -116,7 +116,7 @@ fn at_a_crosswalk_whose_lanes_have_green_it_waits_at_the_kerb_and_goes_when_they
     assert!(held[..=25].iter().all(|m| *m <= line_m + 0.05), "{}", held[25]);
     assert!(held[24] > line_m - 0.4 && held[35] > line_m, "at the kerb, then off: {} {}", held[24], held[35]);
     assert!((held[90] - 11.0).abs() < 0.1, "{}", held[90]);
-    assert!((1..=90).all(|i| held[i] - held[i - 1] < 0.181), "nobody runs");
+    assert!((1..=90).all(|i| held[i] - held[i - 1] < 0.181), "the pedestrian walks, without running");
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn nobody_waits_for_lanes_that_are_stopped_or_when_the_time_is_too_short_or_on_t
     let goal = (12.0, 9.0);
     assert_eq!(waiting(&lit(walker(12.0, 1.3, goal, 9.0), 8)).0, None, "stopped by the time it is there");
     assert_eq!(waiting(&lit(walker(12.0, 1.3, goal, 9.0), 60)).0, None, "three seconds are too few");
-    assert_eq!(waiting(&lit(walker(12.0, 1.3, goal, 9.0), 500)).0, None, "nobody knows of a stop");
+    assert_eq!(waiting(&lit(walker(12.0, 1.3, goal, 9.0), 500)).0, None, "no stop of the lanes is known");
     let mut aside = walker(-20.0, 1.3, (-20.0, 9.0), 9.0);
     assert_eq!(waiting(&lit(aside.clone(), 25)).0, None, "no crosswalk there");
     aside.track.states[0].as_mut().unwrap().y_m = 3.0;
@@ -132,5 +132,5 @@ fn nobody_waits_for_lanes_that_are_stopped_or_when_the_time_is_too_short_or_on_t
     let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     let who = &world.present[0];
     let anchor = anchors(&world, who, &world.model(who), &world.target(who)).remove(0);
-    assert_eq!(kerb(&world, who, &anchor.path), None, "who is on the street walks on");
+    assert_eq!(kerb(&world, who, &anchor.path), None, "a pedestrian on the street walks on");
 }

@@ -8,7 +8,7 @@ use scene::score::Drivable;
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Distance between the places that are looked at, metres.
+/// Distance between the places at which a path is sampled, metres.
 const STEP_M: f64 = 1.5;
 
 /// Metres of the first `to_m` of a path on which a road user would break the rules. Riders use pavements, so
@@ -19,7 +19,7 @@ pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, t
         return 0.0;
     }
     let drives = who.agent_type != AgentType::Cyclist;
-    // Lanes alone do not say how much room there is beside them.
+    // Lanes without road edges do not define the room beside them.
     let sides = ground.is_bounded();
     let half_width_m = (0.5 * who.size.width_m - NARROWER_M).max(0.0);
     let pieces = (to_m / STEP_M).ceil().clamp(1.0, 400.0);

@@ -13,8 +13,8 @@ use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
-/// A turn at red shows this long after the line, steps, and takes this far, metres; who does not get there does
-/// not begin it.
+/// A turn at red is checked this many steps and metres after the line. An agent that cannot get there does
+/// not begin the turn.
 const TURN_STEPS: usize = 45;
 /// Steps after green at which the first in a queue leaves, and each further one after the one before it.
 const FIRST_LEAVES_STEPS: usize = 10;
@@ -27,7 +27,7 @@ const LATEST_LEAVING: usize = 75;
 pub struct Gate {
     /// Progress of the box centre at which its front is at the line, metres.
     line_m: f64,
-    /// Steps of the window at which whoever follows the path must not pass.
+    /// Steps of the window at which an agent on the path must not pass.
     red: Steps,
     /// Steps at which the light is known to let it pass.
     open: Steps,
@@ -48,8 +48,8 @@ impl Gate {
         self.red >> step & 1 == 1
     }
 
-    /// The step at which somebody who stands before it at the start, where it is red, sets off; `None` where it
-    /// stays red for too long.
+    /// The step at which an agent that stands at this red line from the start sets off; `None` where it stays
+    /// red for too long.
     fn leaves(&self) -> Option<usize> {
         let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
         // A signal state after the last recorded one is no sign to leave.
@@ -122,13 +122,13 @@ pub struct Waiting<'a> {
     pub target: &'a Target,
     /// How fast the path can be driven.
     pub caps: Caps<'a>,
-    /// How those who stand set off towards a goal, m/s2.
+    /// Acceleration with which a standing agent sets off towards a goal, m/s2.
     pub easy_mps2: f64,
 }
 
 impl Waiting<'_> {
-    /// Progress that waits at red lights; `None` where `wanted` passes none, or where nothing can be done: who
-    /// cannot stop goes on, and so does who would not get to a goal in time.
+    /// Progress that waits at red lights; `None` where `wanted` passes none or cannot be changed. An agent
+    /// that cannot stop goes on, and so does one that would miss its goal time.
     pub fn obeying(&self, wanted: &Progress) -> Option<Progress> {
         let mut changed: Option<Progress> = None;
         for gate in self.gates {
@@ -140,8 +140,8 @@ impl Waiting<'_> {
         changed
     }
 
-    /// Progress of somebody who stands before a light that turns green, and sets off then at the latest; `None`
-    /// where `wanted` does, or nobody knows of a green.
+    /// Progress of an agent that stands at a light and sets off at the latest when it turns green. `None`
+    /// where `wanted` does so already, or where no green is known.
     pub fn setting_off(&self, wanted: &Progress) -> Option<Progress> {
         let gate = self.gates.first().filter(|_| self.v0 < STOPPED_MPS)?;
         let leaves = gate.leaves()?;
@@ -179,7 +179,7 @@ impl Waiting<'_> {
         }
         let due = self.target.position.map(|_| self.target.step);
         let passes_red = |p: &Progress| passes(p).filter(|step| is_red(*step) && !turns(p, *step));
-        // Lights that are green for a moment and red again are looked at a few times.
+        // A light may turn red again before the agent passes, so a few greens are tried.
         for _ in 0..3 {
             let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
             let held = match due {
@@ -201,7 +201,7 @@ impl Waiting<'_> {
     }
 
     /// Brakes for the line, stands there until green (where there is one), then sets off. A goal that is due
-    /// before keeps its progress up to then. Who turns sets off after a stop.
+    /// earlier keeps its progress until then. An agent that may turn at red sets off after a stop.
     fn free(&self, turns: bool, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
         let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
         let due = self.target.position.map_or(0, |_| self.target.step);

@@ -108,8 +108,8 @@ fn setting_off(length_m: f64, seconds: f64, easy_mps2: f64) -> Progress {
 }
 
 /// Covers `length_m` in `seconds`, ending at `end_mps` when that is given, with the smoothest speed of a
-/// one-parameter family (linear acceleration that fades out, or a parabola through both speeds). Whoever
-/// stands and may end at any speed leaves as late as a start by `easy_mps2` allows.
+/// one-parameter family (linear acceleration that fades out, or a parabola through both speeds). A standing
+/// agent with a free end speed leaves as late as `easy_mps2` allows.
 pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>, easy_mps2: f64) -> Progress {
     if v0 < STANDING_MPS && end_mps.is_none() && length_m > 0.0 {
         return setting_off(length_m, seconds, easy_mps2);

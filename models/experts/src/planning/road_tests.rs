@@ -158,7 +158,7 @@ fn waiting(scene: &Scene) -> Option<Progress> {
     waiting.obeying(&wanted)
 }
 
-/// Box centre whose front is at the line.
+/// Progress of the box centre at which the front is at the line, metres.
 const AT_LINE_M: f64 = 40.0 - 2.4;
 
 #[test]

@@ -10,7 +10,7 @@ const LENGTH_S: f64 = 1.5;
 /// Lower Cholesky factor of the knots' correlation, `[KNOTS][KNOTS]`; its rows have length 1.
 pub fn factor() -> [[f64; KNOTS]; KNOTS] {
     let lower = knot_covariance_factor(LENGTH_S);
-    // The first row is the standard deviation alone.
+    // The first row holds only the standard deviation.
     let deviation = lower[(0, 0)];
     std::array::from_fn(|i| std::array::from_fn(|j| lower[(i, j)] / deviation))
 }

@@ -71,7 +71,7 @@ fn a_world_holds_who_is_there_with_what_the_user_fixed() {
     let scene = scene(vec![turned, moved, later]);
     let world = world(&scene);
     let ids: Vec<&str> = world.present.iter().map(|p| world.agent(p).id.as_str()).collect();
-    assert_eq!(ids, ["a", "b"], "by id, without those who come later");
+    assert_eq!(ids, ["a", "b"], "sorted by id, without later arrivals");
     let (a, b) = (&world.present[0], &world.present[1]);
     assert_eq!((a.start.position(), a.start.speed_mps()), (Vec2::new(20.0, 1.0), 3.0));
     assert!(

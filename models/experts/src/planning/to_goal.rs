@@ -182,8 +182,8 @@ impl GoalTrip<'_, '_> {
         UntimedPath::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
     }
 
-    /// The ways that keep to the rules and arrive in time, in their order. Where there are none, further ones are
-    /// looked for, and those that break the rules least serve; a long way round must be worth it.
+    /// The paths that keep to the rules and arrive in time, in their order. Without any, further paths are
+    /// searched, and those that break the rules least serve; a detour must be worth its length.
     fn by_the_road(&self, ways: Vec<UntimedPath>) -> Vec<UntimedPath> {
         let tuning = &self.world.tuning.anchors;
         let fine = |cost: f64| cost <= tuning.broken_m;

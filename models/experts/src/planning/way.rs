@@ -261,7 +261,7 @@ impl Anchor {
         (foot.s_m, foot.lateral_m)
     }
 
-    /// Names the path alone, whatever the timing on it.
+    /// Identifies the path without its timing.
     pub fn path_identity(&self) -> u64 {
         self.identity / TIMINGS
     }

@@ -1,4 +1,4 @@
-//! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
+//! One moment of a scene as input of planning: the agents present at the start, and the lane graph.
 
 use super::stop_line::StopLine;
 use crate::tuning::{self, Tuning};
@@ -18,7 +18,8 @@ use std::sync::Arc;
 pub struct Planning {
     /// Anchors follow lanes; otherwise they are those of a road user with no lane near.
     pub routes: bool,
-    /// Motions are projected onto the goal; otherwise onto the limits alone, and the goal is only seen.
+    /// Projects motions onto the goal. Otherwise only the limits are enforced, and the goal is no more than
+    /// an input of the networks.
     pub projection: bool,
 }
 
@@ -88,8 +89,8 @@ impl From<Arc<Scene>> for SceneHandle<'_> {
     }
 }
 
-/// A scene at one step. Nothing later than this step enters, except what the user fixed and what lights will
-/// show: no input of the networks, but who would pass a light while it is red waits.
+/// A scene at one step. Nothing later than this step enters, except the user's conditions and later signal
+/// states. The networks do not see those signal states; they only make agents wait at red lights.
 pub struct World<'a> {
     /// The scene.
     pub scene: SceneHandle<'a>,
@@ -99,8 +100,8 @@ pub struct World<'a> {
     pub step: usize,
     /// Road users present at the start, by id.
     pub present: Vec<AgentAtStart>,
-    /// The conditions in this window, one entry an agent of the scene. They stand here and not in the scene: a
-    /// window may be asked something else than the user fixed.
+    /// The conditions in this window, one entry an agent of the scene. They may differ from the scene's, as
+    /// for a subgoal.
     pub conditions: Vec<Conditions>,
     /// Signals of lanes in the graph.
     pub signals: Vec<LaneSignal>,

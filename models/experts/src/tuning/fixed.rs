@@ -63,7 +63,7 @@ numbers! {
         KEEPS: f64 = 0.5;
         /// An offset from the path shrinks towards a via point by this, metres for each metre of way.
         NARROWS: f64 = 0.15;
-        /// An agent without a goal ends so far past its last via point, metres.
+        /// Distance past the last via point at which an agent without a goal ends, metres.
         PAST_M: f64 = 1.0;
     }
     /// Of walkers that step out before a vehicle.
@@ -180,7 +180,7 @@ numbers! {
         INSIDE_M: f64 = 0.6;
         /// A crosswalk may be drawn so far short of the kerb, metres.
         DRAWN_SHORT_M: f64 = 4.0;
-        /// A crosswalk lies at most so far behind the stop line of its signal, metres.
+        /// Greatest distance of a crosswalk behind the stop line of its signal, metres.
         BEHIND_LINE_M: f64 = 12.0;
         /// A corner of a path is rounded off over this, metres.
         ROUNDED_M: f64 = 1.0;
@@ -193,20 +193,20 @@ numbers! {
         NARROWER_M: f64 = 0.2;
         /// A path may cut a corner so far beside a lane's assumed width, metres.
         BESIDE_LANES_M: f64 = 1.0;
-        /// A side of the box may be so far beyond an edge, metres.
+        /// Allowed distance of a side of the box beyond an edge, metres.
         BEYOND_M: f64 = 0.3;
     }
     /// Of stop lines and signals.
     lights {
-        /// A path takes a lane from whose centre it stays within this on average, metres.
+        /// Greatest mean distance from a lane's centre at which a path is on that lane, metres.
         ON_LANE_M: f64 = 2.2;
-        /// Lanes whose distances differ by less cannot be told apart, metres.
+        /// Lanes whose distances differ by less count as equally near, metres.
         SAME_LANE_M: f64 = 0.3;
-        /// Length of path after or before a line that tells which lane is taken, metres.
+        /// Length of path before or after a line that decides which lane is taken, metres.
         TELLING_M: f64 = 20.0;
         /// Lines nearer to each other along a path are of one junction, metres.
         ONE_JUNCTION_M: f64 = 8.0;
-        /// How far beyond its end a path is looked at, metres: motions go on after their goal.
+        /// Length beyond its end over which a path is checked, metres: motions go on after their goal.
         BEYOND_M: f64 = 60.0;
         /// An agent that stands so little past a line waits there, metres.
         PASSED_M: f64 = 2.5;
@@ -216,7 +216,7 @@ numbers! {
         BEFORE_LINE_M: f64 = 1.0;
         /// Other fronts may come so near to the line, metres.
         NEAR_LINE_M: f64 = 0.5;
-        /// A turn at red takes so far, metres.
+        /// Length of a turn at red, metres.
         TURN_M: f64 = 12.0;
         /// Usual braking for a signal, m/s2.
         BRAKE_MPS2: f64 = 2.0;

@@ -3,7 +3,7 @@
 //! Each says what it is, in which unit, and what it was fitted on: data, metric, date. "The 71 scenes" are the
 //! recorded scenes of the weights' card that are neither in the training data nor in its tables. All were
 //! fitted, or set by hand, between 2026-11-21 and 2026-11-26. [`Tuning::hash`] stands beside the weights' hashes
-//! in every answer; `dragtraffic eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
+//! in every answer; `dragtraffic lab eval --ablate NAME[=VALUE]` varies one of them by its name in [`NUMBERS`]. What is set
 //! and no call varies stands in [`fixed`], and for placement in [`placing`].
 
 use scene::ContentHash;
@@ -153,7 +153,7 @@ tuning! {
         pedestrian_apart_m = 0.5;
         /// See [`DuplicateTuning::vehicle_rate_mps2`].
         pedestrian_rate_mps2 = 0.7;
-        /// The pace of a pedestrian who goes, m/s. Vehicles go as fast as their path allows.
+        /// Speed of a pedestrian that starts, m/s. Vehicles go as fast as their path allows.
         pedestrian_going_mps = 1.6;
         /// See [`DuplicateTuning::vehicle_same_m`].
         cyclist_same_m = 1.0, off 0.0;
@@ -161,10 +161,11 @@ tuning! {
         cyclist_apart_m = 2.0;
         /// See [`DuplicateTuning::vehicle_rate_mps2`].
         cyclist_rate_mps2 = 1.0;
-        /// The pace of a rider who goes, where caps allow, m/s.
+        /// Speed of a cyclist that starts, where caps allow, m/s.
         cyclist_going_mps = 7.0;
-        /// Mean distance below which two modes are copies of each other, metres, without a goal position: one of
-        /// them goes before or after somebody else, or takes another pace or line. Set by hand. 2026-11-22.
+        /// Mean distance below which two modes are copies of each other, metres, without a goal position: one
+        /// of them goes before or after another agent, or takes another pace or line. Set by hand.
+        /// 2026-11-22.
         copy_m = 1.1, off 0.0;
         /// The same with a goal position. Set by hand. 2026-11-22.
         copy_with_goal_m = 0.55, off 0.0;
@@ -187,13 +188,13 @@ tuning! {
         /// Aside on foot.
         aside_on_foot_m = 0.8, off 0.0;
     }
-    /// How fast those go of whom the networks know enough: beyond, what they say counts less and less, and the ways
-    /// and paces of the anchors are all.
+    /// Speed range over which the networks' output fades out: above it only the anchors' paths and speed
+    /// profiles remain.
     speeds: SpeedTuning {
-        /// All that was learned counts up to here, m/s. Where six futures of a car alone on a straight motorway
-        /// begin to leave its lane. 2026-11-26.
+        /// Full weight of the networks up to this speed, m/s. Above it the six futures of a car on an empty
+        /// straight motorway begin to leave its lane. 2026-11-26.
         known_mps = 21.0, off 1e3;
-        /// Nothing of it from here on, m/s. 2026-11-26.
+        /// No weight of the networks from this speed on, m/s. 2026-11-26.
         unknown_mps = 24.0, off 2e3;
     }
     /// What the mode in the middle of what may happen is made of.
@@ -223,8 +224,8 @@ tuning! {
         past_edges = 8.0, off 0.0;
         /// How far beyond counts, metres. Set by hand. 2026-11-21.
         past_edge_m = 0.1;
-        /// One that leaves the road, or drives against every lane, at all: as bad as coming close to somebody, so
-        /// that a kerb is no way past a queue. Set by hand. 2026-11-25.
+        /// A vehicle that leaves the road, or drives against every lane, at any time: as bad as a close
+        /// approach, so that the kerb is no way past a queue. Set by hand. 2026-11-25.
         leaving_the_road = 1.5, off 0.0;
         /// A goal that is missed: worse than anything but an overlap. Set by hand. 2026-11-21.
         goal_missed = 3.0, off 0.0;
@@ -239,11 +240,11 @@ tuning! {
         harsh = 0.4, off 0.0;
         /// Each second of it. Set by hand. 2026-11-23.
         harsh_second = 0.4, off 0.0;
-        /// A walker who steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
+        /// A walker that steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
         stepping_out = 1.5, off 0.0;
-        /// Switching from the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
-        /// modes apart. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7 % at 3, 2.3 % at 4.
-        /// 2026-11-23.
+        /// Switching from the future shown last, while a goal is dragged: less than an overlap, more than the
+        /// difference between modes. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7
+        /// % at 3, 2.3 % at 4. 2026-11-23.
         switching = 4.0, off 0.0;
         /// Mean distance from it from which on a motion is another one, metres.
         switching_m = 1.0;
@@ -254,8 +255,8 @@ tuning! {
         /// Mean distance from the motion that it has which costs as much as 1, metres. Set by hand.
         /// 2026-11-21.
         deviation_m = 4.0;
-        /// A motion that breaks rules by [`ChoiceTuning::lawful_by`] less than the future shown last pays this share of
-        /// `switching` alone. Set by hand. 2026-11-24.
+        /// A motion whose rule cost is lower by [`ChoiceTuning::lawful_by`] than that of the future shown
+        /// last pays only this share of `switching`. Set by hand. 2026-11-24.
         unlawful_binds = 0.4, off 1.0;
         /// How much less that is, in costs of this choice. Set by hand. 2026-11-24.
         lawful_by = 0.6;
@@ -263,8 +264,8 @@ tuning! {
         most_swerving = 3.0, off 1e9;
         /// A motion that stops before what is in the way, besides a goal that it misses. Set by hand. 2026-11-24.
         stopping = 1.0, off 0.0;
-        /// What the mode that a scene is built around counts more than the others, whose probabilities sum
-        /// to 1. Errors and overlaps of further samples on the 71 scenes. 2026-11-22.
+        /// Extra weight of the mode that a scene is built around; the probabilities of all modes sum to 1.
+        /// Errors and overlaps of further samples on the 71 scenes. 2026-11-22.
         around = 2.0, off 0.0;
     }
     /// Steps of a chosen scene's conflicting drafts out of each other's way.
@@ -309,13 +310,12 @@ tuning! {
         /// A square metre of change along the path. Set by hand. 2026-11-24.
         pace = 0.12, off 0.0;
     }
-    /// Which agents may react to those that a call regenerates, and at what cost.
+    /// Which agents may react to regenerated agents, and at what cost.
     reacting: ReactingTuning {
-        /// Of those that were asked something before: motions closer than this between their boxes, within three
-        /// seconds, are looked at, metres. Set by hand. 2026-11-21.
+        /// For agents with conditions: motions whose boxes come closer than this within three seconds are
+        /// checked, metres. Set by hand. 2026-11-21.
         near_m = 5.0;
-        /// What it costs that somebody is a second later, or earlier, than without the others. Set by hand.
-        /// 2026-11-22.
+        /// Cost of each second later or earlier than without the others. Set by hand. 2026-11-22.
         late = 0.08, off 0.0;
         /// Braking harder than this costs more, m/s2. Set by hand. 2026-11-22.
         easily_mps2 = 3.0;

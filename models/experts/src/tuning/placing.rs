@@ -6,9 +6,9 @@
 numbers! {
     /// Of `placement::arms`.
     arms {
-        /// Lanes whose headings differ by more are of different roads, radians.
+        /// Lanes whose headings differ by more belong to different roads, radians.
         SAME_ROAD_RAD: f64 = 0.6;
-        /// The same of their places across and along the road, metres.
+        /// As before, for their distance across and along the road, metres.
         SAME_ROAD_M: (f64, f64) = (10.0, 30.0);
         /// A lane that opens beside another has that one beside it so far behind its beginning, metres.
         BEHIND_M: f64 = 4.0;
@@ -16,7 +16,7 @@ numbers! {
         RAGGED_M: f64 = 15.0;
         /// A shorter lane is no way in, metres.
         SHORTEST_M: f64 = 5.0;
-        /// An arm is followed so far, metres.
+        /// Greatest length over which an arm is followed, metres.
         LONGEST_M: f64 = 3_000.0;
         /// Free traffic drives at this share of what limit and bends allow.
         FREE_SHARE: f64 = 0.95;
@@ -27,7 +27,7 @@ numbers! {
         LEAST_HEADWAY_S: f64 = 1.5;
         /// A car and a little, metres: where free traffic is slow the length counts, not the time.
         CAR_M: f64 = 5.5;
-        /// Drivers alone go at this share of the speed of free traffic.
+        /// Range of speeds of free drivers, as shares of the speed of free traffic.
         SHARES: (f64, f64) = (0.96, 1.04);
         /// An agent without room is tried farther back by this, metres.
         BACK_M: f64 = 1.5;
@@ -85,9 +85,9 @@ numbers! {
         BRAKING_MPS2: f64 = 2.0;
         /// Hardest braking, m/s2.
         HARDEST_MPS2: f64 = 5.0;
-        /// An agent whose centre lies farther from the own path is not in the way, metres.
+        /// An agent whose centre lies farther from the own path is not an obstacle, metres.
         BESIDE_M: f64 = 1.8;
-        /// Leaders are looked for so far, metres.
+        /// Greatest distance of a leader, metres.
         LOOK_M: f64 = 80.0;
     }
     /// Of `placement::parking`.
@@ -106,7 +106,7 @@ numbers! {
         KERB_M: (f64, f64) = (0.15, 0.2);
         /// Cars are not quite parallel to the kerb, radians.
         ASKEW_RAD: f64 = 0.02;
-        /// Parked cars keep so far from a junction, a stop line or a crosswalk, metres.
+        /// Least distance of parked cars from a junction, a stop line or a crosswalk, metres.
         CLEAR_M: f64 = 5.0;
         /// A driveway within this of a lane opens to it and stays free of parked cars, metres.
         DRIVEWAY_M: f64 = 14.0;

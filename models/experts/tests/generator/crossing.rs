@@ -15,7 +15,7 @@ fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
     }
 }
 
-/// Somebody who goes straight on at this speed for the 9.1 s of the log.
+/// An agent that goes straight on at this speed for the 9.1 s of the log.
 pub fn agent(id: &str, agent_type: AgentType, at: (f64, f64), heading_rad: f64, speed: f64) -> Agent {
     let ahead = scene::geometry::direction(heading_rad);
     let state = |i: usize| {

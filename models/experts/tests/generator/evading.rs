@@ -1,5 +1,5 @@
-//! Somebody stands in the way: one goes round, or halts before it where there is no room; beyond a goal the way goes on
-//! along the lane.
+//! An agent stands in the way: the vehicle goes round it, or stops before it where there is no room. Beyond a
+//! goal it goes on along the lane.
 
 use super::crossing::{agent, street};
 use super::{GENERATOR, ask, run};
@@ -32,7 +32,7 @@ fn meets(scene: &Scene, future: &Future) -> bool {
     future.states.iter().any(|s| overlaps(&own(s), &other, 0.0))
 }
 
-/// A line beside the street, so far to the left.
+/// A line beside the street, at an offset to the left.
 fn edge(id: &str, left_m: f64) -> TypedLine {
     let points: Vec<Vec2> = (0..=40).map(|i| Vec2::new(f64::from(i) * 5.0 - 100.0, left_m)).collect();
     TypedLine { id: id.into(), line_type: "boundary".into(), points: points.into() }

@@ -1,14 +1,13 @@
-//! What a recording says after the start must not reach an answer, unless the user fixed it.
+//! Recorded data after the start must not reach an answer, unless the user fixed it.
 //!
 //! Claimed, bit for bit, for every subset of the goal's fields and of the start's:
 //! 1. Features and anchors of a road user depend on nothing logged after the start, neither its own nor
-//!    anybody else's, except the stated conditions.
+//!    another's, except the stated conditions.
 //! 2. The answer for regenerated road users does not change with their own log after the start.
 //! 3. When all are regenerated it does not change with any other's log either, in one window or several.
 //!
-//! Not claimed: what is said of futures (a fault that the log shows too is none); road users that are *kept*
-//! are obstacles with the motion that is kept, and signals keep
-//! the program that the scene gives them.
+//! Not claimed: verdicts on futures (faults that the recording also shows are not reported); *kept* road
+//! users are obstacles with their kept motion; signals keep the program of the scene.
 
 use super::*;
 use ::scene::judge::About;
@@ -41,7 +40,7 @@ fn with_start(mut scene: Scene, id: &str, subset: u8) -> Scene {
     scene
 }
 
-/// Everything that the experts see of everybody, as text that tells apart any two numbers.
+/// All features of all agents, as text that distinguishes any two numbers.
 fn features(scene: &Scene) -> String {
     let map = Arc::new(LaneGraph::new(&scene.map));
     let world = World::new(scene, map, 0);
@@ -70,7 +69,7 @@ fn features_know_nothing_after_the_start() {
     }
 }
 
-/// An answer's motions, without what is said of them.
+/// An answer's motions, without the verdicts on them.
 fn answered(request: Request) -> Answer {
     let mut answer = run(&GENERATOR, request);
     let futures = answer.samples.iter_mut().flat_map(|s| s.agents.values_mut());

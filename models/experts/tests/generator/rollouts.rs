@@ -92,7 +92,7 @@ fn goals_of_later_windows_are_met() {
                 let resolved = &answer.resolved["1"];
                 assert!(matches!(resolved.reach, ReachReport::Reached { .. }), "{at}: {:?}", resolved.reach);
                 assert_eq!(resolved.goal.time_s.value, time_s);
-                // A heading alone is held in view only when little time is left for it.
+                // A goal with only a heading gets a subgoal only when little time is left for it.
                 let told = resolved.intermediate.iter().map(|i| i.window);
                 assert!(subset == 2 || told.eq(0..resolved.intermediate.len()), "{at}");
                 assert!(subset == 2 || !resolved.intermediate.is_empty(), "{at}");
@@ -267,7 +267,7 @@ fn reacting_road_users_have_one_track_from_the_start_too() {
     let mut request = rollout(scene.clone(), Some(&["1"]), 200, 30);
     request.react = React::Everyone;
     let answer = run(&GENERATOR, request);
-    assert!(answer.samples[0].agents.len() > 1, "somebody answers within 20 s");
+    assert!(answer.samples[0].agents.len() > 1, "an agent reacts within 20 s");
     for (id, futures) in &answer.samples[0].agents {
         let future = &futures.modes[futures.chosen];
         assert_eq!((future.first_step, future.states.len()), (1, 200), "{id}");

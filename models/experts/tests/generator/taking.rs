@@ -1,4 +1,4 @@
-//! What is said of a future that is not shown holds when it is taken: the others answer it.
+//! Verdicts on a future that is not shown hold when the user takes it: the others react to it.
 
 use super::crossing::crossing;
 use super::{GENERATOR, ask, run};

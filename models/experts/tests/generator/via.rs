@@ -1,4 +1,4 @@
-//! Via points: every future passes them where it can, within the limits, and what is missed is said.
+//! Via points: every future passes them where it can, within the limits, and missed ones are reported.
 
 use super::*;
 use scene::judge::FaultKind;
@@ -9,7 +9,7 @@ fn via(x: f64, y: f64, tolerance_m: f64, time_s: Option<f64>) -> Via {
     Via { position: Vec2::new(x, y), tolerance_m, time_s }
 }
 
-/// Only this road user, asked to pass these places and to be at this goal at the end.
+/// A scene with only this road user, with these via points and this goal at the end.
 fn asked(id: &str, vias: &[Via], goal: Option<(f64, f64)>) -> Scene {
     let mut scene = crossing();
     scene.agents.retain(|a| a.id == id);

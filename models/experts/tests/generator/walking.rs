@@ -1,11 +1,11 @@
-//! People who come to a street.
+//! Pedestrians at a street.
 
 use super::crossing::{agent, street};
 use super::{GENERATOR, ask, run};
 use scene::{AgentType, Goal, Scene, Signal, SignalState, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Steps at which somebody who walks north is on the street, which is from y = -3.5 to 0.
+/// Steps at which a pedestrian that walks north is on the street, from y = -3.5 to 0.
 fn on_street(scene: Scene) -> Vec<usize> {
     let futures = run(&GENERATOR, ask(scene, Some(&["1"]))).samples.remove(0).agents.remove("1").unwrap();
     let states = &futures.modes[futures.chosen].states;

@@ -14,7 +14,7 @@ use scene::{Meta, Origin, Scene, Vec2};
 use std::collections::BTreeMap;
 use std::io;
 
-/// Scenario with or without the map of its place; the map alone is a scene without road users.
+/// A scenario with or without its map; a map without scenario is a scene without road users.
 pub struct Argoverse;
 
 impl Format for Argoverse {
@@ -82,7 +82,7 @@ fn scenario(file: &dyn Source, options: &ImportOptions) -> Result<Imported, Read
     import::read(file, map, options.licence.clone())
 }
 
-/// A map alone.
+/// Reads a map without scenario.
 fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
     let place = map::read(file)?;
     let (low, high) = place.corners().unwrap_or_default();

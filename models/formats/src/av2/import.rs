@@ -12,7 +12,7 @@ use crate::source::Source;
 use scene::{AgentType, Meta, Origin, STEP_S, Subtype, Timing, Vec2};
 use std::collections::HashMap;
 
-/// Columns that every file has, and those that it may have.
+/// Required columns and optional columns.
 const NEEDED: [&str; 9] = [
     "track_id",
     "object_type",
@@ -91,7 +91,7 @@ impl TrackRows {
     }
 }
 
-/// What is said in every row alike, as the first one has it.
+/// Values that are the same in every row, taken from the first.
 #[derive(Default)]
 struct First {
     scenario: String,
@@ -186,7 +186,7 @@ pub(super) fn read(
             Default::default()
         }
     };
-    // Files of ours say whose licence holds; all others are of the data set.
+    // Files written by this program carry their own licence; all others have the data set's.
     let notes = rows.table.notes();
     let own = if notes.contains_key(NOTE) { notes.get("licence").cloned() } else { Some(LICENCE.into()) };
     let meta = Meta {
@@ -222,7 +222,7 @@ pub(super) fn read(
     scenes.next().unwrap_or_else(|| Err(empty()))
 }
 
-/// The recording vehicle's place at the present, else that of whoever comes first, in whole metres.
+/// Present position of the recording vehicle, else of the first road user, in whole metres.
 fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
     let ego = users.iter().find(|user| user.id == AV).or(users.first());
     let now_s = now_step as f64 * STEP_S;
@@ -233,7 +233,7 @@ fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
     sample.map_or_else(Vec2::zeros, |sample| sample.at.map(f64::round))
 }
 
-/// The source's times, evenly from its first to its last one; nothing where it does not say them.
+/// Times of the source, evenly spaced from first to last; `None` if they are missing.
 fn timestamps(first: &First, steps: usize) -> Option<Vec<f64>> {
     let count = first.steps.max(2) - 1;
     let step_s = (first.end - first.start) * 1e-9 / count as f64;

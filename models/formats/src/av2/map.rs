@@ -19,7 +19,7 @@ const SPACING_M: f64 = 2.0;
 /// Lanes are followed this far beyond their ends where edges of the ground are looked for, metres: the ground is cut
 /// off where the map ends, and that is no kerb.
 const BEYOND_M: f64 = 2.0;
-/// Lines whose ends are as near as this are one, metres.
+/// Lines whose ends are at most this far apart are the same line, metres.
 const SAME_M: f64 = 0.05;
 
 #[derive(Clone, Copy, Deserialize)]
@@ -85,8 +85,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Place, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
     input.map_err(|error| unpack::fault(&error, 0))?;
-    serde_json::from_slice(&bytes)
-        .map_err(|error| ReadError::malformed_json(error.line(), error.column(), error.to_string()))
+    serde_json::from_slice(&bytes).map_err(|error| ReadError::malformed_json(&error, error.to_string()))
 }
 
 fn about(points: &[Point], origin: Vec2) -> Vec<Vec2> {
@@ -258,7 +257,7 @@ fn link(segments: &[&Segment], map: &mut LaneMap) {
     }
 }
 
-/// Draws the painted sides of lanes, each once, and says whom they bound.
+/// Draws the painted sides of lanes, each once, and links them to the lanes that they bound.
 fn paint(segments: &[&Segment], origin: Vec2, map: &mut LaneMap) {
     // A line is the side of two lanes: it is known by its ends, in either order.
     let mut drawn: HashMap<[(i64, i64); 2], String> = HashMap::new();

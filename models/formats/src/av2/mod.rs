@@ -18,7 +18,7 @@ const FRAGMENT: i64 = 0;
 const UNSCORED: i64 = 1;
 const SCORED: i64 = 2;
 const FOCAL: i64 = 3;
-/// A tag of a scene that says its city.
+/// Prefix of the tag that names a scene's city.
 const CITY: &str = "city:";
 /// Note of our own files.
 const NOTE: &str = "dragtraffic";

@@ -1,8 +1,8 @@
 //! Parquet files, whatever table they hold: flat columns in, row by row.
 //!
-//! The library that decodes them trusts what a file says of itself: it reserves what a header declares, and some
-//! lies end it. So everything that it would believe is looked at first (`vet`), and a page at a time of each column
-//! is in memory.
+//! The library that decodes them trusts the file's own description: it reserves what a header declares, and
+//! some false values make it panic. So everything that it would trust is checked first (`vet`), and memory
+//! holds one page at a time of each column.
 
 mod read;
 mod thrift;

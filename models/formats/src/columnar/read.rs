@@ -22,7 +22,7 @@ fn most_bytes(file: &dyn Source) -> u64 {
 }
 /// Most bytes that the columns of a row take at a time beside the file.
 const MAX_PAGES: u64 = 40 << 20;
-/// Rows of any file, beside one for each of its bytes: one that repeats a value tells nothing with more.
+/// Most rows of a file, plus one per byte: repeated values take no bytes, so bytes do not bound the rows.
 const MAX_ROWS: u64 = 1 << 20;
 /// Rows that are decoded at a time.
 const BATCH: usize = 1_024;
@@ -66,7 +66,7 @@ pub(crate) struct ParquetTable {
     file: Bytes,
     reader: SerializedFileReader<Bytes>,
     names: Vec<String>,
-    /// Of those that are read: index in the file.
+    /// Index in the file of each selected column.
     chosen: Vec<usize>,
     /// The row group that is read next, and the readers of the one before it.
     group: usize,
@@ -88,7 +88,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadErro
 }
 
 impl ParquetTable {
-    /// Reads a file as a whole, and looks at what it says of itself.
+    /// Opens a file and checks its metadata.
     ///
     /// # Errors
     /// `malformed-file`, `decoded-too-large`, `cannot-represent` for more columns or rows than are read.
@@ -137,7 +137,7 @@ impl ParquetTable {
         &self.names
     }
 
-    /// What the file says beside its columns, by name.
+    /// Key-value metadata of the file.
     pub fn notes(&self) -> BTreeMap<String, String> {
         let notes = self.reader.metadata().file_metadata().key_value_metadata();
         let notes = notes.into_iter().flatten();
@@ -213,7 +213,7 @@ impl ParquetTable {
         self.row
     }
 
-    /// Value of the row that was gone to, by position in the list of those that were chosen.
+    /// Value of the current row, by index among the selected columns.
     pub fn value(&self, column: usize) -> ColumnValue<'_> {
         match self.batch.get(column).and_then(|cells| cells.get(self.at)) {
             None | Some(OwnedValue::Nothing) => ColumnValue::Nothing,
@@ -257,7 +257,7 @@ fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<OwnedValue>) ->
             let (mut values, mut levels) = (Vec::new(), Vec::new());
             let (records, known, _) = $reader.read_records(count, Some(&mut levels), None, &mut values)?;
             let mut values = values.into_iter().take(known).map($cell);
-            // Without levels every value is there.
+            // Without levels every value is present.
             let present = (0..records).map(|i| levels.get(i).is_none_or(|level| *level > 0));
             cells.extend(
                 present.map(|there| if there { values.next() } else { None }.unwrap_or(OwnedValue::Nothing)),

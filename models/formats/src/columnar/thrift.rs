@@ -96,7 +96,7 @@ impl<'a> ThriftReader<'a> {
         }
     }
 
-    /// How many structs the list of a field has; their fields follow.
+    /// Length of a field's list of structs; their fields follow.
     pub fn structs(&mut self, field: ThriftField) -> Option<u64> {
         let (kind, count) = if field.kind == 9 { self.list()? } else { return None };
         (kind == STRUCT || count == 0).then_some(count)

@@ -1,4 +1,4 @@
-//! What a Parquet file says of itself, looked at before anything is reserved or decoded by it.
+//! Checks of a Parquet file's metadata before anything is allocated or decoded from it.
 
 use super::thrift::ThriftReader;
 use crate::problem::{ReadError, code};
@@ -15,7 +15,7 @@ const MAX_PAGE: i64 = 8 << 20;
 
 /// A column's part of a row group.
 pub(super) struct ColumnChunk {
-    /// Where its pages lie.
+    /// Byte range of its pages.
     pub range: Range<i64>,
     /// Bytes that a value takes at least in a dictionary.
     pub least: i64,
@@ -99,7 +99,7 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
         let sound = page.packed >= 0 && page.unpacked >= 0 && page.values >= 0;
         // A dictionary comes first; index pages are written nowhere.
         let in_place = if page.is_dictionary { first } else { page.kind != 1 };
-        // Encodings by difference reserve what their data says, which is known once it is unpacked alone.
+        // Delta encodings allocate by their own data, which is known only after decompression.
         let readable = matches!(page.encoding, 0 | 2 | 3 | 8 | 9);
         if !(sound && in_place) {
             return Err(broken(at, "the header of a page says what cannot be"));
@@ -130,7 +130,7 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
     Ok(u64::try_from(dictionary.saturating_add(largest)).unwrap_or(u64::MAX))
 }
 
-/// What the header of a page says.
+/// Header of a page.
 struct ColumnPage {
     header: usize,
     kind: i64,

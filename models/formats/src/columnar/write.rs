@@ -10,7 +10,7 @@ use parquet::schema::parser::parse_message_type;
 use std::io;
 use std::sync::Arc;
 
-/// How hard zstd tries.
+/// Compression level of zstd.
 #[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
 

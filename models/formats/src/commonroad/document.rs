@@ -71,7 +71,7 @@ pub(super) struct TrafficLight {
     pub active: bool,
 }
 
-/// Where an obstacle is at a time.
+/// State of an obstacle at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ObstacleState {
     /// Steps of the file.
@@ -89,18 +89,18 @@ pub(super) struct Obstacle {
     pub id: i64,
     pub word: String,
     pub fixed: bool,
-    /// Without one nobody knows how large it is.
+    /// Unknown size if absent.
     pub shape: Option<Shape>,
     /// In the order of the file.
     pub states: Vec<ObstacleState>,
-    /// What it may occupy, and not where it goes.
+    /// Occupied sets instead of states.
     pub sets: bool,
 }
 
 /// A range of numbers.
 pub(super) type Range = (f64, f64);
 
-/// Where a planning problem ends.
+/// End of a planning problem.
 #[derive(Debug, Default)]
 pub(super) struct GoalState {
     pub places: Vec<Shape>,
@@ -233,7 +233,7 @@ fn head(root: &Element) -> Result<CommonRoadDocument, ReadError> {
     })
 }
 
-/// Where the frame of the file lies.
+/// Origin of the file's frame.
 fn origin(node: &XmlNode) -> Result<Origin, ReadError> {
     let Some(place) = node.child("geoTransformation") else { return Ok(Origin::default()) };
     let crs = place.child("geoReference").map(|text| word(&text.text)).filter(|text| !text.is_empty());

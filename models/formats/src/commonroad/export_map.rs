@@ -11,17 +11,17 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Half the length of a stop line, in widths of its lane.
 const HALF: f64 = 0.5;
-/// How a side is marked where a road edge runs.
+/// Marking of a side that is a road edge.
 const CURB: &str = "curb";
 
 /// Elements of a scenario that a map is written as.
 pub(super) struct MapElements<'a> {
     scene: &'a Scene,
-    /// How long signals go on.
+    /// Number of steps for which signals are written.
     steps: usize,
     /// Number and last point.
     lanes: HashMap<&'a str, (i64, usize)>,
-    /// How lines and edges are marked.
+    /// Markings of lines and edges.
     markings: HashMap<&'a str, &'static str>,
     crosswalks: Vec<(i64, &'a Area)>,
     /// Signs of lanes with a limit. Each has its own: readers look for the lane at which a sign begins, and where
@@ -35,7 +35,7 @@ pub(super) struct MapElements<'a> {
 }
 
 impl<'a> MapElements<'a> {
-    /// Gives numbers to all that is drawn, and says what is not; signals go on for so many steps.
+    /// Numbers all elements that are drawn and reports the rest; signals cover so many steps.
     pub fn of(scene: &'a Scene, steps: usize, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;
         let number = |lane: &'a Lane| (lane.id.as_str(), (ids.take(&lane.id), lane.points.xy.len() - 1));
@@ -204,7 +204,7 @@ impl<'a> MapElements<'a> {
         out.close();
     }
 
-    /// How a side is marked, by the line that bounds most of it.
+    /// Marking of a side: that of the line that bounds most of it.
     fn marking(&self, boundaries: &[Boundary]) -> Option<&'static str> {
         let longest = boundaries.iter().max_by_key(|boundary| boundary.to.saturating_sub(boundary.from))?;
         self.markings.get(longest.line.as_str()).copied()
@@ -276,7 +276,7 @@ fn crosswalk(id: i64, area: &Area, out: &mut Markup) {
     out.close();
 }
 
-/// What a signal shows until everybody arrives, as a cycle that is as long.
+/// Signal states until the last goal, as a cycle of the same length.
 fn light(id: i64, signal: &Signal, steps: usize, out: &mut Markup) {
     out.open("trafficLight", &[("id", &id.to_string())]);
     out.open("cycle", &[]);

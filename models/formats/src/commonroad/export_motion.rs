@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Side of the square in which a goal lies, metres.
 const GOAL_M: f64 = 1.0;
-/// How far heading, speed and time of a goal may be off, radians, m/s and steps.
+/// Tolerances of a goal: heading (radians), speed (m/s) and time (steps).
 const OFF: (f64, f64, usize) = (0.1, 0.5, 5);
 
 /// A road user as the scenario has it.
@@ -23,7 +23,7 @@ pub(super) struct ScenarioAgent<'a> {
     pub shown: &'a Shown<'a>,
     /// Its number in the scenario.
     pub id: i64,
-    /// Its user fixed more than boxes and states say.
+    /// The user fixed more than boxes and states can hold.
     pub is_fixed: bool,
 }
 
@@ -37,8 +37,8 @@ pub(super) struct PlanningTask {
 }
 
 impl PlanningTask {
-    /// Of the ego, else of the first road user with a goal; nothing where nobody has a start. `shown` are the road
-    /// users of the scene as the file has them.
+    /// The task of the ego, else of the first road user with a goal; `None` without any start. `shown` are
+    /// the road users of the scene as the file has them.
     pub fn of(scene: &Scene, shown: &[Shown<'_>]) -> Option<Self> {
         let agents = &scene.agents;
         let ego = agents.iter().position(|agent| agent.role.as_deref() == Some(EGO));
@@ -47,7 +47,7 @@ impl PlanningTask {
         let (first_step, start) = *known(&shown.track, &agents[agent]).first()?;
         let mut goal = agents[agent].conditions.goal;
         if goal.is_free() {
-            // Where it went is where it has to go.
+            // Its recorded end becomes the goal.
             let last = shown.track.last_valid_step().filter(|last| *last > first_step);
             let end = last.and_then(|last| Some((last, shown.track.at(last)?)));
             if let Some((last, end)) = end {

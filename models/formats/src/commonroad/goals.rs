@@ -32,8 +32,8 @@ pub(super) fn agent(
     (agent, is_region)
 }
 
-/// What is to be reached by a road user that begins elsewhere than the problem says: without a place that is too far
-/// from there.
+/// Conditions of a road user that starts elsewhere than the problem states: a position too far from its start
+/// is dropped.
 pub(super) fn from_start(mut conditions: Conditions, driven: &Agent) -> Conditions {
     let start = driven.track.states.iter().flatten().next().map(State::position);
     let near = |p: &Vec2| start.is_none_or(|start| is_near(*p, start));
@@ -49,14 +49,14 @@ fn is_near(place: Vec2, start: Vec2) -> bool {
 fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Goal, bool) {
     let middle = |(from, to): Range| (from + to) / 2.0;
     let is_wide = |range: Option<Range>| range.is_some_and(|(from, to)| from != to);
-    // Where nothing is said of the earliest moment, the latest one counts.
+    // Without an earliest time, the latest one counts.
     let time_s = goal.time.map(|(from, to)| {
         let at = if from <= clock.first as f64 + 1.0 { to } else { middle((from, to)) };
         clock.seconds(at)
     });
     let time_s = time_s.filter(|time_s| *time_s > 0.0).map(|time_s| time_s.clamp(DUE_S.0, DUE_S.1));
     let heading_rad = goal.heading_rad.map(|(from, to)| {
-        // The shorter way round, unless the file says that any heading will do.
+        // The shorter way round, unless the file accepts any heading.
         wrap_angle(from + (to - from) / 2.0)
     });
     let all_round = goal.heading_rad.is_some_and(|(from, to)| to - from > 6.0);

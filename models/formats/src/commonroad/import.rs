@@ -16,7 +16,7 @@ use scene::message::Message;
 use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
 use std::collections::{BTreeMap, HashSet};
 
-/// What stands before the licence in the source of a file that we wrote.
+/// Text before the licence in the source of a file written by this program.
 pub(super) const LICENCE: &str = "; licence ";
 
 /// Reads a file, plain or gzip.
@@ -35,7 +35,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let mut planned = HashSet::new();
     for (i, problem) in document.problems.iter().enumerate() {
         let (mut agent, is_region) = goals::agent(problem, (&map, &lanes), clock);
-        // Some files say of the same road user how it went.
+        // Some files also have the recorded track of the problem's road user.
         let driven = document.obstacles.iter().find(|obstacle| obstacle.id == problem.id);
         match driven.and_then(|obstacle| motion::agent(obstacle, clock, &mut changed)) {
             Some(driven) => {
@@ -163,7 +163,7 @@ fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<ImportWarning>) -> Vec<Agent>
     agents
 }
 
-/// What had to be changed or left out.
+/// Warnings about changed and dropped content.
 fn tell(
     document: &CommonRoadDocument,
     changed: &Changed,

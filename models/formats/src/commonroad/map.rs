@@ -12,7 +12,7 @@ use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TY
 use scene::{MAX_POLYLINE_POINTS, Vec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// How far the ground of a lanelet reaches under the one beside it, metres.
+/// Overlap of a lanelet's ground with that of its neighbour, metres.
 const BESIDE_M: f64 = 0.5;
 
 /// Lanes of each lanelet: with its direction, and against it.
@@ -100,7 +100,7 @@ fn speed_limit(document: &CommonRoadDocument, lanelet: &Lanelet) -> Option<f64> 
     limit.filter(|limit| (0.0..=100.0).contains(limit))
 }
 
-/// Says of both who follows whom, and who lies beside whom.
+/// Links successors and neighbours in both directions.
 fn link(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) {
     let lane = |id: i64, forward: bool| lanes.get(&id)?.get(usize::from(!forward)).copied();
     let mut pairs: Vec<(usize, usize)> = Vec::new();
@@ -154,7 +154,7 @@ fn ends(points: &[Vec2]) -> Ends {
     ends
 }
 
-/// Draws the painted sides of lanelets, each once, and says whom they bound.
+/// Draws the painted sides of lanelets, each once, and links them to the lanes that they bound.
 fn paint(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) {
     let mut drawn: HashMap<Ends, usize> = HashMap::new();
     let mut done = HashSet::new();
@@ -203,7 +203,7 @@ fn ground(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) -> bool {
             continue;
         }
         let (mut right, mut left) = sides::matched(&lanelet.left.points, &lanelet.right.points);
-        // Lanelets that are said to lie side by side do not always touch.
+        // Lanelets that the file lists as adjacent do not always touch.
         for (r, l) in right.iter_mut().zip(&mut left) {
             let out = (*r - *l) / (*r - *l).norm().max(1e-9) * BESIDE_M;
             *r += out * f64::from(u8::from(lanelet.right.beside.is_some()));
@@ -227,7 +227,7 @@ fn ground(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) -> bool {
     })
 }
 
-/// Where traffic of a lanelet stops: at its line, else at its end.
+/// Stop position of a lanelet: at its stop line, else at its end.
 pub(super) fn stop(lanelet: &Lanelet, lane: &Lane) -> Option<Vec2> {
     let line = lanelet.stop.flatten().map(|(a, b)| (a + b) / 2.0);
     line.or_else(|| lane.points.xy.last().copied())

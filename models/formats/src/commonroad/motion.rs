@@ -10,7 +10,7 @@ use scene::{Agent, STEP_S, Size, State, Track, Vec2, wrap_angle};
 /// Least and greatest side of a box, metres.
 const SIZE_M: (f64, f64) = (0.05, 60.0);
 
-/// What had to be changed, counted in road users.
+/// Changes made at import, counted in road users.
 #[derive(Debug, Default)]
 pub(super) struct Changed {
     pub uncertain: usize,

@@ -70,7 +70,7 @@ fn covers(light: &TrafficLight, turn: &str) -> bool {
     light.direction.to_ascii_lowercase().contains(turn)
 }
 
-/// What a light shows over the steps of a scene. Empty where its cycle has no length.
+/// States of a signal over the steps of a scene. Empty if its cycle has no length.
 fn runs(light: &TrafficLight, step_s: f64, first: i64, steps: usize) -> Vec<(usize, SignalState)> {
     let length: u64 = light.cycle.iter().fold(0, |sum, (_, duration)| sum.saturating_add(*duration));
     if length == 0 {

@@ -9,14 +9,14 @@ pub(super) const VERSIONS: [&str; 2] = ["2018b", "2020a"];
 /// The version that is written.
 pub(super) const VERSION: &str = "2020a";
 
-/// Words of a lanelet's types, those that say most first.
+/// Words of a lanelet's types, the most specific first.
 const LANE_TYPES: [(&str, LaneletKind); 18] = [
     ("crosswalk", LaneletKind::Crosswalk),
     ("sidewalk", LaneletKind::Lane(LaneType::Sidewalk)),
     ("bicycleLane", LaneletKind::Lane(LaneType::BikeLane)),
     ("busLane", LaneletKind::Lane(LaneType::BusLane)),
     ("parking", LaneletKind::Lane(LaneType::Parking)),
-    // Ground that nobody drives along.
+    // Areas without through traffic.
     ("shoulder", LaneletKind::Lane(LaneType::Parking)),
     ("border", LaneletKind::Lane(LaneType::Parking)),
     ("restricted", LaneletKind::Lane(LaneType::Parking)),
@@ -36,7 +36,7 @@ pub(super) const INTERSECTION: &str = "intersection";
 /// Type of which nothing is known.
 pub(super) const UNKNOWN: &str = "unknown";
 
-/// What a lanelet with these types and users is for.
+/// Use of a lanelet with these types and users.
 pub(super) fn lane_kind(types: &[String], users: &[String]) -> LaneletKind {
     let only = |word: &str| !users.is_empty() && users.iter().all(|user| user == word);
     let has = |word: &str| types.iter().any(|found| found == word);
@@ -78,7 +78,7 @@ const MARKINGS: [(&str, &str); 8] = [
     ("dashed_solid", "solid_double_white"),
 ];
 
-/// What a line with this marking is called; nothing where none is painted.
+/// Line type of a marking; `None` if nothing is painted.
 pub(super) fn line_type(marking: &str) -> Option<&'static str> {
     MARKINGS.iter().find(|(word, _)| *word == marking).map(|(_, line)| *line)
 }
@@ -94,16 +94,16 @@ pub(super) fn marking(line_type: &str) -> &'static str {
     }
 }
 
-/// Signs that say how fast one may go, of all countries that the format knows.
+/// Speed limit signs of all countries that the format knows.
 pub(super) const MAX_SPEED_SIGNS: [&str; 10] =
     ["274", "274.1", "R2-1", "r301", "3.24", "R15", "C43", "B14", "B31", "\u{3a1}-32"];
 /// Signs at which one stops.
 pub(super) const STOP_SIGNS: [&str; 3] = ["206", "R1-1", "r2"];
 
-/// What a light of this colour shows.
+/// Signal state of a colour.
 pub(super) fn signal_state(color: &str) -> Option<SignalState> {
     Some(match color {
-        // Red with yellow is red for all who wait.
+        // A light in red-yellow still forbids crossing the stop line.
         "red" | "redYellow" => SignalState::Stop,
         "yellow" => SignalState::Caution,
         "green" => SignalState::Go,
@@ -139,13 +139,13 @@ const ROAD_USERS: [(&str, AgentType, Subtype); 13] = [
     ("roadBoundary", AgentType::Other, Subtype::Unknown),
 ];
 
-/// What road user a word means.
+/// Type and subtype of a road user's word.
 pub(super) fn road_user(word: &str) -> (AgentType, Subtype) {
     let found = ROAD_USERS.iter().find(|(known, ..)| *known == word);
     found.map_or((AgentType::Other, Subtype::Unknown), |(_, agent_type, subtype)| (*agent_type, *subtype))
 }
 
-/// The word for a road user, and whether it says all.
+/// Word of a road user, and whether it keeps the subtype.
 pub(super) fn road_user_word(agent_type: AgentType, subtype: Subtype) -> (&'static str, bool) {
     let of_type = || ROAD_USERS.iter().filter(|(_, known, _)| *known == agent_type);
     let exact = of_type().find(|(.., known)| *known == subtype);

@@ -9,7 +9,7 @@ const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 const CHUNK: usize = 1 << 20;
 #[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
-/// How chunks are packed, as the format names it.
+/// Name of the chunk compression, as the format has it.
 const PACKING: &str = if cfg!(target_family = "wasm") { "" } else { "zstd" };
 
 #[cfg(not(target_family = "wasm"))]

@@ -1,5 +1,5 @@
-//! MCAP with Foxglove's schemas, for the viewers of robotics: the road, its signals and who is on it as
-//! `foxglove.SceneUpdate`, and where the scene lies in its source as `foxglove.FrameTransform`. Messages are JSON.
+//! MCAP with Foxglove's schemas, for robotics viewers: map, signals and road users as `foxglove.SceneUpdate`,
+//! and the scene's position in its source as `foxglove.FrameTransform`. Messages are JSON.
 
 mod mcap;
 mod scene_update;

@@ -1,4 +1,4 @@
-//! What messages say: entities of `foxglove.SceneUpdate`, in metres of the scene.
+//! Content of messages: entities of `foxglove.SceneUpdate`, in metres of the scene.
 
 use super::time;
 use scene::map::{Area, LaneMap};
@@ -13,7 +13,7 @@ const LOOP: u8 = 1;
 /// Deletes all entities of a topic.
 const ALL: u8 = 1;
 
-/// Where the scene lies in its source.
+/// Transform from the scene to its source.
 pub(super) fn transform(scene: &Scene) -> Value {
     let origin = &scene.meta.origin;
     json!({
@@ -40,7 +40,7 @@ fn colour([r, g, b]: [u8; 3], a: f64) -> Value {
     json!({"r": part(r), "g": part(g), "b": part(b), "a": a})
 }
 
-/// An entity with these primitives alone.
+/// An entity with only these primitives.
 fn entity(id: &str, step: usize, primitives: &[(&str, Vec<Value>)], metadata: Vec<Value>) -> Value {
     let mut entity = json!({
         "timestamp": time(step),
@@ -112,7 +112,7 @@ pub(super) fn map(map: &LaneMap) -> Value {
     update(0, &entities)
 }
 
-/// What signals show at a step.
+/// Signal states at a step.
 pub(super) fn signals(scene: &Scene, step: usize) -> Value {
     let lit = |(i, signal): (usize, &scene::Signal)| {
         let at = signal.stop.or_else(|| {
@@ -141,7 +141,7 @@ pub(super) fn signals(scene: &Scene, step: usize) -> Value {
     update(step, &entities)
 }
 
-/// Who is on the road at a step.
+/// Road users at a step.
 pub(super) fn users(tracks: &[(&Agent, Shown<'_>)], step: usize) -> Value {
     let seen = |(agent, shown): &(&Agent, Shown<'_>)| {
         let state = shown.track.at(step)?;

@@ -1,4 +1,4 @@
-//! GeoJSON (RFC 7946) for maps and notebooks: the road, who is on it, and where they may go, as features.
+//! GeoJSON (RFC 7946) for maps and notebooks: map, road users and their futures, as features.
 //!
 //! Positions are metres of the scene's source, because most sources have no place on the globe: `frame` says so. Where
 //! the source names its coordinate reference system, that name stands there.
@@ -69,7 +69,7 @@ impl Format for GeoJson {
     }
 }
 
-/// What a collection is of.
+/// Description of a collection.
 fn about(scene: &Scene) -> Map<String, Value> {
     let origin = &scene.meta.origin;
     let frame = json!({

@@ -12,7 +12,7 @@ use std::fmt;
 
 /// Most bytes of a file once decompressed.
 const MAX_BYTES: u64 = 64 << 20;
-/// Most road users that are looked at.
+/// Most road users that are read.
 pub(super) const MAX_OBJECTS: usize = 2_048;
 /// Most points of a line.
 const MAX_LINE: usize = 100_000;
@@ -64,7 +64,7 @@ pub(super) struct Road {
     pub id: Option<i64>,
 }
 
-/// What a light shows.
+/// State of a signal.
 #[derive(Debug, Deserialize, Serialize)]
 pub(super) struct Light {
     #[serde(deserialize_with = "bounded::<_, _, MAX_STEPS>")]
@@ -81,7 +81,7 @@ pub(super) struct Light {
     pub lane_id: Vec<i64>,
 }
 
-/// A road user whose way is to be predicted.
+/// A road user with motion to be predicted.
 #[derive(Debug, Deserialize, Serialize)]
 pub(super) struct Prediction {
     pub track_index: i64,
@@ -89,7 +89,7 @@ pub(super) struct Prediction {
     pub difficulty: u32,
 }
 
-/// What is said about the recording.
+/// Metadata of a recording.
 #[derive(Debug, Default, Deserialize, Serialize)]
 pub(super) struct Metadata {
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,7 +166,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
         Ok(document) => Ok(document),
         Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
         Err(error) if error.classify() != Category::Data => {
-            Err(ReadError::malformed_json(error.line(), error.column(), plain(&error)))
+            Err(ReadError::malformed_json(&error, plain(&error)))
         }
         // The parser that tracks places is slower, and runs only for a fault.
         Err(error) => {
@@ -180,7 +180,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
     }
 }
 
-/// The message without the place, which is told as numbers.
+/// The message without its position, which is reported as numbers.
 fn plain(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let end = text.rfind(" at line ").unwrap_or(text.len());

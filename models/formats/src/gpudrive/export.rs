@@ -13,7 +13,7 @@ use scene::{Agent, AgentType, Origin, Scene, Shown, Signal, Subtype, Vec2, wrap_
 use std::collections::{BTreeSet, HashMap};
 use std::io;
 
-/// What stands where nobody saw a road user.
+/// Value of steps at which a road user was not seen.
 const UNSEEN: f64 = -10_000.0;
 
 /// Writes a scene.

@@ -16,7 +16,7 @@ pub(crate) struct EngineFormat {
     notes: &'static str,
 }
 
-/// What an engine reads.
+/// The engine that reads a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flavour {
     /// With heights, ids and what the map elements are, headings in radians.
@@ -44,7 +44,7 @@ pub(crate) static NOCTURNE: EngineFormat = EngineFormat {
          written in degrees, in the plane.",
 };
 
-/// What kind of file it is, by how it begins.
+/// Flavour of a file, by its beginning.
 fn flavour(head: &[u8]) -> Option<Flavour> {
     let object = head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
     let has = |name: &str| head.windows(name.len()).any(|part| part == name.as_bytes());

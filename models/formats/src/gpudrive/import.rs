@@ -16,9 +16,10 @@ use std::f64::consts::TAU;
 
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;
-/// Who is faster than this moves along the heading, m/s.
+/// Above this speed motion follows the heading, m/s.
 const MOVES_MPS: f64 = 2.0;
-/// So many states say how headings are meant, when their mean cosine to the motion is above this.
+/// Least number of moving states, and least mean cosine of heading and motion, that decide the unit of
+/// headings.
 const ENOUGH: i32 = 10;
 const ALONG: f64 = 0.9;
 /// Numbers of the map elements by kind: where the words of lines and edges begin.
@@ -88,8 +89,8 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     settle::settled(scene, map, warnings, options)
 }
 
-/// Headings are degrees where one is more than a turn in radians. Else they are what the engine has, unless those
-/// who move go along them as the other.
+/// Headings are degrees if one is more than a turn in radians. Otherwise the engine's unit holds, unless
+/// moving road users agree with the other unit.
 fn in_degrees(objects: &[Object], usual: bool) -> bool {
     let (mut count, mut degrees, mut radians) = (0, 0.0, 0.0);
     for object in objects {

@@ -1,4 +1,4 @@
-//! One page of HTML with the scene playing inside: for whoever has a browser and nothing else. No server, no network.
+//! One HTML page that plays the scene in any browser, without server or network.
 
 use crate::format::{
     ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,

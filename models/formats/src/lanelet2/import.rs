@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Heads up to this far apart stand at one junction, metres.
 const JUNCTION_M: f64 = 60.0;
-/// What an extract of OpenStreetMap is.
+/// Hint in the refusal of an OpenStreetMap extract.
 const EXTRACT: &str = "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
 
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
@@ -192,7 +192,7 @@ fn line_type(tags: &Tags) -> Option<&'static str> {
     })
 }
 
-/// Draws the painted sides of lanelets, each once, and says whom they bound.
+/// Draws the painted sides of lanelets, each once, and links them to the lanes that they bound.
 fn paint(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
     let mut done = HashSet::new();
     for (lanelet, drawn) in lanelets.iter().zip(lanes) {

@@ -12,7 +12,7 @@ const MAX_NODES: usize = 800_000;
 const MAX_WAYS: usize = 100_000;
 const MAX_RELATIONS: usize = 40_000;
 const MAX_REFERENCES: usize = 2_000_000;
-/// What is said of points, lines and relations that is looked at.
+/// Keys of the tags that are read.
 const KEYS: [&str; 14] = [
     "local_x",
     "local_y",
@@ -34,7 +34,7 @@ const VALUE_CHARS: usize = 60;
 /// Farthest a local coordinate may lie from its origin, metres.
 const MAX_SOURCE_M: f64 = 1e8;
 
-/// What is said of something, by key.
+/// Tags by key.
 pub(super) type Tags = HashMap<&'static str, String>;
 
 /// A line of points.
@@ -67,7 +67,7 @@ pub(super) struct Osm {
     pub ways: HashMap<i64, OsmWay>,
     /// In the order of the file.
     pub relations: Vec<OsmRelation>,
-    /// Where the file gives nothing but degrees.
+    /// Present if the file has only degrees.
     pub projection: Option<TransverseMercator>,
 }
 

@@ -90,7 +90,7 @@ impl TrackDoc {
         ];
         for (name, column) in columns.into_iter().chain(self.z_m.as_ref().map(|z| ("z_m", z))) {
             if column.len() != steps {
-                let detail = format!("{} values, as many as x_m ({steps}) expected", column.len());
+                let detail = format!("{} values; {steps} expected, as in x_m", column.len());
                 problems.invalid(format!("{pointer}/{name}"), detail);
             }
         }
@@ -192,10 +192,10 @@ pub struct AgentDoc {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub height_m: Option<f64>,
-    /// What was recorded; empty when absent.
+    /// Recorded track; empty when absent.
     #[serde(default)]
     pub track: TrackDoc,
-    /// What the user fixed.
+    /// Conditions fixed by the user.
     #[serde(default)]
     pub conditions: ConditionsDoc,
 }

@@ -1,4 +1,4 @@
-//! What a user fixes about one road user, as a document.
+//! Conditions of one road user, as a document.
 
 use super::value::words;
 use scene::AgentType;
@@ -85,7 +85,7 @@ pub struct VelocityDoc {
     pub left_mps: Option<f64>,
 }
 
-/// Where a road user starts; absent or null is free.
+/// Start of a road user; absent or null is free.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = start_rules)]
@@ -111,7 +111,7 @@ pub struct StartDoc {
     pub velocity: Option<VelocityDoc>,
 }
 
-/// Where a road user should be at `time_s`; absent or null is free.
+/// Position and state that a road user should have at `time_s`; absent or null is free.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = goal_rules)]

@@ -17,7 +17,7 @@ pub const FORMAT: &str = "dragtraffic.scene";
 /// Newest version that this reader knows.
 pub const VERSION: u64 = 1;
 
-/// Where the scene lies in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
+/// Position of the scene in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(missing_docs, reason = "the names say it")]
@@ -33,7 +33,7 @@ pub struct OriginDoc {
     pub crs: Option<String>,
 }
 
-/// Where the scene came from and what people say about it.
+/// Source of the scene, and notes on it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MetaDoc {
@@ -75,7 +75,7 @@ pub struct TimeDoc {
     #[serde(default = "step_s")]
     #[schemars(extend("const" = 0.1))]
     pub step_s: f64,
-    /// How many steps the scene spans.
+    /// Number of steps of the scene.
     #[schemars(range(min = 1, max = 600))]
     pub steps: u64,
     /// The source's "current" step.
@@ -118,7 +118,7 @@ impl JsonSchema for RunDoc {
 pub struct SignalDoc {
     /// Lane that obeys it.
     pub lane: String,
-    /// Where to stop.
+    /// Stop position.
     #[serde(default)]
     pub stop_m: Option<PointDoc>,
     /// Run-length states; first steps rise.
@@ -127,7 +127,7 @@ pub struct SignalDoc {
     pub states: Vec<RunDoc>,
 }
 
-/// How a document carries its map.
+/// Form of the map in a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapForm {
     /// The whole map.
@@ -153,7 +153,7 @@ pub struct SceneDoc {
     #[serde(default)]
     #[schemars(length(max = 200))]
     pub name: String,
-    /// Where it came from.
+    /// Source and notes.
     #[serde(default)]
     pub meta: MetaDoc,
     /// Steps.
@@ -168,7 +168,7 @@ pub struct SceneDoc {
     #[serde(default)]
     #[schemars(length(max = 256))]
     pub agents: Vec<AgentDoc>,
-    /// What the generator added.
+    /// Futures added by the generator.
     #[serde(default)]
     pub generated: Option<GeneratedDoc>,
     /// Members under `x_` keys, kept as they are; any other is refused.
@@ -176,7 +176,7 @@ pub struct SceneDoc {
     pub extra: Members<AnyDoc>,
 }
 
-/// Schema of "other members only under `x_` keys", which serde's flatten cannot say.
+/// Schema of "other members only under `x_` keys", which serde's flatten cannot express.
 fn only_x_members(schema: &mut Schema) {
     schema.insert("additionalProperties".into(), false.into());
     schema.insert("patternProperties".into(), serde_json::json!({"^x_": true}));

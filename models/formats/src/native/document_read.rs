@@ -1,5 +1,5 @@
-//! Parsing of the outermost object. Serde's own flatten would keep every member that it does not know
-//! in memory before anyone could refuse it.
+//! Parsing of the outermost object. Serde's own flatten would keep every member that it does not know in
+//! memory before it could be refused.
 
 use super::any::AnyDoc;
 use super::document::SceneDoc;

@@ -37,13 +37,13 @@ pub struct FutureDoc {
     pub vx_mps: Vec<f64>,
     /// m/s.
     pub vy_mps: Vec<f64>,
-    /// What is wrong with it, the worst first.
+    /// Faults, the worst first.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, 64>")]
     pub faults: Vec<Fault>,
-    /// How it stands to others.
+    /// Relations to other road users.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, 64>")]
     pub relations: Vec<Relation>,
-    /// What it does.
+    /// Manoeuvre.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub manoeuvre: Option<Manoeuvre>,
 }
@@ -73,7 +73,7 @@ pub struct SampleDoc {
     pub score: AnyDoc,
 }
 
-/// What the generator added to a scene.
+/// Futures that the generator added to a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GeneratedDoc {
@@ -134,7 +134,7 @@ impl FutureDoc {
             ("vy_mps", self.vy_mps.len()),
         ];
         for (name, length) in columns.into_iter().filter(|c| c.1 != steps) {
-            let detail = format!("{length} values, as many as x_m ({steps}) expected");
+            let detail = format!("{length} values; {steps} expected, as in x_m");
             problems.invalid(format!("{pointer}/{name}"), detail);
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);

@@ -26,9 +26,9 @@ pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
 
 /// Most bytes of a document that is read as a whole, which is faster.
 const WHOLE_BYTES: u64 = 8 << 20;
-/// What it takes to find that a text is longer, and what is held of a long one while it is parsed.
+/// Memory to detect a longer text, and to hold a long one while it is parsed.
 const WHOLE_MEMORY: u64 = 24 << 20;
-/// What a value takes: eight bytes, and half as much while its list grows.
+/// Memory of a value, bytes: eight, and half as much while its list grows.
 const VALUE_MEMORY: u64 = 12;
 
 /// The text of a document.
@@ -114,7 +114,7 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     error: &serde_json::Error,
 ) -> ReadError {
     if error.classify() != Category::Data {
-        return ReadError::malformed_json(error.line(), error.column(), reason(error));
+        return ReadError::malformed_json(error, reason(error));
     }
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),

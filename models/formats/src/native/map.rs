@@ -171,7 +171,7 @@ pub struct StopSignDoc {
     /// Unique among stop signs.
     #[schemars(schema_with = "id")]
     pub id: String,
-    /// Where it stands.
+    /// Position of the sign.
     pub position_m: PointDoc,
     /// Ids of lanes that obey it.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
@@ -263,7 +263,7 @@ struct MapWire {
     drivable: Vec<DrivableDoc>,
 }
 
-/// A member that is there is not null: an empty map must not come of it.
+/// A present member is not null: null must not become an empty map.
 fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
     String::deserialize(deserializer).map(Some)
 }

@@ -54,13 +54,13 @@ pub struct Window {
 }
 
 impl Default for Window {
-    /// As wide as any window of any scene: for conditions that are stored, not yet asked for.
+    /// The widest window of any scene: for stored conditions without a request.
     fn default() -> Self {
         Self { start_s: 0.0, horizon_s: 80.0 }
     }
 }
 
-/// What conditions are read against.
+/// Context in which conditions are read.
 #[derive(Clone, Copy, Debug)]
 pub struct Context {
     /// The road user's own type.

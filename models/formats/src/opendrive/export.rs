@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::polyline::{arc_lengths, distance_to, length};
+use crate::sentences;
 use scene::geometry::polyline::Polyline;
 use scene::map::{LaneMap, LaneType};
 use scene::{Scene, Vec2};
@@ -88,7 +89,7 @@ fn header(scene: &Scene, out: &mut Markup) {
     out.close();
 }
 
-/// What stands and lies beside roads, by road.
+/// Objects beside each road.
 #[derive(Default)]
 struct Roadside {
     /// Lights: position among the scene's, where traffic stops.
@@ -406,9 +407,9 @@ fn write_junction(number: usize, connecting: &[usize], drawn: &Roads<'_>, out: &
 fn losses(scene: &Scene, drawn: &Roads<'_>, off_m: f64) -> Vec<Loss> {
     let map: &LaneMap = &scene.map;
     let mut losses = Vec::new();
+    let drawn = sentences::loss_lane_lines(1e3 * off_m, drawn.cut);
+    losses.push(Loss::counted(code::GEOMETRY_APPROXIMATED, drawn));
     let mut lose = |lost: bool, code, detail: String| losses.extend(lost.then(|| Loss::new(code, detail)));
-    let detail = format!("lanes are lines within {off_m:.3} m, and {} begin with a way into them", drawn.cut);
-    lose(true, code::GEOMETRY_APPROXIMATED, detail);
     lose(!scene.agents.is_empty(), code::NO_ROAD_USERS, "road users and their motion".into());
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
     lose(lines, code::NO_LINES, "painted lines and road edges".into());

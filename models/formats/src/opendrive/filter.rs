@@ -1,9 +1,9 @@
-//! What a scene shows of an OpenDRIVE file, written again within bounds.
+//! Rewrites the parts of an OpenDRIVE file that a scene shows, within limits.
 //!
-//! The crate that reads maps builds whatever a file asks for, and takes the time and memory of it. So a file goes
-//! through here first, element by element: what becomes a part of a scene is kept, counted and held to bounds that
-//! real maps are far from; the rest (surfaces, boards, railways, what lies in other files) is left out. Coordinates
-//! are moved to the middle of the file's first road, since the crate keeps them in single precision.
+//! The crate that reads maps builds anything that a file requests, at any cost of time and memory. Each file
+//! is therefore filtered first, element by element. Parts that a scene shows are kept, counted and bounded by
+//! limits far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates
+//! move to the middle of the file's first road, because the crate keeps them in single precision.
 
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
@@ -31,9 +31,9 @@ const MAX_OBJECTS: usize = 10_000;
 /// Longest reference lines, and longest lanes, all together, metres.
 const MAX_LINES_M: f64 = 500_000.0;
 const MAX_LANES_M: f64 = 500_000.0;
-/// What reading takes of memory at most for each metre of lane, for each lane of a section, for each element and for
-/// each byte that is kept: points, borders and edges that cross; what a lane is however short; nodes; the text and its
-/// copy in the tree.
+/// Most memory, bytes, for each metre of lane, each lane of a section, each element and each byte that is
+/// kept. It covers points, borders and crossing edges; the fixed cost of a lane; nodes; the text and its copy
+/// in the tree.
 const LANE_MEMORY: f64 = 800.0;
 const LANE_OWN_MEMORY: f64 = 4_000.0;
 const ELEMENT_MEMORY: f64 = 700.0;
@@ -77,7 +77,7 @@ const KEPT: &[(&str, &[&str])] = &[
     ("junction", &["connection", "controller"]),
     ("connection", &["laneLink", "predecessor", "successor"]),
 ];
-/// Elements that say something which a scene does not show, by what people are told.
+/// Elements that a scene does not show, with their names in messages.
 const LEFT_OUT: &[(&str, &str)] = &[
     ("superelevation", "superelevation"),
     ("crossfall", "crossfall"),
@@ -97,17 +97,17 @@ const LEFT_OUT: &[(&str, &str)] = &[
 pub(super) struct Filtered {
     /// OpenDRIVE, well-formed.
     pub text: String,
-    /// Where its origin lies in the file's frame, whole metres.
+    /// Origin in the file's frame, whole metres.
     pub origin: Vec2,
-    /// What the file says of its projection.
+    /// Projection named by the file.
     pub projection: Option<String>,
-    /// How many of what were left out.
+    /// Number of dropped elements, by name.
     pub left_out: BTreeMap<&'static str, usize>,
     /// Lanes that stand above the road: road id, lane section, lane id.
     pub raised: HashSet<(String, usize, i32)>,
     /// Traffic keeps to the left, by road id.
     pub left_hand: HashSet<String>,
-    /// What was wrong and was put right.
+    /// Faults that were repaired.
     pub faults: Vec<String>,
 }
 
@@ -135,10 +135,10 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
 #[derive(Default)]
 struct Road {
     id: String,
-    /// As it is said; as the reference line has it, which ends there.
+    /// Length stated by the file, and length of the reference line.
     length_m: f64,
     line_m: f64,
-    /// Where the length stands in the text.
+    /// Position of the length in the text.
     length_at: Range<usize>,
     /// Elements that are looked for along it.
     records: usize,
@@ -171,7 +171,7 @@ struct Filter {
     objects: usize,
     lines_m: f64,
     lanes_m: f64,
-    /// Of those that are drawn: all but the middle ones.
+    /// Metres of drawn lanes: all but the centre lanes.
     drawn_m: f64,
     steps: f64,
     /// Most bytes of memory.
@@ -314,7 +314,7 @@ impl Filter {
         Ok(())
     }
 
-    /// What is made of all that is kept stays within the memory for a file of this size.
+    /// Checks that the result fits the memory for a file of this size.
     fn fits(&self) -> Result<(), ReadError> {
         let made = LANE_MEMORY * self.drawn_m
             + LANE_OWN_MEMORY * self.lanes as f64

@@ -54,7 +54,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let approximated = marks::draw(&network, &provenance, &sections, &found, &mut map, &mut id);
     let strips = strips(&network, &sections);
     let ways = ways(&sections, &found, &map);
-    // What is left of the lanes is in the map now.
+    // The map holds all that is needed of the lanes.
     drop(sections);
     let whole = surface::draw(&mut map, &strips, &ways, &mut id);
     bounds::by_edges(&mut map);
@@ -96,7 +96,7 @@ fn strip(network: &RoadNetwork, section: &Section, from: usize, to: usize) -> Op
     let lanes = section.lanes.get(from..to)?;
     let (first, last) =
         (lanes.iter().find(|l| carries_vehicles(l))?, lanes.iter().rfind(|l| carries_vehicles(l))?);
-    // Who drives along the road has the oncoming traffic to the left, or to the right where one keeps left.
+    // A driver has oncoming traffic on the left, or on the right in left-hand traffic.
     let inner_is_left = |direction| (direction != Direction::Backward) != section.left_hand;
     let goes_on = |at_end: bool| {
         section.junction.is_some()
@@ -117,7 +117,7 @@ fn strip(network: &RoadNetwork, section: &Section, from: usize, to: usize) -> Op
     })
 }
 
-/// Lines that traffic follows, where its lanes are of some width, and from each lane to those that follow it.
+/// Centre lines of lanes wide enough for traffic, and of the connections to their successors.
 fn ways(sections: &[Section], found: &Found, map: &LaneMap) -> Vec<Vec<Vec2>> {
     let mut ways = Vec::new();
     let mut wide = vec![[false; 2]; map.lanes.len()];

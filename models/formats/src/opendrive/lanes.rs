@@ -13,7 +13,7 @@ const SPACING_M: f64 = 1.0;
 const NARROWEST_M: f64 = 0.5;
 /// A two-way lane and the next one belong together the way round in which their ends meet, metres.
 const MEETING_M: f64 = 2.0;
-/// Where a lane opens or closes beside another, it begins and ends at this width, metres.
+/// Lanes that open or close beside another begin and end at this width, metres.
 const OPEN_M: f64 = 2.0;
 /// Border lanes up to this width are the paved edge of the road, metres; wider ones are what lies beside it.
 const PAVED_BORDER_M: f64 = 2.0;
@@ -25,14 +25,14 @@ pub(super) struct NetworkLane {
     pub lane: usize,
     /// In the direction of the road.
     pub forward: bool,
-    /// Where each of its points lies among the points of the section's lane.
+    /// Position of each point among the points of the section's lane.
     pub places: Vec<f64>,
 }
 
 /// Which lanes of a map were made of which lanes of the network; a two-way lane gives two.
 pub(super) type Found = HashMap<LaneId, Vec<NetworkLane>>;
 
-/// What a lane of this kind is in a scene; nothing where nobody travels.
+/// Type of a lane in a scene; `None` if it carries no road users.
 fn lane_type(lane: &SectionLane, motorway: bool) -> Option<LaneType> {
     if lane.widest_m() < NARROWEST_M {
         return None;
@@ -97,7 +97,7 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMa
                     lane_type,
                     width_m: Some(told(lane.mean_width_m()).clamp(0.1, 50.0)),
                     speed_limit_mps: limit.filter(|_| lane_type != LaneType::Sidewalk),
-                    // On a motorway nobody crosses where ramps join or leave.
+                    // On a motorway, ramps join and leave without crossing traffic.
                     interpolating: interpolating && lane_type != LaneType::Freeway,
                     ..Lane::street(id_of(section, lane, forward, &mut ids), points)
                 });
@@ -122,12 +122,12 @@ fn id_of(section: &Section, lane: &SectionLane, forward: bool, ids: &mut HashSet
     id
 }
 
-/// The network's numbers are single: no more of them is told than they have.
+/// Rounds to the precision of the network's single-precision numbers.
 fn told(v: f64) -> f64 {
     (v * 1e4).round() / 1e4
 }
 
-/// Whether something is linked to a lane at its beginning and its end along the road.
+/// Whether a lane is linked at its beginning and at its end along the road.
 fn linked(network: &RoadNetwork, lane: &SectionLane) -> [bool; 2] {
     let Some(found) = network.lane(lane.id) else { return [true; 2] };
     let (before, after) = (!found.predecessors.is_empty(), !found.successors.is_empty());
@@ -138,8 +138,8 @@ fn linked(network: &RoadNetwork, lane: &SectionLane) -> [bool; 2] {
     }
 }
 
-/// Points of a lane, and their places among those of the section. An end at which nothing is linked
-/// begins where the lane is wide enough to be used. `linked` tells of its two ends.
+/// Points of a lane, and their positions among those of the section. An end without a link begins where the
+/// lane is wide enough to be used. `linked` holds both ends.
 fn points(lane: &SectionLane, forward: bool, linked: [bool; 2]) -> (Points, Vec<f64>) {
     let length_m = crate::polyline::length(&lane.center);
     let mut line = dense(&lane.center, &lane.tangents, SPACING_M.max(length_m / MAX_PIECES as f64));

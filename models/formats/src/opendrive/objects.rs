@@ -33,7 +33,7 @@ pub(super) fn crosswalks(
     let all = network.objects().iter().filter(|object| object.kind == ObjectType::Crosswalk);
     let mut rings: Vec<Vec<Vec2>> = all.filter_map(|object| ring(object, frame)).collect();
     for ring in &mut rings {
-        // An outline that says its first corner again.
+        // An outline that repeats its first corner.
         if ring.len() > 3 && (ring[0] - ring[ring.len() - 1]).norm() < 0.01 {
             ring.pop();
         }
@@ -42,7 +42,7 @@ pub(super) fn crosswalks(
     rings.into_iter().map(area).collect()
 }
 
-/// The middles of painted stop lines, with the lanes that they are said to be for.
+/// Centres of painted stop lines, with the lanes that the file assigns to them.
 pub(super) fn stop_lines<'a>(
     network: &'a RoadNetwork,
     frame: &'a NetworkFrame,

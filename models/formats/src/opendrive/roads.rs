@@ -17,7 +17,7 @@ const BENT_M: f64 = 2.0;
 /// Reference lines are within this of centre lines, in pieces no longer than, metres.
 const KEPT_M: (f64, f64) = (0.02, 1_000.0);
 
-/// What an end of a road leads to.
+/// Target of a road's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RoadLink {
     /// The other end of that road.
@@ -28,7 +28,7 @@ pub(super) enum RoadLink {
 /// A road of one lane.
 #[derive(Clone, Debug)]
 pub(super) struct Road<'a> {
-    /// Whose type, width and limit it has.
+    /// Lane that gives type, width and limit.
     pub lane: &'a Lane,
     pub points: Vec<Vec2>,
     /// The same in fewer points: the reference line.
@@ -71,7 +71,7 @@ impl LaneLinks {
                 connectors.insert(i, (*from, *to));
             }
         }
-        // A lane that is entered through a cut beginning is entered so by everybody.
+        // If one connection enters a lane through its cut beginning, every connection does.
         loop {
             let plain = |a: usize, b: usize| outs[a].len() == 1 && ins[b].len() == 1;
             let bare = |a: &usize, b: &usize| !connectors.contains_key(a) && !connectors.contains_key(b);
@@ -121,7 +121,7 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
             let lane = &map.lanes[*b];
             connecting.push((all.len(), *a, *b));
             let mut points = part(&lane.points.xy, 0.0, cut_m(&lane.points.xy));
-            // Where the lanes do not quite meet, it leads from one to the other.
+            // If the lanes have a small gap, the connector bridges it.
             if let (Some(first), Some(end)) = (points.first_mut(), map.lanes[*a].points.xy.last()) {
                 *first = *end;
             }

@@ -103,8 +103,8 @@ fn lanes_of(signal: &Signal, found: &Found, map: &LaneMap) -> Vec<(LaneId, usize
     drawn.filter(ruled).collect()
 }
 
-/// Where the traffic of a lane waits: at the line painted there, else where the signal applies. What rules a way
-/// through a junction holds traffic back at its beginning.
+/// Stop position of a lane: its painted stop line, else the position of the signal. A signal for a connecting
+/// road stops traffic at the road's beginning.
 fn stop(
     signal: &Signal,
     frame: &NetworkFrame,

@@ -9,11 +9,11 @@ use scene::geometry::direction;
 use scene::{Agent, AgentType, STEP_S, Scene, Shown, Size, State, Subtype};
 use std::collections::{BTreeSet, HashSet};
 
-/// Where the rear axle lies behind the middle of a vehicle, and the front axle before it, as shares of the length.
-/// Scenarios say where rear axles are.
+/// Distance of the rear axle behind the middle of a vehicle and of the front axle ahead of it, as shares of
+/// the length. Scenarios give positions of the rear axle.
 const REAR: f64 = 0.3;
 const FRONT: f64 = 0.3;
-/// What a scenario must say of vehicles and nothing in a scene does: greatest speed, acceleration and braking.
+/// Vehicle properties that a scenario requires and a scene lacks: maximum speed, acceleration and braking.
 const PERFORMANCE: [(&str, &str); 3] =
     [("maxSpeed", "70"), ("maxAcceleration", "10"), ("maxDeceleration", "10")];
 /// Day of files that do not depend on when they were written.
@@ -24,7 +24,7 @@ struct ScenarioEntity<'a> {
     name: String,
     agent: &'a Agent,
     shown: Shown<'a>,
-    /// Steps at which it is there, one at least.
+    /// Steps with a state, at least one.
     states: Vec<(usize, State)>,
 }
 
@@ -108,7 +108,7 @@ fn header(scene: &Scene, out: &mut Markup) {
     out.close();
 }
 
-/// Road users that are there at some step, each with a name of its own.
+/// Road users with a state at some step, each with a unique name.
 fn road_users<'a>(
     scene: &'a Scene,
     options: &ExportOptions,
@@ -352,7 +352,7 @@ fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
         vertex((*step, state), out);
     }
     if let [(step, state)] = &road_user.states[..] {
-        // A line has two points: whoever is seen once stays a moment.
+        // A polyline needs two points: a road user seen once stays for one step.
         vertex((step + 1, state), out);
     }
     out.close();

@@ -1,4 +1,4 @@
-//! What lights show, as programs that run once.
+//! Signal states, as programs that run once.
 
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};

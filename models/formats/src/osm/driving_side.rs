@@ -1,4 +1,4 @@
-//! On which side of the road people drive at a place. Extracts do not say.
+//! Side of the road on which traffic drives at a position. Extracts lack it.
 
 /// Land where people drive on the left, as boxes of south, north (degrees of latitude), west, east (of longitude);
 /// none of them holds a road of a neighbour that drives on the right.

@@ -1,5 +1,5 @@
-//! What netconvert needs of an extract: roads, the points that they have, which turns are allowed. All else is left
-//! out, so that what is handed to another program is small and of our own writing.
+//! The parts of an extract that netconvert needs: roads, their nodes, and turn restrictions. The rest is
+//! dropped, so that the other program receives a small file written here.
 
 use crate::markup::Markup;
 use crate::osm_items::{Member, OsmElement, each};
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!(text.matches("<relation").count(), 1);
         assert!(text.contains(r#"v="a &amp; &quot;b&quot;""#));
         assert!((found.middle.0 - 48.1005).abs() < 1e-9);
-        // What was written reads again to the same.
+        // The written file reads back unchanged.
         assert_eq!(extract(text).unwrap().xml, found.xml);
     }
 

@@ -13,7 +13,7 @@ use crate::{unpack, xml};
 use scene::Scene;
 use std::io;
 
-/// Licence of all of OpenStreetMap's data, and what it asks to be told.
+/// Licence of OpenStreetMap data, and the attribution that it requires.
 const LICENCE: &str = "odbl";
 const ATTRIBUTION: &str = "Map data © OpenStreetMap contributors, available under the Open Database License.";
 /// Names of programs that cut extracts.
@@ -21,8 +21,9 @@ const PROGRAMS: [&str; 7] =
     ["openstreetmap", "cgimap", "overpass", "osmium", "osmosis", "osmconvert", "osmfilter"];
 /// Name of the file that netconvert is given.
 const FILE: &str = "extract.osm";
-/// How netconvert makes junctions that people can use of roads without lanes: nodes of one junction become one,
-/// pavements, crossings and cycle lanes are drawn where they are said or usual, signals get a fixed program.
+/// Arguments with which netconvert makes usable junctions of roads without lanes. It joins nodes of one
+/// junction, adds pavements, crossings and cycle lanes where tagged or usual, and gives signals a fixed
+/// program.
 const ARGUMENTS: [&str; 17] = [
     "--geometry.remove",
     "--junctions.join",
@@ -42,7 +43,7 @@ const ARGUMENTS: [&str; 17] = [
     "--offset.disable-normalization",
     "--no-warnings",
 ];
-/// What is left out: ways that nobody of a scene uses.
+/// Vehicle classes whose ways are kept.
 const LANES_OF: &str = "passenger,bus,delivery,bicycle,pedestrian";
 
 /// An extract of OpenStreetMap (`.osm`), plain or gzip: a scene with a map and signals, without road users. Needs
@@ -86,7 +87,7 @@ fn network(options: &ImportOptions, xml: &[u8], projection: &str, left: bool) ->
     })
 }
 
-/// What is missing, and how to get it.
+/// What is missing, and how to install it.
 const WITHOUT: &str = "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with \
     `pip install eclipse-sumo` and start again";
 

@@ -1,5 +1,5 @@
-//! Extracts of OpenStreetMap, as they are saved from its website. They say where roads run and little of lanes
-//! and junctions; SUMO's netconvert knows how to make a network of them, and that is read as any other.
+//! Extracts of OpenStreetMap, as they are saved from its website. They hold roads, but little about lanes and
+//! junctions; SUMO's netconvert makes a network of them, which is read as any other.
 
 mod driving_side;
 pub(crate) mod extract;

@@ -16,19 +16,19 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Most scenes of one recording: a day of it.
 const MAX_WINDOWS: usize = 10_000;
-/// A file whose coordinates stay this near to its zero keeps its frame, metres.
+/// A file whose coordinates stay within this distance of its zero keeps its frame, metres.
 const NEAR_M: f64 = 1_000.0;
-/// Most answers, and most futures of a road user in one, that a scene document holds.
+/// Most samples, and most futures of a road user in one, that a scene document holds.
 const MAX_FUTURES: (usize, usize) = (256, 64);
 /// Greatest speed along an axis, as of a track, m/s.
 const MAX_SPEED_MPS: f64 = 150.0;
 
-/// What a file says of a scenario beside the motion in it.
+/// Description of a scenario in a file, beside the motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Said {
     pub name: String,
     pub meta: Meta,
-    /// Where the scene lies in the file's frame; found where absent.
+    /// Origin of the scene in the file's frame; derived when absent.
     pub origin: Option<Origin>,
     /// Time of the first step in the file, seconds; that of the first sample where absent.
     pub start_s: Option<f64>,
@@ -53,7 +53,7 @@ pub(crate) struct RecordedFuture {
     pub samples: Vec<RecordedState>,
 }
 
-/// All that a file says of a scenario.
+/// Content of a scenario in a file.
 #[derive(Default)]
 pub(crate) struct Recording {
     pub said: Said,
@@ -62,7 +62,7 @@ pub(crate) struct Recording {
 }
 
 impl Recording {
-    /// Its scenes. Each is made when it is asked for.
+    /// The scenes, each built on demand.
     pub fn scenes(mut self) -> impl Iterator<Item = Result<Imported, ReadError>> {
         let can_be = |time: &Timing| (1..=MAX_STEPS).contains(&time.steps) && time.now_step < time.steps;
         self.said.timing = self.said.timing.filter(can_be);
@@ -100,7 +100,7 @@ impl Recording {
     }
 }
 
-/// A recording whose samples are sorted and complete.
+/// A recording with sorted and complete samples.
 struct PreparedRecording {
     recording: Recording,
     spacing_s: f64,
@@ -113,7 +113,7 @@ impl PreparedRecording {
         let windowed = steps > MAX_STEPS;
         let mut list: Vec<usize> = vec![0];
         if windowed {
-            // Those in which anybody is seen: pauses may be as long as they like.
+            // Only windows with a road user: pauses may have any length.
             let window_s = RECORDED_STEPS as f64 * STEP_S;
             let at =
                 |s: &RecordedState| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
@@ -151,7 +151,7 @@ impl PreparedRecording {
         let now_s = start_s + time.now_step as f64 * STEP_S;
         let end_s = start_s + steps as f64 * STEP_S - STEP_S / 2.0;
         let mut warnings = said.warnings.clone();
-        // Where the first motion drawn for a road user begins.
+        // First position of the first future of each road user.
         let mut drawn: HashMap<usize, Vec2> = HashMap::new();
         for future in self.recording.futures.iter().filter(|_| !windowed) {
             if let Some(first) = future.samples.iter().find(|s| s.is_seen()) {
@@ -169,7 +169,7 @@ impl PreparedRecording {
             let at = within.filter(|s| s.is_seen()).min_by(near).map(|s| s.at);
             match at {
                 Some(at) => present.push((i, at)),
-                // Who was never seen is part of a scene that is whole.
+                // A whole scene includes road users that were never seen.
                 None if !windowed => present.push((i, drawn.get(&i).copied().unwrap_or(unseen))),
                 None => {}
             }
@@ -257,8 +257,8 @@ impl PreparedRecording {
         Origin { x_m: at.x, y_m: at.y, ..Origin::default() }
     }
 
-    /// Those that a scene has room for, in the order of the file: near enough to the origin, and nearest to the
-    /// middle of all.
+    /// Road users that fit the scene, in the order of the file: within reach of the origin, and nearest to
+    /// the middle of all.
     fn kept(
         &self,
         present: &[(usize, Vec2)],
@@ -355,7 +355,7 @@ fn can_be(state: &State) -> bool {
     state.position().amax() <= 2.0 * MAX_COORDINATE_M && state.velocity().amax() <= MAX_SPEED_MPS
 }
 
-/// One answer for several road users; probabilities that are not said are even.
+/// One sample for several road users; missing probabilities are even.
 fn answer(agents: Futures<'_>) -> scene::Sample {
     let of_agent = |mut list: Vec<(&RecordedFuture, Future)>| {
         list.sort_by_key(|(drawn, _)| drawn.mode);

@@ -10,12 +10,12 @@ const SAME_S: f64 = 2e-3;
 const MAX_FILLED_S: f64 = 2.0;
 /// Two samples are not further apart than this many times the usual spacing where motion is filled in.
 const USUAL: f64 = 1.5;
-/// Slower than this nobody's way says a heading, m/s.
+/// Below this speed motion gives no heading, m/s.
 const HEADED_MPS: f64 = 0.5;
 /// Faster than this is a jump, m/s.
 const JUMP_MPS: f64 = 100.0;
 
-/// What was worked out because the file does not say it.
+/// Values derived because the file lacks them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Derived {
     pub headings: bool,
@@ -65,7 +65,7 @@ pub(super) fn complete(samples: &mut [RecordedState], spacing_s: f64) -> Derived
         }
         known = Some(samples[i].heading_rad).filter(|h| h.is_finite()).or(known);
     }
-    // Who stands at first looks where it goes later; who never moves, along +x.
+    // A road user that stands at first gets the heading of its later motion; one that never moves, +x.
     let mut next = 0.0;
     for &i in seen.iter().rev() {
         if samples[i].heading_rad.is_nan() {
@@ -107,7 +107,7 @@ pub(super) fn track(
         }
         let Some(b) = tail.get(i + 1) else { continue };
         let gap_s = b.time_s - a.time_s;
-        // A sample that nobody saw ends the motion; so does a pause.
+        // An unseen sample ends the motion; so does a pause.
         if !(a.is_seen() && b.is_seen() && gap_s > STEP_S / 50.0 && gap_s <= longest_s.max(STEP_S / 2.0)) {
             continue;
         }
@@ -138,7 +138,7 @@ pub(super) fn state(sample: &RecordedState, frame: Frame) -> State {
     State { x_m: at.x, y_m: at.y, heading_rad, vx_mps: v.x, vy_mps: v.y }
 }
 
-/// A cubic through two samples with their velocities, which are bounded so that nobody goes backwards (Fritsch and
+/// A cubic through two samples, with velocities bounded so that the motion never runs backwards (Fritsch and
 /// Carlson 1980, the square of side 3).
 fn between(a: &RecordedState, b: &RecordedState, time_s: f64) -> RecordedState {
     let whole_s = b.time_s - a.time_s;

@@ -73,7 +73,7 @@ impl Array {
         self.shape.iter().try_fold(1, |all: usize, n| all.checked_mul(*n)).unwrap_or(usize::MAX)
     }
 
-    /// Its bytes are as many as its shape says.
+    /// Its number of bytes matches its shape.
     pub fn is_whole(&self) -> bool {
         let bytes = self.dtype.and_then(|dtype| self.len().checked_mul(dtype.size));
         self.len() <= MAX_ITEMS && bytes == Some(self.data.len())
@@ -87,7 +87,7 @@ impl Array {
         self.data.get(begin..begin + dtype.size).map(|bytes| (dtype, bytes))
     }
 
-    /// Where an item lies when columns come first.
+    /// Index of an item in column-major order.
     fn by_columns(&self, mut i: usize) -> Option<usize> {
         let (mut at, mut stride) = (0, self.len());
         for n in self.shape.iter().rev() {

@@ -6,6 +6,7 @@ use super::words::{agent_word, signal_word};
 use super::writer::PickleWriter;
 use crate::format::{EGO, ExportOptions, Exported, ExportedMotion};
 use crate::loss::{Loss, code};
+use crate::sentences;
 use crate::unwritten;
 use scene::map::Points;
 use scene::{Agent, STEP_S, Scene, Shown, Subtype};
@@ -13,7 +14,7 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Version of the scenario's description.
 const VERSION: &str = "MetaDrive v0.4.3";
-/// What the data set is called.
+/// Name of the data set.
 const DATASET: &str = "dragtraffic";
 
 /// Writes a scene, in its own frame; where that lies is in the metadata.
@@ -81,7 +82,7 @@ fn metadata(scene: &Scene, steps: usize, id: &str, w: &mut PickleWriter) {
     });
 }
 
-/// What the format has no word for and readers of it pass over.
+/// Members that the format lacks and other readers ignore.
 fn own(scene: &Scene, w: &mut PickleWriter) {
     let meta = &scene.meta;
     w.dict(|w| {
@@ -200,21 +201,13 @@ fn tell(scene: &Scene, motion: ExportedMotion, losses: &mut BTreeSet<Loss>) {
     // Half of the least step between two numbers of 24 bits.
     let off_m = largest.chain(lines).fold(1.0, f64::max) / f64::from(1 << 24);
     let all = [
-        (
-            true,
-            code::GEOMETRY_APPROXIMATED,
-            format!("numbers are of single precision: off by up to {off_m:.6} m"),
-        ),
-        (unknown, code::NO_Z, "heights that nobody knows become zero".to_owned()),
-        (
-            agents.iter().any(|a| a.subtype != Subtype::Unknown),
-            code::NO_SUBTYPE,
-            "finer kinds such as truck".into(),
-        ),
-        (roles, code::NO_ROLES, "roles other than the ego's".into()),
-        (!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas".into()),
-        (noted, code::NO_NOTES, "the scene it was made of, members of other tools".into()),
+        (unknown, code::NO_Z, "heights that nobody knows become zero"),
+        (agents.iter().any(|a| a.subtype != Subtype::Unknown), code::NO_SUBTYPE, "finer kinds such as truck"),
+        (roles, code::NO_ROLES, "roles other than the ego's"),
+        (!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas"),
+        (noted, code::NO_NOTES, "the scene it was made of, members of other tools"),
     ];
+    losses.insert(Loss::counted(code::GEOMETRY_APPROXIMATED, sentences::loss_single_precision(1e6 * off_m)));
     losses.extend(
         all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)),
     );

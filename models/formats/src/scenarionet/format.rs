@@ -8,7 +8,7 @@ use crate::unpack;
 use scene::Scene;
 use std::io;
 
-/// Protocols of pickles that say which one they are.
+/// Protocols of pickles that state their number.
 const PROTOCOLS: std::ops::RangeInclusive<u8> = 2..=5;
 
 /// ScenarioNet scenarios (`sd_*.pkl`). Pickles are read by a machine that calls nothing.

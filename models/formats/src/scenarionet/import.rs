@@ -20,11 +20,11 @@ use std::io::Read;
 
 /// Most bytes of a file once decompressed.
 const MAX_BYTES: u64 = 64 << 20;
-/// Most road users that are looked at.
+/// Most road users that are read.
 const MAX_TRACKS: usize = 2_048;
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;
-/// What a dictionary of ours is under, in the metadata.
+/// Key of this program's dictionary in the metadata.
 pub(super) const OWN: &str = "dragtraffic";
 
 fn invalid(pointer: &str, detail: impl Into<String>) -> ReadError {
@@ -130,7 +130,7 @@ fn other_sort(pickle: &Pickle) -> ReadError {
     FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()
 }
 
-/// How many steps there are: those of the longest track.
+/// Number of steps: that of the longest track.
 fn steps(pickle: &Pickle, tracks: &PickleValue) -> Result<usize, ReadError> {
     let all = pickle.entries(tracks).ok_or_else(|| invalid("/tracks", "a dictionary expected"))?;
     let stated = pickle.get(&pickle.root, "length").and_then(|value| pickle.whole(value)).unwrap_or(0);
@@ -254,7 +254,7 @@ fn agent(pickle: &Pickle, id: &str, track: &PickleValue, steps: usize) -> Result
     Ok((agent, varies))
 }
 
-/// What has to be predicted, by the ids of the scene.
+/// Tracks to predict, by the ids of the scene.
 fn predictions(pickle: &Pickle, metadata: &PickleValue, ids: &HashMap<String, String>) -> Vec<(String, u32)> {
     let listed = pickle.get(metadata, "tracks_to_predict").and_then(|value| pickle.entries(value));
     let one = |(key, value): &(PickleValue, PickleValue)| {
@@ -319,7 +319,7 @@ fn signals(
         }
         let stop =
             pickle.get(light, "stop_point").and_then(|value| pickle.rows(value, 3)).map(|(_, stop)| stop);
-        // Zeros stand for a place that nobody knows.
+        // Zeros mean an unknown position.
         let stop = stop.filter(|stop| {
             stop.len() >= 2 && stop.iter().all(|v| v.is_finite()) && stop.iter().any(|v| *v != 0.0)
         });
@@ -340,7 +340,7 @@ fn signals(
     Ok(signals)
 }
 
-/// What a light shows at each step.
+/// Signal states at each step.
 fn words(pickle: &Pickle, states: &PickleValue, steps: usize) -> Vec<SignalState> {
     let state = |word: Option<String>| word.map_or(SignalState::Unknown, |word| signal_state(&word));
     if let Some(array) = pickle.array(states) {

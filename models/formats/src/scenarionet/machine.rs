@@ -20,7 +20,7 @@ const MAX_DEPTH: usize = 64;
 /// Longest line of the older protocols, and longest name.
 const MAX_LINE: usize = 1 << 20;
 
-/// What a name stands for.
+/// Meaning of a global name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Known {
     /// An array to be filled by what follows.
@@ -36,10 +36,10 @@ enum Known {
     /// An array of bytes, a type and a shape.
     FromBuffer,
     Dict,
-    /// One whose first argument is what it makes of missing keys.
+    /// A dictionary whose first argument is the default factory.
     DefaultDict,
     List,
-    /// Bytes of a text whose letters are below 256.
+    /// Bytes from a text with code points below 256.
     Encode,
 }
 
@@ -93,7 +93,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Pickle, ReadError> {
 struct Machine<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// Where the present instruction begins.
+    /// Offset of the current instruction.
     op: usize,
     stack: Vec<PickleValue>,
     marks: Vec<usize>,
@@ -205,7 +205,7 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// What was put on the stack since the last mark.
+    /// Pops the stack down to the last mark.
     fn since_mark(&mut self) -> Done<Vec<PickleValue>> {
         let mark = self.marks.pop().ok_or_else(|| self.broken("the end of what was not begun"))?;
         Ok(self.stack.split_off(mark.min(self.stack.len())))
@@ -216,7 +216,7 @@ impl<'a> Machine<'a> {
         if place >= MAX_MEMO {
             return Err(self.too_many(MAX_MEMO, "things to remember"));
         }
-        // Places come one after another; a far one may not ask for all before it.
+        // Memo indices are consecutive; a large one must not allocate all before it.
         if place > self.memo.len() + 1024 {
             return Err(self.broken("a place of the memory out of turn"));
         }
@@ -466,7 +466,7 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// What a known name makes of its arguments.
+    /// Applies a known name to its arguments.
     fn reduce(&mut self, callee: &PickleValue, arguments: &PickleValue) -> Done<()> {
         let known = match callee {
             PickleValue::Known(at) => KNOWN.get(*at).map(|(.., known)| *known),

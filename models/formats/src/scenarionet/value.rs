@@ -1,4 +1,4 @@
-//! What a pickle holds, as data: nothing of it was ever called.
+//! Content of a pickle, as data: none of it is ever called.
 
 use super::array::Array;
 use std::rc::Rc;
@@ -22,7 +22,7 @@ pub(super) enum PickleValue {
     Known(usize),
 }
 
-/// What can change while a pickle is read.
+/// Objects that can change while a pickle is read.
 #[derive(Clone, Debug)]
 pub(super) enum PickleObject {
     List(Vec<PickleValue>),
@@ -54,7 +54,7 @@ impl Pickle {
         }
     }
 
-    /// What a dictionary has under a key; of several the last one, as Python would.
+    /// Value of a key in a dictionary; the last one if the key repeats, as in Python.
     pub fn get(&self, value: &PickleValue, key: &str) -> Option<&PickleValue> {
         let entries = self.entries(value).filter(|entries| entries.len() <= LOOKED_UP)?;
         let named = |(name, _): &&(PickleValue, PickleValue)| matches!(name, PickleValue::Text(text) if &**text == key);

@@ -16,7 +16,7 @@ const LANE_TYPES: [(&str, LaneType); 10] = [
     ("LANE_UNKNOWN", LaneType::Undefined),
 ];
 
-/// What a type of map feature is.
+/// Kind of a map feature.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Feature {
     Lane(LaneType),
@@ -28,7 +28,7 @@ pub(super) enum Feature {
     Driveway,
 }
 
-/// What a word means; nothing where a scene has no place for it.
+/// Kind of a map feature's word; `None` if a scene cannot hold it.
 pub(super) fn feature(word: &str) -> Option<Feature> {
     let lane =
         LANE_TYPES.iter().find(|(known, _)| *known == word).map(|(_, lane_type)| Feature::Lane(*lane_type));
@@ -77,14 +77,14 @@ const STATES: [(&str, SignalState); 13] = [
     ("LANE_STATE_GO", SignalState::Go),
     ("LANE_STATE_FLASHING_STOP", SignalState::FlashingStop),
     ("LANE_STATE_FLASHING_CAUTION", SignalState::FlashingCaution),
-    // What MetaDrive itself says.
+    // States of MetaDrive itself.
     ("TRAFFIC_LIGHT_RED", SignalState::Stop),
     ("TRAFFIC_LIGHT_YELLOW", SignalState::Caution),
     ("TRAFFIC_LIGHT_GREEN", SignalState::Go),
     ("TRAFFIC_LIGHT_UNKNOWN", SignalState::Unknown),
 ];
 
-/// What a light shows.
+/// Signal state of a word.
 pub(super) fn signal_state(word: &str) -> SignalState {
     STATES.iter().find(|(known, _)| *known == word).map_or(SignalState::Unknown, |(_, state)| *state)
 }
@@ -94,7 +94,7 @@ pub(super) fn signal_word(state: SignalState) -> &'static str {
     STATES.iter().find(|(_, known)| *known == state).map_or("LANE_STATE_UNKNOWN", |(word, _)| word)
 }
 
-/// What road user a word means.
+/// Agent type of a word.
 pub(super) fn agent_type(word: &str) -> AgentType {
     match word {
         "VEHICLE" => AgentType::Vehicle,

@@ -1,4 +1,4 @@
-//! Pickles as they are written: protocol 3, values and arrays of numbers alone.
+//! Writer of pickles: protocol 3, only values and arrays of numbers.
 
 /// A pickle that is being written.
 pub(super) struct PickleWriter(Vec<u8>);
@@ -38,14 +38,14 @@ impl PickleWriter {
         self.0.extend(value.to_be_bytes());
     }
 
-    /// A dictionary, whose entries `fill` writes with [`PickleWriter::entry`].
+    /// Writes a dictionary; `fill` writes its entries with [`PickleWriter::entry`].
     pub fn dict(&mut self, fill: impl FnOnce(&mut Self)) {
         self.0.extend(b"}(");
         fill(self);
         self.0.push(b'u');
     }
 
-    /// An entry of a dictionary, whose value `write` writes.
+    /// Writes an entry of a dictionary; `write` writes its value.
     pub fn entry(&mut self, key: &str, write: impl FnOnce(&mut Self)) {
         self.text(key);
         write(self);

@@ -63,7 +63,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, FcdTrack>, SumoE
     Ok(records)
 }
 
-/// Where a group's fields stand in a row.
+/// Indices of a group's fields in a row.
 pub(super) struct ColumnIndices {
     pub id: usize,
     pub x: usize,

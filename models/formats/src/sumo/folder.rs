@@ -15,11 +15,11 @@ use scene::Scene;
 use std::io::{self, Cursor, Read};
 use zip::ZipArchive;
 
-/// What a byte of the zip takes until it is a scene.
+/// Memory per byte of the zip until it is a scene, bytes.
 const FOLDER_MEMORY: u64 = 4;
-/// Most files of a zip that are looked at.
+/// Most files of a zip that are read.
 const MAX_FILES: usize = 1_000;
-/// Where the name of the first file of a zip stands, and how long it is.
+/// Position of the first file's name in a zip: its length, and its beginning.
 const NAME_LENGTH: std::ops::Range<usize> = 26..28;
 const NAME_FROM: usize = 30;
 

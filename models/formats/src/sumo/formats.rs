@@ -17,7 +17,7 @@ use crate::{unpack, xml};
 use scene::{Origin, Scene};
 use std::io;
 
-/// Where scenes say that they come from.
+/// `meta.source` of the scenes.
 pub(super) const SOURCE: &str = "sumo";
 
 /// A network (`net.xml`), plain or gzip: a scene with a map and signals, without road users. The frame
@@ -62,7 +62,7 @@ pub(crate) fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
     import_net::read(file).map(of_net)
 }
 
-/// What a network is without a recording.
+/// The map of a network without recording.
 pub(super) fn of_net(net: NetScene) -> MapRead {
     MapRead {
         name: String::new(),

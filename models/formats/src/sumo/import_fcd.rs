@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one window of which 256 are chosen.
 const MAX_USERS: usize = 50_000;
-/// How far outside the network's box positions are still its own, metres.
+/// Positions up to this far outside the network's box belong to it, metres.
 const BESIDE_M: f64 = 500.0;
 
 /// Network and licence that all scenes of a recording share.
@@ -41,7 +41,7 @@ struct FcdAgent {
 /// Persons and vehicles may share an id.
 type Key = (String, bool);
 
-/// Scenes of a recording, one a window in which anybody is seen.
+/// Scenes of a recording, one per window with at least one road user.
 pub(super) struct Windows<'a> {
     rows: FcdRows<'a>,
     common: FcdContext,
@@ -159,7 +159,7 @@ impl<'a> Windows<'a> {
         Ok(())
     }
 
-    /// The scene of the window up to a time; `None` where nobody is seen.
+    /// The scene of the window up to a time; `None` without any road user in it.
     fn scene(&mut self, last_s: f64) -> Option<Result<Imported, ReadError>> {
         let start_s = self.start_s();
         let steps = ((last_s - start_s + SAME_S) / STEP_S).floor() as i64 + 1;
@@ -236,7 +236,7 @@ impl<'a> Windows<'a> {
         })
     }
 
-    /// Those that a scene has room for: near enough to its origin, and nearest to the middle of all.
+    /// Road users that fit the scene: within reach of its origin, and nearest to the middle of all.
     fn kept<'u>(
         &self,
         all: &[(&'u Key, &'u FcdAgent, Vec2)],

@@ -18,7 +18,7 @@ use std::collections::{BTreeSet, HashMap};
 const MAX_BYTES: u64 = 64 << 20;
 /// Warning that places on the globe are lost.
 pub(crate) const PROJECTION_DROPPED: &str = "projection-dropped";
-/// What a byte of it takes until it is a map.
+/// Memory per byte of text until it is a map, bytes.
 const TEXT_MEMORY: u64 = 4;
 /// Farthest a network's coordinate may lie from its own origin, metres.
 pub(super) const MAX_SOURCE_M: f64 = 1e8;
@@ -28,7 +28,7 @@ pub(super) const MAX_SOURCE_M: f64 = 1e8;
 pub(super) struct NetScene {
     /// About the origin.
     pub map: Shared<LaneMap>,
-    /// Where the origin lies in the network's frame, whole metres.
+    /// Origin in the network's frame, whole metres.
     pub origin: Vec2,
     /// Half the size of the box round all lanes, metres.
     pub half: Vec2,
@@ -55,7 +55,7 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
         junction.position -= origin;
     }
     let mut drawn = lane_map(&net, MapOptions { sidewalks: true, parking: false });
-    // Round junctions whose lanes point anywhere, borders meet anywhere.
+    // Around junctions with extreme lane directions, borders can intersect at any distance.
     let near = |points: &Points| points.xy.iter().all(|p| p.amax() <= MAX_COORDINATE_M);
     drawn.map.drivable.retain(|area| near(&area.polygon));
     drawn.map.road_edges.retain(|line| near(&line.points));

@@ -26,9 +26,9 @@ pub struct Borders {
 pub struct Corner {
     /// From the border of one arm to that of the next, counter-clockwise.
     pub points: Vec<Vec2>,
-    /// Edge whose border it continues, and whether that edge leads into the junction.
+    /// Edge that it continues from, and whether that edge leads into the junction.
     pub from: (usize, bool),
-    /// Edge whose border it reaches, and whether that edge leads into the junction.
+    /// Edge that it continues to, and whether that edge leads into the junction.
     pub to: (usize, bool),
     /// Change of direction, radians.
     pub turn_rad: f64,
@@ -49,7 +49,7 @@ pub struct JunctionArea {
 pub fn borders(net: &Net) -> Vec<Borders> {
     let carriageway = |i: usize| {
         let edge = &net.edges[i];
-        // Rails and the like alone are no carriageway.
+        // An edge with only closed lanes (rails) or sidewalks has no carriageway.
         let closed = |l: &usize| matches!(net.lanes[*l].kind, LaneKind::Sidewalk | LaneKind::Closed);
         if edge.lanes.iter().all(closed) {
             return None;

@@ -1,5 +1,5 @@
-//! What a vehicle type's name says about a road user. FCD gives the name alone; classes and default
-//! sizes are SUMO's (`Vehicle_Type_Parameter_Defaults` of its documentation).
+//! Road users by the name of their vehicle type. FCD gives only the name; classes and default sizes are
+//! SUMO's (`Vehicle_Type_Parameter_Defaults` of its documentation).
 
 use scene::{AgentType, Size, Subtype};
 
@@ -42,10 +42,10 @@ const ROWS: &[Row] = &[
     (&["ship", "aircraft", "drone", "container"], AgentType::Other, Subtype::Unknown, (6.0, 2.5, 3.0)),
 ];
 
-/// What stands behind the sizes in a name that tells them, such as `car_4.5x1.8x1.5m`: length, width and height.
+/// Unit after the sizes in a type name, such as `car_4.5x1.8x1.5m`: length, width and height.
 pub(super) const METRES: &str = "m";
 
-/// The box that a type's name tells; heights may be missing.
+/// The box in a type's name; the height is optional.
 pub(super) fn size_of(type_name: &str) -> Option<Size> {
     let (_, sides) = type_name.strip_suffix(METRES)?.rsplit_once('_')?;
     let side = |text: &str| text.parse::<f64>().ok().filter(|side| (0.05..=60.0).contains(side));
@@ -58,8 +58,7 @@ pub(super) fn size_of(type_name: &str) -> Option<Size> {
     Some(Size { length_m: side(length)?, width_m: side(width)?, height_m })
 }
 
-/// The kind that a type's name tells; a passenger car where it tells nothing. `person` is what FCD lists
-/// as one, whatever the name.
+/// The kind in a type's name, else a passenger car. `person` marks FCD's persons, whatever their name.
 pub(super) fn of(type_name: &str, person: bool) -> AgentKind {
     let name = type_name.to_ascii_lowercase();
     let fits = |row: &&Row| row.0.iter().any(|part| name.contains(part));

@@ -17,7 +17,7 @@ pub(super) const MAX_PIECES: f64 = 4_000.0;
 /// everything overlaps would need their square.
 const MOST_LEFT_CHECKS: u64 = 50_000_000;
 
-/// What a lane map of a network carries besides traffic lanes.
+/// Content of a network's lane map besides traffic lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct MapOptions {
     /// Sidewalks as lanes.
@@ -35,7 +35,7 @@ pub struct SignalPlace {
     pub program: String,
     /// Link index within the program.
     pub link: usize,
-    /// Where to stop.
+    /// Stop position.
     pub stop: Vec2,
 }
 
@@ -89,7 +89,7 @@ pub(super) struct Builder<'a> {
     pub(super) left_checks: Cell<u64>,
 }
 
-/// Lanes within nodes where nobody crosses: from the only edge into a node to the only edge out of it.
+/// Lanes within nodes without crossing traffic: from the only edge into a node to the only edge out of it.
 fn tapers(net: &Net) -> HashMap<usize, (usize, usize)> {
     let mut ends: HashMap<&str, (usize, usize)> = HashMap::new();
     for edge in net.edges.iter().filter(|e| e.function == EdgeFunction::Normal) {
@@ -99,7 +99,7 @@ fn tapers(net: &Net) -> HashMap<usize, (usize, usize)> {
     let mut found = HashMap::new();
     for (before, lane) in net.lanes.iter().enumerate() {
         let edge = net.edge_of(before);
-        // Nor does anybody cross on a motorway, where ramps join or leave.
+        // Ramps join and leave a motorway without crossing traffic.
         if ends.get(edge.to.as_str()) != Some(&(1, 1)) && !edge.road_type.contains("motorway") {
             continue;
         }

@@ -8,7 +8,7 @@ use scene::Vec2;
 use scene::map::{Area, LaneMap, TypedLine};
 use std::f64::consts::PI;
 
-/// Borders whose ends are nearer than this go on into each other, metres.
+/// Borders whose ends are closer than this continue each other, metres.
 const JOINED_M: f64 = 0.05;
 /// Medians are narrower than this, metres.
 const WIDEST_M: f64 = 15.0;
@@ -135,7 +135,7 @@ fn blunt(map: &mut LaneMap, near: BorderEnd, far: BorderEnd) {
     let (a, b) = (towards_end(near), resample(&towards_end(far), STEP_M));
     let lengths = arc_lengths(&a);
     let total = length(&a);
-    // Beyond its end `near` says nothing about the width.
+    // Beyond its end `near` has no width.
     let Some((at_b, s, foot)) = (0..b.len()).rev().find_map(|i| {
         let (s, foot) = foot_on(&a, &lengths, b[i]);
         ((foot - b[i]).norm() >= NOSE_M && s < total - 1e-6).then_some((i, s, foot))

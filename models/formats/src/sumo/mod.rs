@@ -36,9 +36,9 @@ pub enum SumoError {
     /// An attribute or a field is no number or no list of points.
     #[error("line {line}: \"{found}\" found where {expected} was expected")]
     Value {
-        /// What stands there, shortened.
+        /// Value found, shortened.
         found: String,
-        /// What should.
+        /// Value expected.
         expected: &'static str,
         /// Line in the file, from 1.
         line: u32,
@@ -46,9 +46,9 @@ pub enum SumoError {
     /// The file holds something else.
     #[error("expected {expected}, found {found}")]
     Content {
-        /// What should be there.
+        /// Content expected.
         expected: &'static str,
-        /// What is.
+        /// Content found.
         found: String,
     },
 }

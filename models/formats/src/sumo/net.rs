@@ -7,26 +7,26 @@ pub(super) use read::too_large;
 use super::programs::SignalProgram;
 use scene::Vec2;
 
-/// Who uses a lane, from its permissions and its edge's function.
+/// Users of a lane, from its permissions and its edge's function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LaneKind {
     /// Motor vehicles.
     Vehicle,
-    /// Bicycles alone.
+    /// Only bicycles.
     Bike,
-    /// Buses alone.
+    /// Only buses.
     Bus,
-    /// People on foot alone.
+    /// Only pedestrians.
     Sidewalk,
     /// Crosswalk; the shape is its centre line.
     Crossing,
-    /// Where sidewalks and crosswalks meet; the shape is an outline.
+    /// Area that joins sidewalks and crosswalks; the shape is an outline.
     WalkingArea,
-    /// Open to nobody on the road: rails, or a strip left for parking.
+    /// Closed to road users: rails, or a strip left for parking.
     Closed,
 }
 
-/// What an edge is for.
+/// Function of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EdgeFunction {
     /// A stretch of road.
@@ -48,7 +48,7 @@ pub struct NetLane {
     pub edge: usize,
     /// Position in its edge, 0 is the rightmost.
     pub index: usize,
-    /// Who uses it.
+    /// Its users.
     pub kind: LaneKind,
     /// Speed limit, m/s.
     pub speed_mps: f64,
@@ -69,13 +69,13 @@ pub struct NetLane {
 pub struct NetEdge {
     /// SUMO's id.
     pub id: String,
-    /// What it is for.
+    /// Its function.
     pub function: EdgeFunction,
     /// Junction it leaves; empty for edges within a junction.
     pub from: String,
     /// Junction it reaches; empty for edges within a junction.
     pub to: String,
-    /// Free text of whoever made the network.
+    /// Free text from the network's author.
     pub road_type: String,
     /// Indices in [`Net::lanes`], from the right.
     pub lanes: Vec<usize>,
@@ -103,11 +103,11 @@ pub struct Net {
     pub junctions: Vec<NetJunction>,
     /// Signal programs in the order of the file.
     pub programs: Vec<SignalProgram>,
-    /// What the file says that the fields above do not hold.
+    /// Content of the file that the fields above do not hold.
     pub notes: NetNotes,
 }
 
-/// What a network has that is not read.
+/// Content of a network that is not read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NetNotes {
     /// Some shape has heights.

@@ -103,7 +103,7 @@ impl Builder<'_> {
     pub(super) fn corners(&mut self, all: &[Borders], junctions: &[JunctionArea]) {
         let extents = extents(all);
         for junction in junctions {
-            // Where only two arms meet, the road goes on: its median or middle line goes on too.
+            // At a node with two arms the road continues, and so does its median or centre line.
             for Corner { points, from, to, turn_rad } in &junction.corners {
                 let mixed = self.is_lot(from.0) != self.is_lot(to.0);
                 let merging = turn_rad.abs() > 2.4;
@@ -156,8 +156,8 @@ fn extents(all: &[Borders]) -> Vec<(Vec2, Vec2)> {
     all.iter().map(|b| (fold(b, f64::min) - margin, fold(b, f64::max) + margin)).collect()
 }
 
-/// What lies to the left of the point `p` of a left border that goes along `way`. `checks` counts the
-/// comparisons that may still be made; without any left, nothing lies there.
+/// What lies to the left of point `p` on a left border with direction `way`. `checks` is the number of
+/// comparisons left; at zero, nothing lies there.
 fn left_side(
     p: Vec2,
     way: Vec2,

@@ -9,7 +9,7 @@ use scene::SignalState;
 pub struct SignalProgram {
     /// SUMO's id of the signal.
     pub id: String,
-    /// `static`, `actuated`, ...: only a static program follows the clock alone.
+    /// `static`, `actuated`, ...: only a static program depends on nothing but the time.
     pub kind: String,
     /// When the first phase begins, seconds.
     pub offset_s: f64,
@@ -20,12 +20,12 @@ pub struct SignalProgram {
 }
 
 impl SignalProgram {
-    /// True when the clock alone decides, one phase after the other.
+    /// Whether the state depends only on the time, one phase after the other.
     pub fn is_simple(&self) -> bool {
         self.kind == "static" && !self.jumps
     }
 
-    /// What a link shows at a time in seconds; `None` for a link or a program without phases.
+    /// State of a link at a time in seconds; `None` for a link or a program without phases.
     pub fn at(&self, link: usize, time_s: f64) -> Option<SignalState> {
         let cycle_s: f64 = self.phases.iter().map(|(duration_s, _)| duration_s).sum();
         // A small step forward, so that a change at exactly this time has happened.

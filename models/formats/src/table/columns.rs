@@ -1,4 +1,4 @@
-//! Which column of a table says what: ours by their names, those of others by a file that tells.
+//! Columns of a table: this program's by their names, others' by a file that maps them.
 
 use super::{COLUMNS, SPEED};
 use crate::problem::{FieldProblem, ReadError, code};
@@ -8,10 +8,10 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Read;
 
-/// Most bytes of a file that tells.
+/// Most bytes of a column file.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Where a value comes from.
+/// Source of a value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnSource {
     /// Name of the column; nothing where every row has the same value.
@@ -29,7 +29,7 @@ pub(super) struct ColumnSource {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Columns(pub BTreeMap<&'static str, ColumnSource>);
 
-/// A column as the file tells it: its name alone, or with more about it.
+/// A column in the column file: its name, or an object with details.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Told {
@@ -49,7 +49,7 @@ struct More {
     words: BTreeMap<String, String>,
 }
 
-/// All names that a file may tell of.
+/// All names that a column file may map.
 fn names() -> impl Iterator<Item = &'static str> {
     COLUMNS.into_iter().chain([SPEED])
 }
@@ -81,7 +81,7 @@ impl Columns {
         Self(names().map(own).collect())
     }
 
-    /// What a file tells, and our own names for what it does not tell of.
+    /// Columns from a column file, with this program's names for unmapped ones.
     ///
     /// # Errors
     /// `malformed-json`, `invalid-field`.
@@ -91,7 +91,7 @@ impl Columns {
         let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
         input.map_err(|error| unpack::fault(&error, 0))?;
         let told: BTreeMap<String, Told> = serde_json::from_slice(&bytes)
-            .map_err(|error| ReadError::malformed_json(error.line(), error.column(), error.to_string()))?;
+            .map_err(|error| ReadError::malformed_json(&error, error.to_string()))?;
         let mut columns = Self::own();
         for (name, told) in told {
             let fault = |detail: String| {

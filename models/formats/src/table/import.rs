@@ -45,7 +45,7 @@ pub(super) struct Scenarios<'a> {
     /// Scenarios that came to their end, by hash.
     ended: HashSet<u64>,
     ready: Option<Box<dyn Iterator<Item = Result<Imported, ReadError>>>>,
-    /// A row was gone to that belongs to nobody yet.
+    /// The current row is read but not yet assigned to a scene.
     pending: bool,
     given: bool,
     over: bool,
@@ -78,7 +78,7 @@ impl<'a> Scenarios<'a> {
                 None => None,
                 Some(column) => match rows.names().iter().position(|found| found == column) {
                     Some(at) => Some(at),
-                    // One that a person told of has to be there.
+                    // A column named by the user must exist.
                     None if column != name => {
                         let detail = format!("no column \"{column}\"; there are {}", shown(rows.names()));
                         let pointer = format!("{COLUMNS_POINTER}/{name}");
@@ -96,15 +96,11 @@ impl<'a> Scenarios<'a> {
             missing.push("time_s or step");
         }
         if !missing.is_empty() {
-            let detail = format!(
-                "no column {}; there are {}. A file of columns can name them (--columns, a part columns of a form)",
-                missing.join(", "),
-                shown(rows.names())
-            );
-            return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+            let message = sentences::columns_missing(&missing.join(", "), &shown(rows.names()));
+            return Err(FieldProblem::of("", code::CANNOT_REPRESENT, message).into());
         }
         rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
-        // Notes of others under our key say nothing.
+        // Notes of another program under our key are ignored.
         let notes =
             rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
         Ok(Self {
@@ -314,7 +310,7 @@ impl<'a> Scenarios<'a> {
         match self.text("source").as_deref() {
             Some(LOG) => Ok(None),
             Some(GENERATED) => Ok(Some((number("sample")?, number("mode")?))),
-            // A table without that word has modes for futures alone.
+            // A table without a `source` column has modes only for futures.
             _ => {
                 let mode = self.number("mode", 1e6, "a number of a future")?;
                 if mode.is_nan() { Ok(None) } else { Ok(Some((number("sample")?, number("mode")?))) }
@@ -342,7 +338,8 @@ impl<'a> Scenarios<'a> {
         if let Some(licence) = &self.options.licence {
             said.meta.licence = Some(licence.clone());
         }
-        // Tables of ours count steps from the scene's first one, whoever is seen first.
+        // Tables written by this program count steps from the scene's first step, even if no road user is
+        // seen then.
         if gathered.aligned && (gathered.last_step as usize) < 2 * MAX_STEPS {
             said.start_s = Some(0.0);
         }

@@ -10,9 +10,9 @@ mod write;
 
 pub use format::{Csv, Parquet};
 
-/// What a row says, in the order of the columns; units are in their names. `sample`, `mode` and `probability` are of
-/// futures alone, `source` is `log` or `generated`, `valid` is false where nobody saw the road user, and `chosen`
-/// is true for what is shown.
+/// Columns of a row, in order; units are in their names. `sample`, `mode` and `probability` are set only for
+/// futures. `source` is `log` or `generated`, `valid` is false if the road user was not seen, and `chosen` is
+/// true for the shown motion.
 pub const COLUMNS: [&str; 21] = [
     "scenario_id",
     "agent_id",

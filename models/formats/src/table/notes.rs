@@ -1,4 +1,4 @@
-//! What a Parquet table says beside its rows: frame, licence and time of its scenes, under the key `dragtraffic`.
+//! Metadata of a Parquet table: frame, licence and time of its scenes, under the key `dragtraffic`.
 
 use scene::{Meta, Origin, Scene, Timing};
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,7 @@ pub(super) struct SceneNote {
     timestamps_s: Option<Vec<f64>>,
 }
 
-/// Where the scene lies in the frame of the rows: `row = rotate(scene, rotation_rad) + (x_m, y_m, z_m)`.
+/// Origin of the scene in the frame of the rows: `row = rotate(scene, rotation_rad) + (x_m, y_m, z_m)`.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct OriginNote {
@@ -91,7 +91,7 @@ impl SceneNote {
         }
     }
 
-    /// Where the scene lies, unless it says something that cannot be.
+    /// Origin of the scene; `None` if a value is out of range.
     pub fn origin(&self) -> Option<Origin> {
         let OriginNote { x_m, y_m, z_m, rotation_rad, crs } = &self.origin;
         let fits = [x_m, y_m, z_m, rotation_rad].iter().all(|value| value.abs() <= 1e9);

@@ -20,7 +20,7 @@ pub(super) enum Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Opens a file; its first bytes tell what it is.
+    /// Opens a file of CSV or Parquet.
     ///
     /// # Errors
     /// Those of the file.
@@ -39,7 +39,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// What the file says beside its rows.
+    /// Metadata of the file.
     pub fn notes(&self) -> BTreeMap<String, String> {
         match self {
             Self::Csv(_) => BTreeMap::new(),
@@ -84,7 +84,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Where the row is, for messages.
+    /// Position of the row, for messages.
     pub fn place(&self) -> String {
         match self {
             Self::Csv(rows) => format!("line {}", rows.record.position().map_or(0, csv::Position::line)),
@@ -168,7 +168,7 @@ impl<'a> CsvRows<'a> {
     }
 }
 
-/// What separates values: what the first line has most of.
+/// Separator of values: the most frequent candidate in the first line.
 pub(super) fn delimiter(head: &[u8]) -> u8 {
     let line = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
     let count = |delimiter: &u8| line.iter().filter(|byte| *byte == delimiter).count();

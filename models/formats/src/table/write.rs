@@ -8,7 +8,7 @@ use crate::loss::{Loss, code};
 use scene::{Agent, AgentType, Conditions, LaneMap, STEP_S, Scene, Size, State, Subtype};
 use std::io::{self, Write};
 
-/// A row; what a future or a road user that nobody saw has not is `None`.
+/// A row; values that a future or an unseen road user lacks are `None`.
 pub(super) struct TableRow<'a> {
     pub scenario: &'a str,
     pub agent: &'a str,
@@ -85,7 +85,7 @@ fn is_same(a: Option<&State>, b: Option<&State>) -> bool {
     a.zip(b).is_some_and(|(a, b)| near(a, b))
 }
 
-/// What was recorded of a road user; it is shown where no future has taken its place.
+/// Rows of a recorded track; a row is chosen if the shown motion has the same state.
 fn logged(
     scene: &Scene,
     name: &str,
@@ -100,7 +100,7 @@ fn logged(
         ExportedMotion::Log => (agent.agent_type, agent.size),
     };
     let track = &agent.track;
-    // Somebody without any state has a row all the same.
+    // A road user without any state still has one row.
     for i in 0..track.states.len().max(1) {
         let step = track.first_step + i;
         let state = track.at(step);
@@ -187,7 +187,7 @@ pub(super) fn columns(scene: &(&Scene, String), options: &ExportOptions) -> Vec<
     COLUMNS.into_iter().enumerate().map(column).collect()
 }
 
-/// One column: its rows are gone through for it alone, so that no more than one is in memory beside the file.
+/// One column. It iterates over the rows separately, so that memory holds only one column besides the file.
 fn values(scene: &(&Scene, String), options: &ExportOptions, column: usize) -> ColumnValues {
     match column {
         0 => text(scene, options, |row| row.scenario.to_owned()),
@@ -278,7 +278,7 @@ fn subtype_word(subtype: Subtype) -> &'static str {
     }
 }
 
-/// What a table may not carry.
+/// Codes of the losses that a table may have.
 pub(super) const LOSES: &[&str] = &[
     code::NO_CONDITIONS,
     code::NO_MODES,
@@ -291,7 +291,7 @@ pub(super) const LOSES: &[&str] = &[
     code::NO_TIMING,
 ];
 
-/// What of this scene a table has no place for; `noted` where frame, licence and time stand beside the rows.
+/// Losses of this scene; with `noted`, frame, licence and time are kept in the metadata.
 pub(super) fn lost(scene: &Scene, motion: ExportedMotion, noted: bool) -> Vec<Loss> {
     let agents = &scene.agents;
     let fixed = agents.iter().any(|agent| agent.conditions != Conditions::default());

@@ -10,6 +10,7 @@ use super::record::write_record;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NOW_STEP, Scenes, written_only};
 use crate::loss::{Loss, code};
 use crate::polyline::{arc_lengths, length, point_at};
+use crate::sentences;
 use crate::source::Source;
 use prost::Message;
 use scene::{STEP_S, Scene, Vec2};
@@ -23,7 +24,7 @@ const PAST: usize = NOW_STEP;
 const FUTURE: usize = 80;
 /// Distance of points of roads at least, metres; twice as far as long as there is no room for them.
 const SPACING_M: f64 = 0.5;
-/// What stands where there is nothing.
+/// Value of an empty slot.
 const NOTHING: f32 = -1.0;
 /// Numbers of kinds of points: the first of painted lines and of edges, and those of signs and areas.
 const FIRST_LINE: i64 = 5;
@@ -124,8 +125,7 @@ fn example(scenario: &Scenario, losses: &mut BTreeSet<Loss>) -> Example {
     let now = usize::try_from(scenario.current_time_index.unwrap_or(0)).unwrap_or(0);
     let steps = scenario.tracks.iter().map(|track| track.states.len()).max().unwrap_or(0);
     if now != PAST || steps > now + 1 + FUTURE {
-        let detail = format!("what lies more than {PAST} steps before the present one or {FUTURE} after it");
-        losses.insert(Loss::new(code::NO_TIMING, detail));
+        losses.insert(Loss::counted(code::NO_TIMING, sentences::loss_steps_over_room(PAST, FUTURE)));
     }
     let kept = kept(scenario, now, losses);
     road_users(scenario, now, &kept, &mut lists);
@@ -147,14 +147,14 @@ fn is_valid(state: &&ObjectState) -> bool {
     state.valid == Some(true)
 }
 
-/// Tracks that there is room for: the ego, those to be predicted, and who is nearest to them.
+/// Tracks that fit the record: the ego, those to be predicted, and the nearest to them.
 fn kept(scenario: &Scenario, now: usize, losses: &mut BTreeSet<Loss>) -> Vec<usize> {
     let tracks = &scenario.tracks;
     if tracks.len() <= ROOM.0 {
         return (0..tracks.len()).collect();
     }
-    let detail = format!("{} road users; a record has room for {}", tracks.len(), ROOM.0);
-    losses.insert(Loss::new(code::NO_ROAD_USERS, detail));
+    let lost = sentences::loss_users_over_room(tracks.len(), ROOM.0);
+    losses.insert(Loss::counted(code::NO_ROAD_USERS, lost));
     let ego = scenario.sdc_track_index.and_then(|index| usize::try_from(index).ok());
     let wanted = scenario.tracks_to_predict.iter().filter_map(|p| usize::try_from(p.track_index?).ok());
     let first: BTreeSet<usize> = ego.into_iter().chain(wanted).collect();
@@ -244,8 +244,7 @@ fn road_users(scenario: &Scenario, now: usize, kept: &[usize], lists: &mut Lists
 fn lights(scenario: &Scenario, now: usize, lists: &mut Lists, losses: &mut BTreeSet<Loss>) {
     let rows = &scenario.dynamic_map_states;
     if rows.iter().any(|row| row.lane_states.len() > ROOM.1) {
-        let detail = format!("a record has room for {} lights a step", ROOM.1);
-        losses.insert(Loss::new(code::NO_SIGNALS, detail));
+        losses.insert(Loss::counted(code::NO_SIGNALS, sentences::loss_lights_over_room(ROOM.1)));
     }
     for (part, steps) in parts(now) {
         let slots = |step: &Option<usize>| {
@@ -310,7 +309,7 @@ impl MapLine {
         self.kind >= STOP_SIGN
     }
 
-    /// How many points it has at a spacing.
+    /// Number of points at a spacing.
     fn count(&self, spacing_m: f64) -> usize {
         if self.is_area() || self.points.len() < 2 {
             return self.points.len();
@@ -342,12 +341,11 @@ fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>
     let lines: Vec<MapLine> = features.iter().filter_map(MapLine::of).collect();
     let count = |spacing_m: f64| lines.iter().map(|line| line.count(spacing_m)).sum::<usize>();
     let mut spacing_m = SPACING_M;
-    // Beyond some spacing each line has its two ends alone.
+    // At a large enough spacing each line has only its two ends.
     while count(spacing_m) > ROOM.2 && spacing_m < 1e6 {
         spacing_m *= 2.0;
     }
-    let detail = format!("lines as points {spacing_m} m apart, without lanes' graph and limits");
-    losses.insert(Loss::new(code::GEOMETRY_APPROXIMATED, detail));
+    losses.insert(Loss::counted(code::GEOMETRY_APPROXIMATED, sentences::loss_lines_sampled(spacing_m)));
     losses.insert(Loss::new(code::NO_LANE_GRAPH, "which lanes follow each other and lie side by side"));
     losses.insert(Loss::new(code::NO_SPEED_LIMITS, "limits of lanes"));
     let (mut at, mut along, mut ids, mut kinds) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -374,10 +372,8 @@ fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>
         }
     }
     if left_out > 0 {
-        losses.insert(Loss::new(
-            code::NO_MAP,
-            format!("{left_out} points of {} that there is room for", ROOM.2),
-        ));
+        let lost = sentences::loss_points_over_room(ROOM.2 + left_out, ROOM.2);
+        losses.insert(Loss::counted(code::NO_MAP, lost));
     }
     let valid = (0..ROOM.2).map(|i| i64::from(i < ids.len())).collect();
     lists.whole("roadgraph_samples/valid", valid);

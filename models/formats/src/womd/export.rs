@@ -106,7 +106,7 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     (message, losses)
 }
 
-/// What a scene is called in its source, else here.
+/// Record id of a scene: its id in the source, else its own.
 pub(super) fn record_id(scene: &Scene) -> &String {
     scene.meta.source_id.as_ref().or(scene.id.as_ref()).unwrap_or(&scene.name)
 }

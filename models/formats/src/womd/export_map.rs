@@ -12,7 +12,7 @@ use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::{LaneMap, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// First number given to a feature whose id is no number.
+/// First number for features with non-numeric ids.
 const FIRST_FREE: i64 = 1_000_000_000;
 
 /// Kinds that have their own ids in a scene; in a Scenario message all share one row of numbers.

@@ -9,7 +9,7 @@ use crate::{identities, unpack};
 use scene::Scene;
 use std::io;
 
-/// What a byte of a record takes until it is a scene.
+/// Memory per byte of a record until it is a scene, bytes.
 const RECORD_MEMORY: u64 = 4;
 
 /// Waymo Open Motion Scenario records.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Ids as strings. A number that comes again gets the first free suffix: `12`, `12.2`, `12.3`.
 #[derive(Default)]
 pub(super) struct UniqueIds {
-    /// How often each number came.
+    /// Number of uses of each number.
     seen: BTreeMap<i64, usize>,
     repeated: usize,
 }

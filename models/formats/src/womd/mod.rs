@@ -33,7 +33,7 @@ pub const LICENCE_OWN: &str = "cc0";
 /// Scenario ids of our own synthetic scenes begin so.
 pub const SYNTHETIC_PREFIX: &str = "synth-";
 
-/// How to read a file.
+/// Options for reading a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Records to pass over.
@@ -114,8 +114,8 @@ pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadErr
     }
 }
 
-/// True for a tf.Example: field 1 holds a message whose members are messages under field 1, where a
-/// Scenario has a list of doubles, the first of which is near zero.
+/// Whether the record is a tf.Example: its field 1 holds a message of messages under field 1. A Scenario has
+/// a list of doubles there, the first of which is near zero.
 fn is_example(data: &[u8]) -> bool {
     let Some(rest) = data.strip_prefix(&[0x0a]) else { return false };
     let length = rest.iter().position(|byte| byte & 0x80 == 0).map_or(0, |last| last + 1);

@@ -65,10 +65,10 @@ enum ReadEnd {
 }
 
 impl<R: Read> RecordReader<R> {
-    /// Looks at the first bytes to tell gzip from plain.
+    /// Reads the first bytes to distinguish gzip from plain.
     ///
     /// # Errors
-    /// `malformed-file` when the reader fails.
+    /// `malformed-file` if the reader fails.
     pub fn new(input: R, options: &Options) -> Result<Self, ReadError> {
         let bounds = Bounds { decoded: options.max_decoded_bytes, expansion: options.max_expansion };
         let input = unpack::open(input, bounds).map_err(|error| unpack::fault(&error, 0))?;
@@ -179,7 +179,7 @@ mod tests {
         let falling: Vec<u8> = (0..32).rev().collect();
         assert_eq!(crc32c::crc32c(&falling), 0x113f_db5c);
         assert_eq!(crc32c::crc32c(b"123456789"), 0xe306_9283);
-        // Mask of 0 and of a value whose rotation and sum are easily done by hand.
+        // Masks of 0 and of a value that is easily checked by hand.
         assert_eq!(masked_crc(b""), 0xa282_ead8);
         assert_eq!(masked_crc(b"123456789"), 0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8));
     }

@@ -5,6 +5,7 @@ use super::proto::{JointScene, ScenarioRollouts, SimAgentsChallengeSubmission, S
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, written_only};
 use crate::frame::{Frame, wrapped};
 use crate::loss::{Loss, code};
+use crate::sentences;
 use crate::source::Source;
 use crate::unwritten;
 use prost::Message;
@@ -90,11 +91,8 @@ fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>)
         None => samples.into_iter().map(Some).collect(),
     };
     if samples.len() != ROLLOUTS {
-        let detail = format!(
-            "{} of the {ROLLOUTS} rollouts that the challenge takes: generate as many samples",
-            samples.len()
-        );
-        losses.insert(Loss::new(code::NO_ROLLOUTS, detail));
+        let lost = sentences::loss_rollouts(samples.len(), ROLLOUTS);
+        losses.insert(Loss::counted(code::NO_ROLLOUTS, lost));
     }
     let mut made_up = 0;
     let joint_scenes = samples.iter().map(|sample| {
@@ -104,14 +102,13 @@ fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>)
     });
     let joint_scenes = joint_scenes.collect();
     if made_up > 0 {
-        let detail = format!("{made_up} times somebody is not seen up to the end and goes on straight");
-        losses.insert(Loss::new(code::NO_VALIDITY_GAPS, detail));
+        losses.insert(Loss::counted(code::NO_VALIDITY_GAPS, sentences::loss_motion_extrapolated(made_up)));
     }
     lost(scene, options, losses);
     ScenarioRollouts { scenario_id: Some(record_id(scene).clone()), joint_scenes }
 }
 
-/// The 80 steps behind the present one of somebody who is there now.
+/// The 80 steps after the present one, for a road user that is present.
 fn rollout(
     scene: &Scene,
     agent: &Agent,

@@ -1,6 +1,6 @@
-//! A look over a record's protobuf bytes before they become structs: every length fits, and no
-//! repeated message is more frequent than a scene can use. A two-byte message becomes a struct of up
-//! to a hundred bytes, so without this a small file could ask for gigabytes.
+//! A look over a record's protobuf bytes before they become structs: every length fits, and no repeated
+//! message is more frequent than a scene can use. A two-byte message becomes a struct of up to a hundred
+//! bytes, so without this check a small file could allocate gigabytes.
 
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ReadError, code};
@@ -8,7 +8,7 @@ use crate::problem::{FieldProblem, ReadError, code};
 /// Most tracks that are looked at; the nearest 256 become road users.
 pub const MAX_TRACKS: usize = 2_048;
 
-/// What a message is, as far as nesting and counting go.
+/// Message type, as far as nesting and counting need it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ScenarioMessage {
     Scenario,
@@ -50,7 +50,7 @@ impl ScenarioMessage {
         })
     }
 
-    /// How many of these a record may hold, and the refusal for more.
+    /// Most messages of this type in a record, and the refusal beyond it.
     fn limit(self) -> (usize, &'static str, &'static str) {
         match self {
             Self::Track => (MAX_TRACKS, "/tracks", code::TOO_MANY_AGENTS),

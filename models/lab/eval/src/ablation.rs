@@ -12,7 +12,7 @@ use experts::{Generator, Request, Shown};
 use rayon::prelude::*;
 use scene::AgentType;
 
-/// What is left out.
+/// Part of the product that is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Without {
     Nothing,
@@ -81,7 +81,7 @@ struct CaseAnswers {
     found: [Option<Found>; Without::ALL.len()],
 }
 
-/// What one answer is worth.
+/// Figures of one answer.
 #[derive(Clone, Copy)]
 struct Found {
     min_ade: f64,

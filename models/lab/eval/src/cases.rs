@@ -98,12 +98,12 @@ pub struct Site<'a> {
     pub index: usize,
     /// As it was recorded.
     pub scene: &'a Scene,
-    /// What the experts may see of it: [`blind`].
+    /// The scene as the experts may see it: [`blind`].
     pub blind: Scene,
     /// Lanes of its map with their links.
     pub graph: Arc<LaneGraph>,
     polylines: OnceLock<Polylines>,
-    /// Where its map lets vehicles drive.
+    /// Drivable area of its map.
     pub drivable: Drivable,
     /// Moving road users.
     pub cases: Vec<Case>,
@@ -128,7 +128,7 @@ impl<'a> Site<'a> {
         self.scene.meta.source_id.as_deref().unwrap_or(&self.scene.name)
     }
 
-    /// Its map for those who read lines, worked out when the first does.
+    /// Polylines of its map for the rivals that use them, computed on first use.
     pub fn polylines(&self) -> &Polylines {
         self.polylines.get_or_init(|| Polylines::new(&self.scene.map))
     }
@@ -138,7 +138,7 @@ impl<'a> Site<'a> {
         &self.scene.agents[case.agent]
     }
 
-    /// The blind scene with one road user's goal fixed, for it alone to be generated.
+    /// The blind scene with one road user's goal fixed, to generate only that road user.
     pub fn asked(&self, case: &Case, subset: Subset) -> Scene {
         let mut scene = self.blind.clone();
         scene.agents[case.agent].conditions.goal = case.goal(self.scene, subset);

@@ -75,7 +75,7 @@ pub(super) fn from_log_m(site: &Site<'_>, agent: usize, states: &[State]) -> f64
     mean_distance_m(&site.scene.agents[agent], |step| states[step - 1].position())
 }
 
-/// What a line of the table runs of the product.
+/// Settings of the product for each row of the table.
 const LINES: [(&str, usize, f64, Shown, bool); 5] = [
     ("initializer, most probable", 0, 0.0, Shown::Likeliest, false),
     ("initializer, random future", 0, 0.0, Shown::Drawn, false),
@@ -95,9 +95,9 @@ pub(super) const TABLE: TableSpec = TableSpec {
     },
 };
 
-/// Everybody together, over scenes with at least two moving road users.
+/// Joint generation of all road users, over scenes with at least two moving ones.
 ///
-/// The product also has a line for each of `replan_steps`, after which all plan anew (1..=90).
+/// The product also has a row for each of `replan_steps`, the steps between replans (1..=90).
 ///
 /// # Errors
 /// When a generator fails.
@@ -191,7 +191,7 @@ fn coherence(
     Ok(sheet)
 }
 
-/// What is shown of everybody, by site.
+/// Shown motion of all road users, by site.
 fn generated_motions(own: &Judged, sites: &[&Site<'_>], ask: Ask) -> Result<Vec<Motions>> {
     let of = |site: &&Site<'_>| {
         let samples = scenes(&own.generator, site, ask)?;

@@ -1,5 +1,5 @@
-//! Table 3: goals that nobody drove to. What is dragged where it was not logged must be met or refused in
-//! words, within the limits, without jumps, and the others must make room.
+//! Table 3: goals that differ from the recording. A dragged goal must be met, or refused with a reason,
+//! within the limits and without jumps, and the other road users must make room.
 
 use super::measure::{at, goal_error, is_met, is_outside_limits};
 use super::sheet::{Cell, Form, Sheet};
@@ -21,12 +21,12 @@ use std::sync::Arc;
 
 /// Road users whose goals are dragged.
 const MOST_CASES: usize = 200;
-/// How far the goal is moved, metres: both ways along the lane and across it.
+/// Distances by which the goal is moved, metres: both ways along the lane and across it.
 const MOVES_M: [f64; 5] = [2.0, 4.0, 8.0, 15.0, 30.0];
-/// How far the goal is moved to see whether the answer jumps, metres.
+/// Shift of the goal that tests for jumps of the answer, metres.
 const NUDGE_M: f64 = 0.05;
 
-/// Where a goal was dragged to.
+/// Direction in which a goal was dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum DragDirection {
     Along,
@@ -50,9 +50,9 @@ struct CounterfactualDrag {
     outside: usize,
     /// Vehicle steps off the lanes, and all.
     off: (f64, f64),
-    /// How far the shown future moves when its goal moves by 5 cm, metres.
+    /// Displacement of the shown future when its goal moves by 5 cm, metres.
     jump_m: f64,
-    /// Overlaps somebody when nobody reacts, and when all may.
+    /// Overlap with any other road user: with reactions off, and with all reactions on.
     hits: Option<[bool; 2]>,
 }
 
@@ -233,7 +233,7 @@ fn shown<'a>(answer: &'a Answer, id: &str) -> &'a [State] {
     futures.and_then(|f| f.modes.get(f.chosen)).map_or(&[], |f| &f.states)
 }
 
-/// Whether the dragged road user overlaps anybody: when the others replay their log, and when they react.
+/// Whether the dragged road user overlaps any other: when the others replay their log, and when they react.
 fn hits(generator: &Generator, site: &Site<'_>, case: &Case, goal: Goal, seed: u64) -> Result<[bool; 2]> {
     let mut out = [false; 2];
     for (hit, react) in out.iter_mut().zip([React::Nobody, React::Everyone]) {

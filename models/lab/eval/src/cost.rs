@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Times each whole scene is asked for.
+/// Requests of each whole scene.
 const ROUNDS: usize = 3;
 /// Groups of scenes by the size of their maps.
 const MAP_SIZES: usize = 3;
@@ -116,7 +116,7 @@ fn points(map: &LaneMap) -> usize {
     lanes.chain(map.road_edges.iter().map(|edge| edge.points.xy.len())).sum()
 }
 
-/// Road users that are there at the first step, moving ones first.
+/// Road users present at the first step, moving ones first.
 fn movable(scene: &Scene, most: usize) -> BTreeSet<AgentId> {
     let mut all: Vec<&scene::Agent> =
         scene.agents.iter().filter(|a| a.agent_type != AgentType::Other && a.state_at(0).is_some()).collect();
@@ -152,7 +152,7 @@ fn scenes_an_hour(generator: &Generator, threads: usize, scenes: &[Scene]) -> Re
     Ok(scenes.len() as f64 * 3600.0 / started.elapsed().as_secs_f64())
 }
 
-/// Memory of this process that is in use, MB; `None` where the system does not tell.
+/// Resident memory of this process, MB; `None` if the system does not report it.
 fn resident_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

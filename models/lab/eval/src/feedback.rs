@@ -20,15 +20,15 @@ const PEOPLE: u64 = 8;
 const CARDS: usize = 6;
 /// Draws, each for a round; then the first one comes again, as other cards.
 const DRAWS: u64 = 8;
-/// Who has not seen it by then gives up.
+/// Rounds after which a simulated user gives up.
 const MOST_ROUNDS: usize = 60;
-/// What is wanted: this share of all that was ever drawn, the best liked.
+/// Share of all candidates drawn that the user wants: the ones liked best.
 const WANTED: f64 = 0.02;
 /// An answer in so many is the wrong way round.
 const SLIPS: f64 = 0.1;
 /// Of a round at most so many are rejected, the least liked.
 const REJECTED: usize = 3;
-/// Who says why does so of a rejected card in so many.
+/// Share of rejected cards for which the user gives a reason.
 const SAID_WHY: f64 = 0.5;
 /// Luck at random is the mean of so many tries.
 const TRIES: u8 = 20;
@@ -117,7 +117,7 @@ fn chosen<'s>(site: &'s Site<'_>) -> Vec<&'s Case> {
     [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist].into_iter().flat_map(of).collect()
 }
 
-/// Everybody's rounds with one road user.
+/// Rounds of all simulated users with one road user.
 pub(super) fn of_case(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Result<Vec<Rounds>> {
     let scene = Arc::new(site.scene.clone());
     let id = site.log(case).id.clone();
@@ -141,12 +141,12 @@ pub(super) fn of_case(generator: &Generator, site: &Site<'_>, case: &Case, seed:
     Ok(people.collect())
 }
 
-/// Somebody who knows what they want and cannot say it.
+/// A simulated user with a hidden preference.
 struct Person {
     wishes: Vec<Hidden>,
-    /// What is liked more than this is wanted.
+    /// Cards liked more than this are wanted.
     wanted: f64,
-    /// What is liked more than this is better than half of all.
+    /// Cards liked more than this are better than half of all.
     fair: f64,
     stream: Stream,
 }
@@ -178,7 +178,7 @@ impl Person {
         likings.sort_by(f64::total_cmp);
         let at = |share: f64| likings[((likings.len() - 1) as f64 * share) as usize];
         (person.wanted, person.fair) = (at(1.0 - WANTED), at(0.5));
-        // Where much is liked equally well there is nothing to find.
+        // If many candidates are liked equally well, there is no best one to find.
         (person.wanted > at(1.0 - 2.0 * WANTED)).then_some(person)
     }
 
@@ -239,7 +239,7 @@ impl Person {
         }
     }
 
-    /// What should be otherwise most of all.
+    /// The wish that the card satisfies least.
     fn lacks(&self, card: &Candidate) -> Option<Wish> {
         let liked = |wish: &&Hidden| wish.likes(&card.features);
         let least = self.wishes.iter().min_by(|a, b| liked(a).total_cmp(&liked(b)))?;

@@ -1,6 +1,6 @@
 //! Judging the experts on scenes: nine tables of figures with intervals, and pictures.
 //!
-//! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
+//! [`run`] makes everything that `dragtraffic lab eval` writes. A table is a module; they share the cases, the
 //! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
 //! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
 //! table 6, which stand in files of their own.
@@ -8,11 +8,10 @@
 //! ```
 //! use lab_eval::stats::{Bootstrap, Value};
 //!
-//! // Errors of three road users in two scenes, metres: the interval is that of scenes drawn anew.
-//! let errors = [(0, 1.0), (0, 3.0), (1, 5.0)].map(|(scene, metres)| Value::new(scene, metres));
-//! let mean = Bootstrap::new(2, 0).estimate(errors).unwrap();
-//! assert_eq!((mean.mean, mean.samples, mean.scenes), (3.0, 3, 2));
-//! assert!(mean.low <= mean.mean && mean.mean <= mean.high);
+//! // Errors of three road users in two scenes, metres: the interval comes from resampled scenes. let errors
+//! = [(0, 1.0), (0, 3.0), (1, 5.0)].map(|(scene, metres)| Value::new(scene, metres)); let mean =
+//! Bootstrap::new(2, 0).estimate(errors).unwrap(); assert_eq!((mean.mean, mean.samples, mean.scenes), (3.0,
+//! 3, 2)); assert!(mean.low <= mean.mean && mean.mean <= mean.high);
 //! ```
 
 mod ablation;
@@ -58,7 +57,7 @@ pub struct Judged {
     pub generator: Generator,
 }
 
-/// Everybody who learned to answer.
+/// The experts and the trained baselines.
 #[derive(Clone, Copy)]
 pub struct Entrants<'a> {
     /// The experts.

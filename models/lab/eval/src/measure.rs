@@ -1,4 +1,4 @@
-//! What one set of futures of one road user is worth against its log.
+//! Figures of one set of futures of one road user against its log.
 
 use super::{Case, Subset};
 use scene::geometry::direction;
@@ -106,8 +106,8 @@ pub fn given_motion(futures: &[Future]) -> Vec<f64> {
     shares.map(|p| if total > 0.0 { p / total } else { 0.0 }).collect()
 }
 
-/// Negative log likelihood of the best future by [`given_motion`]; `None` where there was one alone, where it is to
-/// stay, or for formulas, which give no probabilities.
+/// Negative log likelihood of the best future by [`given_motion`]; `None` for a single future, for a road
+/// user that is to stay, and for formulas, which have no probabilities.
 pub fn log_loss(probabilities: &[f64], best: usize) -> Option<f64> {
     let p = *probabilities.get(best)?;
     (probabilities.len() > 1 && p > 0.0).then(|| -p.max(1e-6).ln())
@@ -138,12 +138,13 @@ fn least(values: &[f64]) -> usize {
     (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0)
 }
 
-/// What a future leaves to a case's goal when it is due, as [`goal_error`]; `None` where it ends before.
+/// Remaining distance of a future to a case's goal when it is due, as [`goal_error`]; `None` if the future
+/// ends earlier.
 pub fn left_to_goal(goal: &Goal, case: &Case, future: &Future) -> Option<[f64; 3]> {
     future.states.get(case.goal_step - 1).map(|state| goal_error(goal, state))
 }
 
-/// What is left to a goal: metres, radians, m/s; zero for free fields.
+/// Remaining distance to a goal: metres, radians, m/s; zero for free fields.
 pub fn goal_error(goal: &Goal, state: &State) -> [f64; 3] {
     [
         goal.position.map_or(0.0, |p| (p - state.position()).norm()),
@@ -168,15 +169,15 @@ pub fn following(log: &Agent, start: State) -> Trajectory {
     model.rollout(&fit(&model, &samples))
 }
 
-/// Mean distance from a log, metres, of whoever is `at` a place at each step.
+/// Mean distance from a log, metres, of a motion given by its position at each step.
 pub fn mean_distance_m(log: &Agent, at: impl Fn(usize) -> Vec2) -> f64 {
     let known = (1..=HORIZON_STEPS).filter_map(|step| Some((step, log.state_at(step)?)));
     mean(known.map(|(step, logged)| (logged.position() - at(step)).norm()))
 }
 
-/// Whether its road user can have moved as the log says: the motion that follows it stays within
+/// Whether the logged motion is physically possible: the motion that follows the log stays within
 /// [`FOLLOWED_M`] of it on average and arrives within [`ARRIVED_MPS`] of its last speed. Trackers that lose
-/// or mix up road users leave logs that nobody can follow.
+/// or mix up road users leave logs that no road user can follow.
 pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
     let motion = following(log, case.start);
     let arrives = log
@@ -185,8 +186,8 @@ pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
     mean_distance_m(log, |step| motion[step].position) < FOLLOWED_M && arrives
 }
 
-/// Whether a future breaks a limit of its road user. Exact rest breaks none: what little speed a standing
-/// start has is the detector's.
+/// Whether a future breaks a limit of its road user. Exact rest breaks none, because a small speed at a
+/// standing start is the detector's noise.
 pub fn is_outside_limits(agent: &Agent, start: &State, future: &Future) -> bool {
     if start.speed_mps() < STANDING_MPS && future.states.iter().all(|s| s.position() == start.position()) {
         return false;

@@ -57,7 +57,7 @@ const COLUMNS: [(&str, Form); 9] = [
     ("first ADE", Form::Plain),
 ];
 
-/// What one scene comes to, column by column, and how long its answer took.
+/// Figures of one scene, column by column, and the time of its answer.
 struct SceneFigures {
     values: [Option<Value>; COLUMNS.len()],
     took_ms: f64,
@@ -244,7 +244,7 @@ mod tests {
                 [&figures.lines[block + variant], &figures.lines[block], line].map(|l| mean(&l.cells[3]));
             assert!((cells[0] - cells[1] - cells[2]).abs() < 1e-9, "{cells:?}");
         }
-        // Ways differ from each other, as far as random weights can tell.
+        // The variants differ from each other, as far as random weights can show.
         let ades: BTreeSet<u64> =
             figures.lines[..count].iter().map(|l| mean(&l.cells[3]).to_bits()).collect();
         assert!(ades.len() >= count - 1, "{ades:?}");

@@ -1,4 +1,4 @@
-//! What an evaluation found, as Markdown, JSON and files.
+//! Results of an evaluation, as Markdown, JSON and files.
 
 use super::sheet::Sheet;
 use anyhow::{Context, Result};
@@ -10,7 +10,7 @@ use std::path::Path;
 /// The tables as Markdown, in the folder of a run.
 pub const TABLES_FILE: &str = "tables.md";
 
-/// What a crop did.
+/// Effect of a crop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CropReport {
     /// The crop.
@@ -22,14 +22,14 @@ pub struct CropReport {
     pub road_users_outside: usize,
 }
 
-/// What was found.
+/// Results of an evaluation.
 #[derive(Clone, Debug, Serialize)]
 pub struct EvalReport {
     /// Seed.
     pub seed: u64,
-    /// Scenes looked at.
+    /// Scenes evaluated.
     pub scenes: usize,
-    /// What was left out beforehand; `None` when nothing was asked to be.
+    /// Effect of the crop before the evaluation; `None` without a crop.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crop: Option<CropReport>,
     /// Hash of each expert's weights, by name of the judged.

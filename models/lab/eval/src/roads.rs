@@ -1,4 +1,4 @@
-//! Whether vehicles stay on the road.
+//! Share of vehicles' states that are off the road.
 
 use super::Site;
 use super::stats::Value;
@@ -14,18 +14,18 @@ const PAST_EDGE_M: f64 = 0.1;
 /// Steps that a vehicle spends off the road: of every third step at which its log is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OffRoad {
-    /// Steps looked at.
+    /// Steps evaluated.
     pub steps: f64,
     /// Those more than 2.5 m off every lane.
     pub off_lanes: f64,
-    /// Steps looked at where the map has edges.
+    /// Steps evaluated where the map has edges.
     pub edge_steps: f64,
     /// Those with a corner past a road edge.
     pub past_edges: f64,
 }
 
 impl OffRoad {
-    /// Of the states at steps 1 ..= 90 of an agent of the scene; nothing for who is no vehicle.
+    /// Counts the states at steps 1 ..= 90 of an agent of the scene; zero for any other type than vehicle.
     pub fn of(site: &Site<'_>, agent: usize, states: &[State]) -> Self {
         let mut out = Self::default();
         let agent = &site.scene.agents[agent];

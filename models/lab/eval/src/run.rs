@@ -1,4 +1,4 @@
-//! One run over scenes: the tables that were asked for, one after another.
+//! One run over scenes: the requested tables, one after another.
 
 use super::report::{CropReport, EvalReport};
 use super::stats::Bootstrap;
@@ -11,7 +11,7 @@ use lab_train::scenes::{Crop, Cropped};
 use scene::Scene;
 use std::borrow::Cow;
 
-/// What to make.
+/// Options of an evaluation.
 #[derive(Clone, Debug)]
 pub struct EvalOptions {
     /// Tables, in any order.
@@ -132,7 +132,7 @@ mod tests {
             EvalOptions { tables, seed: 5, pictures: false, replan_steps: vec![90], crop: Crop::default() };
         let folder = tempfile::tempdir().unwrap();
         let count = std::cell::Cell::new(0);
-        // Somebody stops it after the first table: that one is there, and whole.
+        // A stop after the first table leaves that table complete.
         let made = |report: &EvalReport| {
             report.write(folder.path())?;
             count.set(count.get() + 1);

@@ -4,7 +4,7 @@ use super::stats::Estimate;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// How a figure is written.
+/// Number format of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
@@ -41,10 +41,10 @@ impl Form {
 pub enum Cell {
     /// A figure with its interval.
     Estimate {
-        /// What was found.
+        /// Estimate.
         #[serde(flatten)]
         estimate: Estimate,
-        /// How it is written.
+        /// Number format.
         form: Form,
     },
     /// A count.
@@ -53,7 +53,7 @@ pub enum Cell {
     Number {
         /// Value.
         value: f64,
-        /// How it is written.
+        /// Number format.
         form: Form,
     },
     /// Words.
@@ -88,7 +88,7 @@ impl Cell {
 /// One line of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SheetRow {
-    /// What the line is about, one entry for each of [`Sheet::keys`].
+    /// Keys of the row, one for each of [`Sheet::keys`].
     pub keys: Vec<String>,
     /// One entry for each of [`Sheet::columns`].
     pub cells: Vec<Cell>,
@@ -101,7 +101,7 @@ pub struct Sheet {
     pub title: String,
     /// Sentences under the heading: protocol, units.
     pub notes: Vec<String>,
-    /// Names of the columns that say what a line is about.
+    /// Names of the columns with a row's keys.
     pub keys: Vec<String>,
     /// Names of the columns of figures, with units.
     pub columns: Vec<String>,

@@ -43,7 +43,7 @@ pub struct Estimate {
     pub mean: f64,
     pub low: f64,
     pub high: f64,
-    /// What was measured: the sum of the weights.
+    /// Number of measurements: the sum of the weights.
     pub samples: u64,
     /// Scenes that it was measured in.
     pub scenes: u64,
@@ -51,7 +51,7 @@ pub struct Estimate {
 
 /// Resamples of a list of scenes, the same for every figure, so that paired figures stay paired.
 pub struct Bootstrap {
-    /// How often each scene appears, one list a replicate.
+    /// Count of each scene, one list per replicate.
     counts: Vec<Vec<u16>>,
 }
 
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn scenes_not_values_are_resampled() {
-        // A thousand equal values a scene say no more than one.
+        // A thousand equal values per scene carry no more information than one.
         let few = Bootstrap::new(20, 1).estimate((0..20).map(|s| Value::new(s, s as f64))).unwrap();
         let many: Vec<Value> = (0..20_000).map(|i| Value::new(i % 20, (i % 20) as f64)).collect();
         let many = Bootstrap::new(20, 1).estimate(many).unwrap();

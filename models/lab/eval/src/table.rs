@@ -1,4 +1,4 @@
-//! What a table of the evaluation is.
+//! A table of the evaluation.
 
 use super::sheet::Sheet;
 use super::stats::Bootstrap;
@@ -12,13 +12,13 @@ use scene::Scene;
 pub struct TableSpec {
     /// Its number, which the titles of its sheets begin with.
     pub number: usize,
-    /// What it is about.
+    /// Subject, as a name.
     pub name: &'static str,
     /// Makes it.
     pub(super) make: fn(&mut Trial<'_>) -> Result<Made>,
 }
 
-/// Who is judged, on what, and how: what a table is made from.
+/// Inputs of a table: judged methods, sites and settings.
 pub(super) struct Trial<'a> {
     /// The experts.
     pub(super) judged: Vec<Judged>,
@@ -32,20 +32,20 @@ pub(super) struct Trial<'a> {
     pub(super) boot: Bootstrap,
     /// Draws noise, drags and random pictures.
     pub(super) seed: u64,
-    /// Steps after which the product plans anew, a line of table 2 each.
+    /// Steps between replans of the product, a row of table 2 each.
     pub(super) replan_steps: &'a [usize],
-    /// Whether pictures are wanted.
+    /// Whether to draw pictures.
     pub(super) pictures: bool,
 }
 
 impl Trial<'_> {
-    /// Everybody who learned to answer.
+    /// The experts and the trained baselines.
     pub(super) fn entrants(&self) -> Entrants<'_> {
         Entrants { judged: &self.judged, baselines: self.baselines }
     }
 }
 
-/// What a table comes to.
+/// Result of a table.
 #[derive(Default)]
 pub(super) struct Made {
     /// Figures, the same for the same seed.

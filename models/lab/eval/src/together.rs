@@ -1,4 +1,4 @@
-//! Whole scenes: everybody that can move generated together, and who overlaps whom.
+//! Whole scenes: joint generation of all movable road users, and their overlaps.
 
 use super::measure::at;
 use super::{Site, Subset};
@@ -11,21 +11,21 @@ use std::sync::Arc;
 
 /// Most road users of one call.
 const MOST: usize = 128;
-/// Every third step is looked at, the start left out.
+/// Every third step is evaluated, without the start.
 pub const STRIDE: usize = 3;
-/// Moments looked at.
+/// Number of evaluated moments.
 pub const MOMENTS: usize = HORIZON_STEPS / STRIDE;
 /// Intersection over union above which the paper calls it a collision.
 pub const PAPER_IOU: f64 = 0.02;
-/// A goal this near a road user's start asks for no motion, metres.
+/// A goal this near a road user's start requires no motion, metres.
 const IN_PLACE_M: f64 = 0.3;
 /// A log that leaves its place by less than this stands, metres.
 const STANDING_M: f64 = 2.0;
 
-/// How a whole scene is asked for.
+/// Options of a whole scene's request.
 #[derive(Clone, Copy, Debug)]
 pub struct Ask {
-    /// Goals from the log (position, speed, heading) for those that move; the others keep their place.
+    /// Goals from the log (position, speed, heading) for moving road users; the others keep their place.
     pub goals: bool,
     /// Refinement steps.
     pub steps: usize,
@@ -33,7 +33,7 @@ pub struct Ask {
     pub diversity: f64,
     /// Parts that run.
     pub stages: Stages,
-    /// Plan anew after so many steps; `None` plans once.
+    /// Steps between replans; `None` plans once.
     pub replan_steps: Option<usize>,
     /// Joint scenes.
     pub samples: usize,
@@ -67,7 +67,7 @@ pub fn generated(site: &Site<'_>) -> Vec<usize> {
     moving.iter().copied().chain(others).take(MOST).collect()
 }
 
-/// Goal of an agent in a whole scene with goals; free for those whose log ends too early to tell.
+/// Goal of an agent in a whole scene with goals; free if its log ends too early.
 pub fn joint_goal(site: &Site<'_>, agent: usize) -> Goal {
     if let Some(case) = site.cases.iter().find(|c| c.agent == agent) {
         return case.goal(site.scene, Subset::PosSpeedHeading);
@@ -84,7 +84,7 @@ pub fn joint_goal(site: &Site<'_>, agent: usize) -> Goal {
     }
 }
 
-/// The blind scene as it is asked for.
+/// The blind scene with the request's goals.
 pub fn asked(site: &Site<'_>, goals: bool) -> Scene {
     let mut scene = site.blind.clone();
     if goals {
@@ -95,7 +95,7 @@ pub fn asked(site: &Site<'_>, goals: bool) -> Scene {
     scene
 }
 
-/// Joint scenes of everybody.
+/// Joint scenes of all road users.
 ///
 /// # Errors
 /// When the generator fails.
@@ -112,7 +112,8 @@ pub fn scenes(generator: &Generator, site: &Site<'_>, ask: Ask) -> Result<Vec<Sa
     Ok(generator.answer(request)?.samples)
 }
 
-/// Everybody's states at steps 1 ..= 90, by agent of the scene; `None` for those that are not generated.
+/// States of all road users at steps 1 ..= 90, by agent of the scene; `None` for agents that are not
+/// generated.
 pub type Motions = Vec<Option<Vec<State>>>;
 
 /// Shown futures of a sample.
@@ -125,7 +126,7 @@ pub fn motions_of(site: &Site<'_>, sample: &Sample) -> Motions {
     site.scene.agents.iter().map(|agent| shown(&agent.id)).collect()
 }
 
-/// What stands and is not asked to move keeps its place.
+/// A standing road user without a goal elsewhere keeps its place.
 pub(super) fn rests(start: &State, goal: &Goal) -> bool {
     let stays = |place: Vec2| (place - start.position()).norm() < IN_PLACE_M;
     start.speed_mps() < STANDING_MPS && goal.position.is_none_or(stays)
@@ -204,14 +205,14 @@ impl Boxes {
     }
 }
 
-/// Two road users whose boxes overlap.
+/// Two road users with overlapping boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverlappingPair {
     /// Agents of the scene, the lower index first.
     pub pair: (usize, usize),
     /// Moment at which it begins, from 0.
     pub first: usize,
-    /// The boxes' intersection over union passes the threshold at some moment, 0.02 unless told otherwise.
+    /// The boxes' intersection over union exceeds the threshold at some moment; the default is 0.02.
     pub paper: bool,
 }
 

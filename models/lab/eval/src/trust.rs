@@ -21,15 +21,15 @@ use scene::routes::{GoalQuery, Pose, RouteKind, routes_to_goal};
 use scene::{AgentFutures, AgentId, AgentType, Future, Goal, STEP_S, Vec2};
 use std::collections::BTreeSet;
 
-/// Road users whose goals are dragged; ten drags each.
+/// Most road users with dragged goals; ten drags each.
 const MOST_CASES: usize = 150;
-/// How far goals are moved, metres; each along the lane and across it, the sign alternating.
+/// Distances by which goals are moved, metres; each along the lane and across it, with alternating sign.
 const MOVES_M: [f64; 5] = [2.0, -4.0, 8.0, -15.0, 30.0];
-/// How far the goal is moved to see whether the answer jumps, metres.
+/// Shift of the goal that tests for jumps of the answer, metres.
 const NUDGE_M: f64 = 0.05;
 /// Futures nearer than this on average are copies, metres.
 const COPY_M: f64 = 0.5;
-/// A driver this far before a stop line at red is told to wait, metres.
+/// A driver this far before a red stop line gets a goal that requires waiting, metres.
 const BEFORE_LINE_M: f64 = 50.0;
 /// Share of what limits allow that a way may need to count as driven in time: there are bends.
 const PRESSED_SHARE: f64 = 0.8;
@@ -64,13 +64,13 @@ struct Drag {
     /// Index into the site's cases, and where the goal was put.
     case: usize,
     goal: Goal,
-    /// How bad the worst fault of the shown future is, in its unit.
+    /// Size of the shown future's worst fault, in its unit.
     extent: f64,
     vehicle: bool,
     met: bool,
     /// A route with the traffic leads to the goal.
     by_road: bool,
-    /// Nobody's log is where the goal is when it is due.
+    /// No logged road user occupies the goal when it is due.
     free: bool,
     /// Of the shown future.
     shown: BTreeSet<FaultKind>,
@@ -78,7 +78,7 @@ struct Drag {
     all: Vec<BTreeSet<FaultKind>>,
     /// The shown future is farther past the road's edges than the judge's tolerance and nothing says so.
     unsaid: bool,
-    /// It meets somebody who was not there at the start.
+    /// It collides with a road user that was not there at the start.
     hits_late: bool,
     /// Others that got another motion, those without a cause among them.
     changed: [usize; 2],
@@ -157,7 +157,7 @@ fn worst(
         .collect()
 }
 
-/// The call of a drag: everybody may react.
+/// Request of a drag: all road users may react.
 fn asked(site: &Site<'_>, case: &Case, goal: Goal, seed: u64) -> Request {
     let mut request = control::request(site.scene.clone(), case, goal, seed);
     request.react = React::Everyone;
@@ -279,8 +279,8 @@ fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
     (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
 }
 
-/// Nobody's log is where the goal is when it is due. With its heading free one comes along the lane there, else
-/// straight from the start.
+/// Whether no logged road user occupies the goal when it is due. With a free heading the arrival is along the
+/// lane, else straight from the start.
 fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;

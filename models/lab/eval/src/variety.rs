@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 const DIVERSITIES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
 /// Samples without a goal in which exits are looked for.
 const SAMPLES: usize = 12;
-/// Exits whose headings differ by less are one.
+/// Exits count as one if their headings differ by less.
 const SAME_EXIT_RAD: f64 = 0.5;
 /// A future that ends this near a route has taken it, metres.
 const ON_ROUTE_M: f64 = 3.0;
@@ -247,7 +247,7 @@ fn exits(graph: &LaneGraph, case: &Case) -> Vec<Vec<Polyline>> {
     out
 }
 
-/// The one direction whose routes a future's end lies on; `None` before the ways part or off them all.
+/// The only direction whose routes contain a future's end; `None` before the routes part, or off all of them.
 fn exit_of(exits: &[Vec<Polyline>], future: &Future) -> Option<usize> {
     let end = future.states.last()?;
     let on = |path: &Polyline| {

@@ -1,5 +1,5 @@
-//! Table II: how often road users collide when everybody is generated together and planned anew, in the scenes of the
-//! recording where different road users meet most.
+//! Table II: collision rates with all road users generated together and replanned. The scenes are those of
+//! the recording with the most encounters between different road user types.
 
 use crate::methods::{Answerer, Entrants, Method};
 use crate::paper;
@@ -15,13 +15,13 @@ use std::collections::BTreeSet;
 
 /// Steps of a second.
 const STEPS_A_SECOND: usize = 10;
-/// Who generates whole scenes.
+/// Methods that generate whole scenes.
 const METHODS: [Method; 4] = [Method::Mixture, Method::Paper, Method::OursTrained, Method::OursShipped];
 
-/// How Table II is made.
+/// Options of Table II.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CollisionOptions {
-    /// Intersection over union above which two boxes collide; the paper does not say its own.
+    /// Intersection over union above which two boxes collide; the paper does not state its own.
     pub iou: f64,
     /// Scenes chosen for pedestrians and for cyclists, at most.
     pub most: [usize; 2],

@@ -5,8 +5,9 @@
 //! recordings -> sets (records, list of tests) -> training (weights) -> quality, collisions -> report
 //! ```
 //!
-//! Each step leaves its result in the folder of the run, and a run that goes on begins after the last one that is done.
-//! The same data, settings and seed give the same files; the clock is read for the words of the progress alone.
+//! Each step leaves its result in the folder of the run, and a run that goes on begins after the last one
+//! that is done. The same data, settings and seed give the same files; the clock is read only for progress
+//! messages.
 
 mod collisions;
 mod figure;
@@ -34,13 +35,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set by others to end a run soon.
 pub type Stop = Arc<AtomicBool>;
 
-/// The run was asked to end; what is done is kept.
+/// The run was stopped on request; finished parts are kept.
 #[derive(Clone, Copy, Debug, thiserror::Error)]
 #[error("stopped; the same command goes on from there")]
 pub struct Stopped;
 
 /// # Errors
-/// [`Stopped`] where the run was asked to end.
+/// [`Stopped`] if a stop was requested.
 fn stopped(stop: &Stop) -> anyhow::Result<()> {
     if stop.load(Ordering::Relaxed) { Err(Stopped.into()) } else { Ok(()) }
 }

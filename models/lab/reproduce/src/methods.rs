@@ -1,4 +1,4 @@
-//! Whose futures stand in the tables.
+//! Methods of the tables.
 
 use crate::sets::{Centre, Sets};
 use crate::training::weights_path;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// TrafficGen, of vehicles, without conditions, asked of all types.
+    /// TrafficGen, trained on vehicles without conditions, applied to all types.
     TrafficGen,
     /// TrafficGen of all types with the condition.
     Mixture,
@@ -46,7 +46,7 @@ impl Method {
     }
 }
 
-/// Who answers.
+/// Networks of the methods.
 pub struct Entrants {
     trafficgen: Option<Baseline>,
     mixture: Option<Baseline>,
@@ -57,7 +57,7 @@ pub struct Entrants {
     learned: [bool; 3],
 }
 
-/// How a method answers.
+/// Answering part of a method.
 pub enum Answerer<'a> {
     /// A learned rival, and whether it is shown the condition.
     Learned(&'a Baseline, bool),
@@ -105,7 +105,7 @@ impl Entrants {
         })
     }
 
-    /// Who answers for a method about one type; nobody where there was nothing to learn from.
+    /// Answerer of a method for one type; `None` if there was no training data.
     pub fn of(&self, method: Method, centre: Centre) -> Option<Answerer<'_>> {
         let own = self.learned[centre.index()];
         match method {

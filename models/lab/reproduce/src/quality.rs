@@ -112,14 +112,14 @@ fn judge(
     let site = Site::new(scene, &interval);
     let mut out = Vec::new();
     for &agent in &cut.judged {
-        // The cut has left out nobody: all of the square are there at its first frame.
+        // The cut kept every agent: all road users of the square are present at its first frame.
         let Some(start) = interval.agents.get(agent).and_then(|a| a.state_at(0)) else { continue };
         let agent_type = case.centre.judged();
         let own = Case { agent, agent_type, goal_step: options.interval_steps, start };
         let mut errors = [None; Method::ALL.len()];
         for (slot, method) in errors.iter_mut().zip(Method::ALL) {
             let Some(futures) = answer(entrants, method, case.centre, &site, &own, seed)? else { continue };
-            // The point before the last for everybody, whatever was shown of the end.
+            // All methods are measured on the same condition, whatever part of it they saw.
             let subset = Subset::PosSpeedHeading;
             *slot = Some(measure(site.log(&own), &own, subset, &futures.modes, futures.chosen));
         }

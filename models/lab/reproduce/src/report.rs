@@ -1,4 +1,4 @@
-//! What a run found, as Markdown and CSV: how much data, how long it was trained, both tables.
+//! Results of a run, as Markdown and CSV: amount of data, length of training, both tables.
 
 use crate::paper;
 use crate::sets::{Centre, SetOptions, Sets, Shares};
@@ -13,13 +13,13 @@ pub const TABLES_FILE: &str = "tables.md";
 
 /// All that the tables rest on.
 pub struct Report<'a> {
-    /// How the sets are cut.
+    /// Options of the sets.
     pub options: &'a SetOptions,
     /// The sets.
     pub sets: &'a Sets,
     /// The test scenes are a set of their own.
     pub own_tests: bool,
-    /// What was trained.
+    /// Trained networks.
     pub trained: &'a [Trained],
     /// Hidden numbers of the condition's MLP.
     pub condition_width: usize,
@@ -137,7 +137,7 @@ impl Report<'_> {
         sheet.markdown()
     }
 
-    /// What the amounts allow to be said.
+    /// Conclusions that the amount of data supports.
     fn reading(&self) -> String {
         let mut out = String::from("### How far these tables go\n\n");
         for centre in Centre::ALL {

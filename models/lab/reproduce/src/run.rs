@@ -26,19 +26,19 @@ pub struct Parts {
 /// Options of a run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// Where the scenes are.
+    /// Sources of the scenes.
     pub data: Data,
     /// Folder of the run.
     pub out: PathBuf,
-    /// How sets are cut.
+    /// Options of the sets.
     pub sets: SetOptions,
-    /// How networks are trained.
+    /// Schedule of the trainings.
     pub schedule: Schedule,
     /// Hidden numbers of the condition's MLP.
     pub condition_width: usize,
-    /// How Table II is made.
+    /// Options of Table II.
     pub collisions: CollisionOptions,
-    /// What is made.
+    /// Parts to make.
     pub parts: Parts,
     /// Draws everything.
     pub seed: u64,
@@ -54,11 +54,11 @@ pub struct RunOptions {
 pub struct OtherRun {
     /// Folder.
     pub folder: String,
-    /// What is different.
+    /// Difference between the runs.
     pub what: String,
 }
 
-/// What decides the sets and the weights of a run.
+/// Settings that decide the sets and weights of a run.
 #[derive(Serialize)]
 struct Settings {
     /// Hash of the names and sizes of all files.
@@ -75,8 +75,8 @@ const SETS_FILE: &str = "sets.json";
 /// Makes sets, pictures, weights and tables, as far as sets and weights are not there yet; gives the tables as Markdown.
 ///
 /// # Errors
-/// [`OtherRun`] where the folder is another run's, [`crate::Stopped`] where it was asked to end, and what files and
-/// networks report.
+/// [`OtherRun`] if the folder belongs to another run, [`crate::Stopped`] if a stop was requested, and errors
+/// of files and networks.
 pub fn run(options: &RunOptions, engine: Engine, progress: &dyn Fn(&str)) -> Result<String> {
     let folder = options.out.as_path();
     begin(options)?;
@@ -179,8 +179,8 @@ fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     formats::files::replace(path, text.as_bytes()).with_context(|| format!("write {}", path.display()))
 }
 
-/// Takes away what a run left in a folder, so that the next begins anew; other files stay, and so does a folder that is
-/// no run's.
+/// Removes a run's files from a folder, so that the next run starts from the beginning. Other files stay, and
+/// so does a folder without a run.
 ///
 /// # Errors
 /// When something cannot be removed.

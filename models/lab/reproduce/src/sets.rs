@@ -15,8 +15,8 @@ use scene::{AgentType, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Who is in the middle, which is also whose road users are judged: in the ego's squares all vehicles, in the others the
-/// one in the middle.
+/// Centre of a square, which also decides the judged road users: in the ego's squares all vehicles, in the
+/// others only the centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Centre {
@@ -37,7 +37,7 @@ impl Centre {
         self as usize
     }
 
-    /// Whose motion is learned and judged.
+    /// Type of the road users that are learned and judged.
     pub fn judged(self) -> AgentType {
         match self {
             Self::Ego => AgentType::Vehicle,
@@ -65,7 +65,7 @@ impl Centre {
     }
 }
 
-/// How sets are cut.
+/// Options of the sets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SetOptions {
     /// Steps from the start of an interval to its end, and from one start to the next.
@@ -82,12 +82,12 @@ pub struct SetOptions {
     pub seed: u64,
 }
 
-/// Where the scenes are.
+/// Sources of the scenes.
 #[derive(Clone, Debug)]
 pub struct Data {
     /// Files or folders to learn from; a tenth of their places is kept for tests unless `test` has some.
     pub data: Vec<PathBuf>,
-    /// Files or folders for tests alone.
+    /// Files or folders only for tests.
     pub test: Vec<PathBuf>,
     /// Most files of each.
     pub most_files: usize,
@@ -116,9 +116,9 @@ impl Data {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Part {
-    /// What is learned from.
+    /// Training data.
     Data,
-    /// For tests alone.
+    /// Only for tests.
     Test,
 }
 
@@ -127,7 +127,7 @@ fn scenes(path: &Path) -> Vec<Scene> {
     read_scenes(path).unwrap_or_default()
 }
 
-/// What a place is for.
+/// Share that a place belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Share {
@@ -139,7 +139,7 @@ pub enum Share {
     Test,
 }
 
-/// How many of something in training, validation and test.
+/// Counts in training, validation and test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct Shares {
@@ -169,14 +169,14 @@ impl Shares {
     }
 }
 
-/// What one set came to.
+/// Counts of one set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetCounts {
-    /// Squares looked at: an interval about the ego, or about one pedestrian or cyclist who may be judged.
+    /// Squares considered: an interval about the ego, or about one pedestrian or cyclist that may be judged.
     pub squares: usize,
-    /// Those with fewer road users than asked for.
+    /// Squares with too few road users.
     pub too_few: usize,
-    /// Those left with nobody to judge.
+    /// Squares without any road user to judge.
     pub nobody: usize,
     /// Cases: what is left.
     pub cases: Shares,
@@ -197,12 +197,12 @@ impl SetCounts {
     }
 }
 
-/// What goes on between road users of different types.
+/// Interaction between road users of different types.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interest {
     /// Pairs that come to one place within 3 s of each other.
     pub encounters: usize,
-    /// How near the nearest pair comes, metres.
+    /// Smallest distance of a pair, metres.
     pub nearest_m: f64,
 }
 
@@ -224,9 +224,9 @@ pub struct TestCase {
     pub start: usize,
     /// Set.
     pub centre: Centre,
-    /// Who is in the middle, where it is not the ego.
+    /// Id of the road user in the middle, unless it is the ego.
     pub middle: Option<String>,
-    /// How much goes on between road users; `None` where the recording ends before 9 s, and for the ego's squares.
+    /// Interaction between road users; `None` if the recording ends before 9 s, and for the ego's squares.
     pub interest: Option<Interest>,
 }
 
@@ -237,16 +237,16 @@ impl TestCase {
     }
 }
 
-/// What the sets are.
+/// Description of the sets.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sets {
-    /// Files looked at, and those that hold no scene.
+    /// Files considered.
     pub files: usize,
     /// Those of them that hold no scene that can be read.
     pub unreadable: usize,
     /// Scenes read.
     pub scenes: usize,
-    /// Where they come from, with their licences.
+    /// Sources of the scenes, with their licences.
     pub sources: Provenance,
     /// Seconds that they last.
     pub seconds: f64,
@@ -258,6 +258,6 @@ pub struct Sets {
     pub places: Shares,
     /// By [`Centre::ALL`].
     pub sets: [SetCounts; 3],
-    /// What is judged.
+    /// Test cases.
     pub tests: Vec<TestCase>,
 }

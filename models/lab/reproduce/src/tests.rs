@@ -23,7 +23,7 @@ pub(crate) fn options() -> SetOptions {
     }
 }
 
-/// Somebody on foot who walks east from a place for 20 s.
+/// A pedestrian that walks east from a place for 20 s.
 pub(crate) fn walker(id: &str, speed_mps: f64, (x_m, y_m): (f64, f64)) -> Agent {
     let mut agent = shifted(log(id, speed_mps, 200), x_m, y_m);
     agent.agent_type = AgentType::Pedestrian;
@@ -32,7 +32,8 @@ pub(crate) fn walker(id: &str, speed_mps: f64, (x_m, y_m): (f64, f64)) -> Agent 
     agent
 }
 
-/// A recording of 9.1 s at a place of its own: two vehicles with the ego, people on foot, one who rides, one who crosses.
+/// A recording of 9.1 s at a place of its own: two vehicles with the ego, pedestrians, one cyclist, one
+/// crossing pedestrian.
 fn recording(place: usize) -> Scene {
     let pace = 5.0 + 0.1 * place as f64;
     let mut ego = log("ego", pace, 91);
@@ -105,7 +106,8 @@ fn places_are_learned_from_or_judged_and_never_both() {
     assert_eq!((sets.places.all(), sets.places.test, sets.scenes), (60, judged.len(), 60));
     assert!((2..14).contains(&sets.places.test) && (2..14).contains(&sets.places.validation));
     assert_eq!(learned.iter().filter(|key| is_held_out(**key)).count(), sets.places.validation);
-    // One square about the ego, two about people, one about the rider; who stands in the ego's is learned from too.
+    // One square about the ego, two about pedestrians, one about the cyclist; the standing road user in the
+    // ego's square is learned from too.
     let cases = |centre: Centre| sets.sets[centre.index()].cases.all();
     assert_eq!(Centre::ALL.map(cases), [60, 120, 60]);
     assert_eq!(sets.sets[0].judged.test, 2 * sets.places.test);
@@ -130,7 +132,8 @@ fn the_scenes_where_most_meet_are_chosen() {
     let data = data(write(&folder.path().join("data"), 0..30), None);
     let sets = made(&data, folder.path());
     let chosen = sets::interactive(&sets, Centre::Pedestrian, 100);
-    // One a recording: the square about whoever crosses, or about the other on foot, with the one who crosses in it.
+    // One per recording: the square about the crossing pedestrian, or about the other pedestrian with the
+    // crossing one in it.
     assert_eq!(chosen.len(), sets.places.test);
     assert!(chosen.iter().all(|case| case.interest.is_some_and(|i| i.encounters > 0)));
     assert!(

@@ -1,4 +1,4 @@
-//! How the networks of the tables are trained, one after another, so that a run that is stopped goes on.
+//! Training of the tables' networks, one after another; a stopped run resumes.
 
 use crate::methods::Method;
 use crate::sets::{Centre, Sets, free_records_path, records_path};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How long a stage trains.
+/// Length of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Length {
@@ -33,10 +33,10 @@ impl Length {
     }
 }
 
-/// How networks are trained (the paper's implementation details).
+/// Training schedule of the networks (the paper's implementation details).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Schedule {
-    /// The paper's denoiser alone.
+    /// Only the paper's denoiser.
     pub denoiser: Length,
     /// Regressors: the baselines, the paper's initializer and ours.
     pub regressor: Length,
@@ -51,8 +51,9 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// The paper's: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it says 0.0004, which would be no decay). It gives
-    /// no batch, and no length for the initializer alone: that of the other regressors is taken.
+    /// The paper's: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it states 0.0004, which would be no decay).
+    /// It gives no batch size, and no separate length for the initializer, which takes that of the other
+    /// regressors.
     pub const PAPER: Self = Self {
         denoiser: Length::Epochs(100.0),
         regressor: Length::Epochs(150.0),
@@ -61,7 +62,7 @@ impl Schedule {
         rate_end: 4e-5,
         batch: 64,
     };
-    /// What two cores do in some minutes.
+    /// Minutes of work on two cores.
     pub const QUICK: Self = Self {
         denoiser: Length::Steps(200),
         regressor: Length::Steps(400),
@@ -91,7 +92,7 @@ impl TrainingJob {
         self.length.steps(self.count, schedule.batch)
     }
 
-    /// Roughly what a record costs beside one of TrafficGen's, to tell how long is left.
+    /// Approximate cost of a record relative to TrafficGen's, to estimate the remaining time.
     fn cost(&self) -> f64 {
         match (self.method, self.stage) {
             (Method::Paper, Stage::Denoiser) => 1.5,
@@ -106,7 +107,7 @@ impl TrainingJob {
     }
 }
 
-/// What is trained, in order.
+/// Trainings, in order.
 fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<TrainingJob> {
     // Records that are trained on: those of validation lie in the same file.
     let share = |centre: Centre, records: usize| {
@@ -163,12 +164,12 @@ fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<TrainingJob> {
     out
 }
 
-/// Where finished weights of a name lie.
+/// Path of the finished weights of a name.
 pub fn weights_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("weights/{name}.safetensors"))
 }
 
-/// What trainings share.
+/// Settings shared by all trainings.
 pub struct Training<'a> {
     /// Folder of the run.
     pub folder: &'a Path,
@@ -293,7 +294,7 @@ impl Training<'_> {
     }
 }
 
-/// A training that was asked to end is a run that was.
+/// Turns a stop of the training into a stop of the run.
 fn ended(done: Result<Metrics, TrainError>) -> Result<Metrics> {
     match done {
         Err(TrainError::Stopped { .. }) => Err(Stopped.into()),
@@ -301,7 +302,7 @@ fn ended(done: Result<Metrics, TrainError>) -> Result<Metrics> {
     }
 }
 
-/// How far the trainings are, in records weighed by what they cost.
+/// Progress of the trainings, in records weighted by cost.
 struct Pace {
     begun: Instant,
     done: f64,

@@ -1,4 +1,4 @@
-//! Who drives, rides and walks where and when: routes for `sumo`, with reachable goals only.
+//! Traffic demand of all types: routes for `sumo`, with reachable goals only.
 
 use super::fleet::Fleet;
 use super::network::{Network, Rank};
@@ -158,7 +158,7 @@ impl Trips<'_> {
             if goals.is_empty() {
                 continue;
             }
-            // Real windows turn more often than capacity alone would have it: a push away from straight on.
+            // Recorded windows have more turns than capacity alone yields, so the weights favour turning.
             let weight = |goal: &usize| {
                 let (p, q) = (position(&edge.from), position(&net.edges[*goal].to));
                 let straight = -p.dot(&q) / (p.norm() * q.norm() + 1e-6);
@@ -194,7 +194,7 @@ impl Trips<'_> {
         }
     }
 
-    /// A halt in the rightmost lane by this chance: a bus at its stop, or somebody who double-parks.
+    /// With this probability a stop in the rightmost lane: a bus at its stop, or a double-parked vehicle.
     fn stop(&self, chance: f64, edges: [&NetEdge; 2], draw: &mut Stream) -> String {
         let edge = edges[draw.below(2)];
         let lane = self.net.lanes_of(edge, LaneKind::Vehicle).next().map(|l| &self.net.lanes[l]);

@@ -19,13 +19,13 @@ const SHOWN_M: f64 = 110.0;
 /// Half a side of the square that the map reaches, metres.
 const MAP_M: f64 = 125.0;
 
-/// How a demo scene is made.
+/// Recipe of a demo scene.
 pub struct Demo {
     /// Id and file name.
     pub id: &'static str,
-    /// What people call the place.
+    /// Display name of the place.
     pub name: &'static str,
-    /// What it shows.
+    /// Description.
     pub notes: &'static str,
     network: fn() -> Network,
     crowd: DemandFactors,
@@ -36,7 +36,8 @@ pub struct Demo {
     buses: usize,
     /// Signals must change.
     signals: bool,
-    /// Where no signal explains it, vehicles that get less far than this in the whole time are stuck.
+    /// Vehicles that move less than this in the whole time, without a signal as the reason, are stuck,
+    /// metres.
     least_m: f64,
 }
 
@@ -118,7 +119,7 @@ pub enum DemoError {
     Write {
         /// Which file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
 }
@@ -137,7 +138,8 @@ pub fn scene_of(demo: &Demo, sumo_home: Option<&Path>) -> Result<Scene, DemoErro
             let Some(scene) = demo.window(&recording, start) else { continue };
             let score = demo.misfit(&scene, &recording, start);
             if best.as_ref().is_none_or(|(least, _)| score < *least) {
-                // Who is in the way of a picture without events and does not matter to it goes.
+                // A picture shows no events: road users that cause some, and that the demo does not need, are
+                // removed.
                 let scene = demo_check::without_troublemakers(scene);
                 if demo_check::faults(&scene).is_empty() {
                     best = Some((score, scene));
@@ -181,7 +183,7 @@ fn rounded(value: f64, parts: f64) -> f64 {
 }
 
 impl Demo {
-    /// The scene from a step on, if nobody in it jumps.
+    /// The scene from a step on, if no road user in it jumps.
     fn window(&self, recording: &SimulatedRecording, start: usize) -> Option<Scene> {
         let mut cast: Vec<(&SimulatedAgent, Vec<Option<State>>)> =
             recording.actors.iter().map(|a| (a, shown(a, start))).filter(|(_, s)| usable(s)).collect();
@@ -239,7 +241,7 @@ impl Demo {
         });
     }
 
-    /// How far a scene is from what the demo is to show.
+    /// Deviation of a scene from the demo's target.
     fn misfit(&self, scene: &Scene, recording: &SimulatedRecording, start: usize) -> f64 {
         let parked = |a: &&Agent| a.role.as_deref() == Some("parked");
         let count = |t: AgentType| scene.agents.iter().filter(|a| a.agent_type == t).count();
@@ -256,7 +258,7 @@ impl Demo {
         }
         let buses = scene.agents.iter().filter(|a| a.subtype == Subtype::Bus && near(a, 70.0)).count();
         score += 15.0 * self.buses.saturating_sub(buses) as f64;
-        // Life: cars that move a lot, turn, people who walk near the middle, on crosswalks.
+        // Preferred: cars that move far and turn, pedestrians who walk near the middle and on crosswalks.
         for agent in scene.agents.iter().filter(|a| near(a, 45.0)) {
             let moved = agent.track.extent_m();
             score -= match agent.agent_type {
@@ -275,19 +277,20 @@ impl Demo {
         if self.signals && !changes(15, 60) {
             score += 20.0;
         }
-        // Where no signal explains it, nobody should stand about on the road.
+        // Without a signal as the reason, no vehicle should stand on the road.
         let stuck = |a: &&Agent| {
             let moves = a.agent_type == AgentType::Vehicle && !parked(a);
             moves && a.track.states.iter().all(Option::is_some) && a.track.extent_m() < self.least_m
         };
         score += 5.0 * scene.agents.iter().filter(stuck).count() as f64;
-        // A planner looks at the first frame: nobody on a crosswalk where signals rule, nobody askew.
+        // A planner starts from the first frame: no vehicle stands on a crosswalk at signals, and none is
+        // askew.
         let at_rest = |a: &&Agent| a.track.at(0).is_some_and(|s| s.speed_mps() < 4.0);
         let starts_badly = |a: &&Agent| {
             self.signals && demo_check::is_on_crosswalk(scene, a, 0) || demo_check::is_askew(scene, a, 0)
         };
         score += 6.0 * scene.agents.iter().filter(at_rest).filter(starts_badly).count() as f64;
-        // Everybody is there from the first frame on.
+        // All road users should be present from the first frame on.
         let late = scene.agents.iter().filter(|a| a.track.at(0).is_none()).count();
         score + 0.4 * late as f64 + 1e-6 * (start + recording.actors.len()) as f64
     }

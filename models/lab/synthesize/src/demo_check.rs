@@ -1,5 +1,5 @@
-//! What must hold in a demo scene: nobody overlaps, nobody is off the road, nobody jumps, nothing happens
-//! that the editor would report, and the first frame looks right.
+//! Requirements of a demo scene: no overlap, no road user off the road, no jump, no event that the editor
+//! would report, and a clean first frame.
 
 use formats::polyline::{contains, distance_to};
 use scene::geometry::obb::{OrientedBox, signed_gap};
@@ -7,7 +7,7 @@ use scene::score::report::NearMiss;
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{Agent, AgentType, STEP_S, Scene, Vec2, wrap_angle};
 
-/// How far a corner of a vehicle may stick out over the kerb, metres.
+/// Largest overhang of a vehicle's corner over the kerb, metres.
 const OVERHANG_M: f64 = 0.35;
 
 /// Slower than this, a vehicle stands in the first frame, m/s.
@@ -15,8 +15,8 @@ const STANDS_MPS: f64 = 1.0;
 /// Vehicles that stand are no farther off their lane's direction than this, radians.
 const ASKEW_RAD: f64 = 0.13;
 
-/// Takes out one of each two who nearly collide: a person, a cyclist, or a parked car rather than a moving
-/// one. Vehicles that move stay.
+/// Removes one of each two road users that nearly collide: a pedestrian, a cyclist, or a parked car rather
+/// than a moving one. Moving vehicles stay.
 pub fn without_troublemakers(mut scene: Scene) -> Scene {
     let drivable = Drivable::new(&scene.map);
     let found = score(&ScoreInput::of_sample(&scene, None, &drivable)).scene;
@@ -64,7 +64,7 @@ pub fn is_askew(scene: &Scene, agent: &Agent, step: usize) -> bool {
     off.fold(f64::INFINITY, f64::min) > ASKEW_RAD
 }
 
-/// Takes people and cyclists out who touch others, or stand where the picture's checks would fail.
+/// Removes pedestrians and cyclists that touch others, or stand where the picture's checks would fail.
 pub fn without_overlaps(mut scene: Scene) -> Scene {
     loop {
         let Some((i, j)) = overlapping(&scene) else { return scene };
@@ -126,7 +126,7 @@ pub fn faults(scene: &Scene) -> Vec<String> {
     faults
 }
 
-/// What the editor would list for the untouched scene.
+/// Events that the editor would list for the unedited scene.
 fn events(scene: &Scene) -> Vec<String> {
     let drivable = Drivable::new(&scene.map);
     let found = score(&ScoreInput::of_sample(scene, None, &drivable)).scene;

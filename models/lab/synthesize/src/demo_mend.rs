@@ -1,5 +1,5 @@
-//! Brings a demo scene to what a planner expects to see, without another simulation: medians end in a
-//! nose, pieces of road that lead nowhere are gone, nobody drives over a kerb or jerks at the wheel.
+//! Brings a demo scene to what a planner expects to see, without another simulation: medians end in a nose,
+//! pieces of road that lead nowhere are gone, no vehicle drives over a kerb or steers abruptly.
 
 use super::filters::{gaussian, gradient, unwrap};
 use formats::sumo::medians;
@@ -11,9 +11,9 @@ use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};
 
 /// Lanes shorter than this that lead nowhere are left-overs of the cut, metres.
 const FRAGMENT_M: f64 = 30.0;
-/// How far inside the kerb a corner is brought, metres.
+/// Corners are moved this far inside the kerb, metres.
 const CLEAR_M: f64 = 0.05;
-/// Who is farther over the kerb than this is brought back, metres ...
+/// Vehicles farther over the kerb than this are moved back, metres ...
 const OVER_M: f64 = 0.08;
 /// ... until no corner is farther over it than this.
 const LET_M: f64 = 0.03;
@@ -21,7 +21,7 @@ const LET_M: f64 = 0.03;
 const HOLD: usize = 12;
 /// Smoothing of the correction, steps.
 const SMOOTH: f64 = 7.0;
-/// Smoothing of headings where somebody turns harder than people do, steps, and the most of it.
+/// Smoothing of headings at unrealistically sharp turns, steps, and its maximum.
 const CALM: (f64, f64) = (2.0, 8.0);
 /// Most rounds of correction.
 const ROUNDS: usize = 12;
@@ -41,7 +41,7 @@ pub fn mend(mut scene: Scene, half: f64) -> Scene {
     scene
 }
 
-/// Smooths the headings of those who turn too hard for a moment.
+/// Smooths the headings of road users that briefly turn too sharply.
 fn calm(scene: &mut Scene, drivable: &Drivable) {
     let mut sigma = CALM.0;
     while sigma <= CALM.1 {

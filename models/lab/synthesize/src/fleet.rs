@@ -27,7 +27,7 @@ pub struct Fleet {
     pub groups: BTreeMap<&'static str, Vec<String>>,
     /// `<vType>` elements.
     pub xml: String,
-    /// How early drivers get into the lane they need; SUMO's default is 1.
+    /// Lookahead factor of lane choice (`lcStrategic`); SUMO's default is 1.
     strategic: f64,
 }
 
@@ -37,7 +37,7 @@ fn size(length: f64, width: f64, height: f64) -> Size {
 
 impl Fleet {
     /// Draws the kinds of a seed. Streets are short, and drivers there change lanes less eagerly than by
-    /// default; on a motorway, who comes late for an exit stops and blocks the road.
+    /// default; on a motorway, a vehicle that is late for its exit stops and blocks the road.
     pub fn new(draw: &mut Stream, motorway: bool) -> Self {
         let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.5 }, ..Self::default() };
         for _ in 0..24 {
@@ -71,7 +71,7 @@ impl Fleet {
         let big = draw.chance(0.3);
         let length = draw.clipped(if big { 5.3 } else { 4.65 }, 0.3, 3.9, 6.3);
         let width = draw.clipped(if big { 2.19 } else { 2.04 }, 0.09, 1.81, 2.46);
-        // How pressing the driver is; moves all parameters together.
+        // Aggressiveness of the driver; all parameters depend on it.
         let g = draw.normal();
         let accel = draw.clipped(2.6 + 0.35 * g, 0.5, 1.4, 4.5);
         let decel = draw.clipped(2.2 + 0.4 * g, 0.45, 1.2, 4.0);

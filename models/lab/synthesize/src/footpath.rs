@@ -1,5 +1,5 @@
-//! Keeps people off the kerb. The simulation lets those who walk against the traffic brush along the
-//! road's edge; people keep half a metre away from it.
+//! Keeps pedestrians off the kerb. In the simulation, pedestrians against the flow brush along the road's
+//! edge; real ones keep half a metre away from it.
 
 use super::DT_S;
 use super::filters::{gaussian, gradient, interpolate};
@@ -10,7 +10,7 @@ use scene::map::TypedLine;
 
 /// Distance that people keep from the kerb, metres.
 const KEPT_M: f64 = 0.7;
-/// Those who walk along the road up to this far beside the kerb are meant to be on the sidewalk, metres.
+/// Pedestrians that walk along the road up to this far beside the kerb belong on the sidewalk, metres.
 const ASTRAY_M: f64 = 0.9;
 /// The kerb is looked for at every so many steps.
 const EVERY: usize = 4;
@@ -33,7 +33,7 @@ impl<'a> Kerbs<'a> {
         Self { lines: edges.iter().filter(|e| e.line_type == "boundary").filter_map(extent).collect() }
     }
 
-    /// How far somebody at `p` who goes along `way` must step aside, and in which direction.
+    /// Distance and direction by which a pedestrian at `p` with direction `way` must step aside.
     fn push(&self, p: Vec2, way: Vec2) -> Vec2 {
         let mut nearest = (ASTRAY_M, Vec2::zeros());
         for (points, low, high) in &self.lines {
@@ -44,7 +44,7 @@ impl<'a> Kerbs<'a> {
                 let along = (w[1] - w[0]) / (w[1] - w[0]).norm().max(1e-9);
                 let s = (p - w[0]).dot(&along).clamp(0.0, (w[1] - w[0]).norm());
                 let gap = (p - w[0] - along * s).norm();
-                // Who crosses the road is left alone.
+                // Crossing pedestrians are not moved.
                 if gap < nearest.0 && along.dot(&way).abs() > 0.8 {
                     let right = Vec2::new(along.y, -along.x);
                     let beside = -cross(along, p - w[0]);

@@ -82,7 +82,7 @@ pub enum Template {
 }
 
 impl Template {
-    /// All of them, with the share of seeds that gets each when none is asked for.
+    /// All templates, each with its share of the seeds when none is requested.
     pub const SHARES: [(Self, f64); 7] = [
         (Self::Crossing, 0.32),
         (Self::Grid, 0.20),
@@ -108,10 +108,10 @@ impl Template {
     }
 }
 
-/// Share of parking lots whose lanes the map does not have.
+/// Share of parking lots without lanes in the map.
 const UNMAPPED_LOTS: f64 = 0.4;
 
-/// What to make, and how.
+/// Options of a synthesis.
 #[derive(Clone, Debug)]
 pub struct SynthesizeOptions {
     /// One file is made for each seed.
@@ -152,7 +152,7 @@ pub struct SeedProgress {
     pub finished: (u64, u64),
 }
 
-/// What a run made.
+/// Results of a run.
 #[derive(Clone, Debug, Default)]
 pub struct SynthesizeReport {
     /// Files written.
@@ -178,7 +178,7 @@ pub enum SynthesizeError {
     Folder {
         /// Which folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
 }
@@ -196,8 +196,8 @@ fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Res
     Ok(scenes)
 }
 
-/// Makes one file of windows for each seed. A seed whose file is there is skipped, so that an
-/// interrupted run goes on where it stopped.
+/// Makes one file of windows for each seed. A seed with an existing file is skipped, so that an interrupted
+/// run goes on where it stopped.
 ///
 /// # Errors
 /// When SUMO is missing or the folder cannot be made. A seed that fails does not stop the others.
@@ -229,7 +229,7 @@ pub fn run(
     std::thread::scope(|scope| {
         for number in 1..threads.min(total.max(1) as usize) {
             let thread = std::thread::Builder::new().name(format!("synthesize-{number}"));
-            // Where the system gives no further thread, those that are there do the work.
+            // If the system refuses another thread, the existing ones do the work.
             if thread.spawn_scoped(scope, work).is_err() {
                 break;
             }
@@ -241,7 +241,7 @@ pub fn run(
     Ok(report)
 }
 
-/// What became of one seed.
+/// Result of one seed.
 enum SeedOutcome {
     Skipped,
     Written(Vec<Scene>),

@@ -132,7 +132,7 @@ pub struct Character {
     pub name: String,
     /// Signal programs of fixed length, or by waiting traffic.
     pub actuated: bool,
-    /// Opposite arms go together, else each arm alone.
+    /// Opposite arms share a phase, else each arm has its own.
     pub opposites: bool,
     /// Signal cycle, seconds.
     pub cycle_s: u32,
@@ -160,7 +160,7 @@ pub struct Network {
     pub character: Character,
 }
 
-/// Hermite curve whose tangents are scaled by the distance of its ends.
+/// Hermite curve with tangents scaled by the distance of its ends.
 pub fn hermite(p: Vec2, way_p: Vec2, q: Vec2, way_q: Vec2) -> Vec<Vec2> {
     let gap = (q - p).norm();
     s_curve(p, way_p * gap, q, way_q * gap, ((gap / 3.0) as usize).max(2))
@@ -203,7 +203,7 @@ impl Network {
         self.fringe.push(id.to_owned());
     }
 
-    /// Where a node lies; the origin if there is none.
+    /// Position of a node; the origin if there is none.
     pub fn position(&self, id: &str) -> Vec2 {
         self.nodes.get(id).map_or_else(Vec2::zeros, |n| n.position)
     }

@@ -24,7 +24,7 @@ pub enum ProgramError {
     Io {
         /// Name of the program.
         program: &'static str,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// It took too long and was ended.
@@ -45,7 +45,7 @@ pub enum ProgramError {
     },
 }
 
-/// Where SUMO lies.
+/// Location of SUMO.
 #[derive(Clone, Debug)]
 pub struct Sumo {
     home: Option<PathBuf>,
@@ -121,7 +121,7 @@ impl Sumo {
             ("--default.action-step-length", "0.4"),
             ("--lateral-resolution", "0.6"),
             ("--time-to-impatience", "60"),
-            // Nobody vanishes: neither by teleport nor after a collision.
+            // No vehicle disappears, neither by teleport nor after a collision.
             ("--time-to-teleport", "-1"),
             ("--collision.action", "warn"),
             ("--collision.check-junctions", "true"),

@@ -1,14 +1,14 @@
-//! What the random draws of a seed are for.
+//! Purposes of a seed's random draws.
 
 use scene::random::{Key, Stream};
 
-/// What a stream of draws decides. Streams of one seed are independent, so that a change in one part
-/// leaves the draws of the others as they were.
+/// Purpose of a stream of draws. Streams of one seed are independent, so a change in one part leaves the
+/// draws of the others unchanged.
 #[derive(Clone, Copy, Debug)]
 pub enum Purpose {
     /// Roads and junctions.
     Network = 1,
-    /// Who drives where and when.
+    /// Traffic demand.
     Demand = 2,
     /// Parked cars.
     Parking = 3,
@@ -18,9 +18,9 @@ pub enum Purpose {
     Windows = 5,
     /// Manoeuvres that SUMO does not know.
     Scripted = 6,
-    /// What the map leaves out.
+    /// Omissions of the map.
     Map = 7,
-    /// People who stand.
+    /// Standing pedestrians.
     Standing = 8,
 }
 

@@ -1,4 +1,4 @@
-//! One seed from its network to cleaned tracks of everybody on it.
+//! One seed, from its network to the cleaned tracks of all road users.
 
 use super::demand::{self, DemandFactors};
 use super::fleet::{ActorKind, Fleet};
@@ -38,7 +38,7 @@ pub enum RecordError {
     File {
         /// Name of the file.
         file: &'static str,
-        /// What is wrong in it.
+        /// Error in the file.
         source: SumoError,
     },
     /// The temporary folder.
@@ -61,7 +61,7 @@ pub struct SimulatedAgent {
     pub on_foot: bool,
     /// States over the recording.
     pub track: Cleaned,
-    /// Steps (multiples of [`CHECK_EVERY`]) at which it overlaps somebody.
+    /// Steps (multiples of [`CHECK_EVERY`]) at which it overlaps another road user.
     pub overlaps: Vec<usize>,
 }
 
@@ -83,11 +83,11 @@ impl SimulatedAgent {
 /// Recording of one seed, in the network's frame.
 #[derive(Debug)]
 pub struct SimulatedRecording {
-    /// How the network was made.
+    /// Generated network.
     pub network: Network,
     /// Its map.
     pub map: NetMap,
-    /// Everybody.
+    /// All road users.
     pub actors: Vec<SimulatedAgent>,
     /// Signal states.
     pub signals: SignalLog,
@@ -206,7 +206,7 @@ fn read_signals(path: &Path) -> Result<SignalLog, RecordError> {
     }
 }
 
-/// Adds people who stand about: one for every eight who walk.
+/// Adds standing pedestrians: one for every eight walking ones.
 fn standing(net: &Net, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     let sidewalks: Vec<&Vec<Vec2>> =
         net.lanes.iter().filter(|l| l.kind == LaneKind::Sidewalk).map(|l| &l.shape).collect();
@@ -232,8 +232,8 @@ fn standing(net: &Net, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     }
 }
 
-/// Notes overlaps of wheeled road users. A parked car that somebody touches never existed; where a
-/// cyclist is involved, the cyclist is at fault (on the sidewalk first).
+/// Records overlaps of wheeled road users. A parked car that another touches is removed. If a cyclist is
+/// involved, the cyclist is at fault (on the sidewalk first).
 fn find_overlaps(actors: &mut Vec<SimulatedAgent>) {
     let wheeled: Vec<usize> =
         (0..actors.len()).filter(|&i| actors[i].agent_type != AgentType::Pedestrian).collect();

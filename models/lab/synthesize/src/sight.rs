@@ -1,4 +1,4 @@
-//! What a sensor on the ego's roof sees: recorded tracks come and go behind trucks and vans, so do these.
+//! View of a sensor on the ego's roof: trucks and vans occlude tracks, as in recordings.
 
 use scene::geometry::obb::OrientedBox;
 use scene::{Agent, Size, State, Vec2};
@@ -47,7 +47,7 @@ fn bridge(flags: &mut [bool]) {
     }
 }
 
-/// A road user in somebody's line of sight, as seen from the sensor.
+/// A road user that may occlude others, as seen from the sensor.
 struct Standing {
     outline: OrientedBox,
     height_m: f64,
@@ -68,14 +68,14 @@ impl Standing {
         Self { outline, height_m, distance_m, way: to / distance_m, half_angle_rad }
     }
 
-    /// Whether this box stands in the line from the sensor to a point, and high enough.
+    /// Whether this box blocks the line from the sensor to a point, and is high enough.
     fn hides(&self, sensor: Vec2, point: Vec2, point_height_m: f64) -> bool {
         let Some(share) = entry(&self.outline, sensor, point) else { return false };
         SENSOR_M + share * (point_height_m - SENSOR_M) < self.height_m
     }
 }
 
-/// Who is seen at a step.
+/// Visible agents at a step.
 fn look(agents: &[Agent], step: usize) -> Vec<bool> {
     let Some(sensor) = agents.first().and_then(|ego| ego.track.states[step]).map(|s| s.position()) else {
         return vec![true; agents.len()];

@@ -1,8 +1,8 @@
-//! What traffic looks like in numbers, so that synthetic windows can be laid beside recorded ones.
+//! Statistics of traffic, to compare synthetic windows with recorded ones.
 //!
-//! Accelerations, jerk and yaw rate come from the given velocities and headings after a 0.2 s Gaussian,
-//! the same for every source. Only road users within 80 m of the scene's origin (the ego, or whom the
-//! window is about) count, since what is farther away is seen in part.
+//! Accelerations, jerk and yaw rate come from the given velocities and headings after a 0.2 s Gaussian, the
+//! same for every source. Only road users within 80 m of the scene's origin (the ego or the window's centre)
+//! count, because farther ones are only partly seen.
 
 use crate::filters::{gaussian, gradient, unwrap};
 use scene::geometry::{cross, direction};
@@ -18,12 +18,12 @@ const NEAR_M: f64 = 80.0;
 const COUNTED_M: f64 = 60.0;
 /// Deviation of the Gaussian before a derivative is taken, steps.
 const SMOOTHING: f64 = 2.0;
-/// Who is faster than this moves, m/s: slower, recorded headings are noise.
+/// Above this speed a road user moves, m/s; below it, recorded headings are noise.
 const MOVING_MPS: f64 = 0.5;
 /// Fewest steps of a stretch that is measured.
 const SHORTEST: usize = 31;
 
-/// How a row is summed up.
+/// Aggregate of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Aggregate {
@@ -163,7 +163,7 @@ impl Statistics {
         self.stretch(scene, graph, agent, name, &stretch);
     }
 
-    /// Where it is 9 s after the first step, near the origin or not.
+    /// Position 9 s after the first step, near the origin or not.
     fn whole_window(&mut self, agent: &Agent, name: &str) {
         let (Some(first), Some(last)) = (agent.state_at(0), agent.state_at(scene::HORIZON_STEPS)) else {
             return;
@@ -253,7 +253,7 @@ impl Statistics {
         }
     }
 
-    /// Who drives ahead in the same direction, every 1.5 s.
+    /// Gap to the vehicle ahead in the same direction, every 1.5 s.
     fn behind(&mut self, scene: &Scene, agent: &Agent, name: &str) {
         let others =
             || scene.agents.iter().filter(|o| o.agent_type == AgentType::Vehicle && o.id != agent.id);

@@ -72,7 +72,7 @@ fn control<const N: usize>(draw: &mut Stream, signals: f64, others: [&'static st
     if draw.chance(signals) { "traffic_light" } else { draw.one_of(others) }
 }
 
-/// What every template decides about its signals.
+/// Signal settings that every template draws.
 pub fn character(draw: &mut Stream, name: &str, reach: f64) -> Character {
     Character {
         name: name.to_owned(),
@@ -155,7 +155,7 @@ fn arm(draw: &mut Stream, net: &mut Network, i: usize, angle: f64, section_: Cro
     }
 }
 
-/// What a grid of streets is filled with.
+/// Land use of a street grid.
 #[derive(Clone, Copy, PartialEq)]
 enum District {
     /// Homes.

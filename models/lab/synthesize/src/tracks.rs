@@ -75,7 +75,7 @@ fn blur(points: &[Vec2], sigma: f64) -> Vec<Vec2> {
     gaussian(&x, sigma).into_iter().zip(gaussian(&y, sigma)).map(|(x, y)| Vec2::new(x, y)).collect()
 }
 
-/// What a driver's path looks like beside the lane's middle.
+/// A driver's deviation from the lane centre.
 struct Habit {
     /// Smoothing of the path, metres.
     smoothing: f64,
@@ -261,7 +261,7 @@ fn walk(record: &FcdTrack, range: std::ops::Range<usize>, kind: &ActorKind, draw
     states(&placed, &heading)
 }
 
-/// A person who stands about.
+/// A standing pedestrian.
 pub fn stand(place: Vec2, heading_rad: f64, draw: &mut Stream) -> Cleaned {
     let n = (RECORDED_S / DT_S) as usize + 1;
     let (x, y, h) = (noise(draw, n, 25.0, 0.05), noise(draw, n, 25.0, 0.05), noise(draw, n, 60.0, 0.25));

@@ -8,7 +8,7 @@ use scene::geometry::{direction, rotate};
 use scene::random::Stream;
 use std::f64::consts::TAU;
 
-/// How far entry and exit of an arm lie apart on the ring, as half of an arc, metres.
+/// Distance of an arm's entry and exit on the ring, as half of an arc, metres.
 const HALF_MOUTH_M: f64 = 7.5;
 
 /// A roundabout of three or four arms, with one or two lanes.
@@ -113,7 +113,7 @@ pub fn approach(net: &mut Network, i: usize, arm: Arm, radius: f64, lanes: usize
     net.edge(&format!("out{i}"), [&exit, &splitter], lead_out, s.backward, slow, false);
 }
 
-/// What a motorway template needs to know.
+/// Parameters of a motorway template.
 #[derive(Clone, Copy, Debug)]
 pub struct MotorwayShape {
     /// Lanes of the through road.

@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 pub const STEPS: usize = 91;
 /// The step that windows are centred on.
 pub const NOW: usize = 10;
-/// Half a side of the square that decides who is in a window, metres.
+/// Half a side of the square that decides a window's road users, metres.
 const CROP_M: f64 = 60.0;
 /// States farther out than this are not seen, metres.
 const SEEN_M: f64 = 200.0;
@@ -23,22 +23,22 @@ const MAP_M: f64 = 210.0;
 const MAX_AGENTS: usize = 256;
 /// Road users with fewer states in a window are left out of it.
 const FEWEST_STATES: usize = 5;
-/// Whoever has not moved after so many steps is no starter.
+/// A road user that has not moved after this many steps is not starting.
 const SOON: usize = 25;
-/// Who the windows of a seed are centred on, in turn: people and cyclists more often than their share.
+/// Types of the windows' centres, in turn: pedestrians and cyclists more often than their share.
 const TURNS: [AgentType; 10] = {
     use AgentType::{Cyclist as C, Pedestrian as P, Vehicle as V};
     [V, V, P, V, C, V, P, V, V, C]
 };
 
-/// What was left out while cutting.
+/// Windows dropped while cutting.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Drops {
     /// Windows with too many overlapping road users.
     pub overlapping: usize,
     /// Windows with a vehicle that jumps.
     pub jumping: usize,
-    /// Windows with nobody to be centred on.
+    /// Windows without a road user to centre on.
     pub empty: usize,
 }
 
@@ -104,7 +104,8 @@ fn choose(
             _ => 0.0,
         };
         let fresh = 0.4_f64.powi(used.get(i).copied().unwrap_or(0));
-        // Logs are kept for what happens in them: who waits through most of a window is seldom its middle.
+        // Recordings are kept for their events, so a road user that waits through most of a window is rarely
+        // its centre.
         let soon = track.at(start + SOON).zip(track.at(start));
         let starts = soon.is_some_and(|(a, b)| (a.position() - b.position()).norm() > 0.5);
         fresh
@@ -119,7 +120,7 @@ fn choose(
     draw.among(candidates.iter().map(weight)).map(|i| candidates[i])
 }
 
-/// Who is in a window about `centre`, which comes first, and where its origin lies.
+/// Road users in a window about `centre`, which comes first, and the position of its origin.
 struct Cast {
     actors: Vec<usize>,
     origin: Vec2,

@@ -1,5 +1,5 @@
-//! How experts are made: records from recorded scenes, training, the learned rivals that training makes by the
-//! same means, and the weights of placement.
+//! Training of experts: records from recorded scenes, training, the learned rivals trained by the same means,
+//! and the weights of placement.
 //!
 //! ```
 //! use lab_train::scenes::{Crop, Cropped};

@@ -13,7 +13,7 @@ use scene::{AgentType, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Steps of a window that are looked at; between them the traffic has moved on.
+/// Steps of a window that are read; they lie far enough apart for the traffic to move on.
 const STEPS: [usize; 3] = [0, 45, 90];
 /// Sweeps over the factors; each step is exact for one feature, and they settle quickly.
 const SWEEPS: usize = 60;
@@ -29,16 +29,16 @@ const BOX_WIDTH_M: f64 = 0.1;
 /// Boxes kept: this share of all.
 const BOX_SHARE: f64 = 0.99;
 
-/// What to learn from.
+/// Options of the training data.
 #[derive(Clone, Debug)]
 pub struct PlacementOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
-    /// What the data are, for the weights' header, in place of what the scenes say themselves.
+    /// Description of the data for the weights' header; replaces that of the scenes.
     pub trained_on: Option<String>,
 }
 
-/// What was learned from.
+/// Counts of the training data.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct PlacementSummary {
@@ -261,7 +261,7 @@ impl Sums {
     }
 }
 
-/// Three digits are what the data say.
+/// The data support three digits.
 fn short(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;

@@ -134,7 +134,7 @@ impl Polylines {
         self.lanes.push(id.cloned());
     }
 
-    /// What a road user sees of the map: at most [`PIECES`], the nearest first, biased ahead and to its goal.
+    /// Map pieces that a road user sees: at most [`PIECES`], the nearest first, biased ahead and to its goal.
     pub fn seen(&self, world: &World<'_>, who: &AgentAtStart) -> Vec<SeenPiece> {
         let (origin, heading_rad) = (who.start.position(), who.start.heading_rad);
         let local = |p: Vec2| rotate(p - origin, -heading_rad);

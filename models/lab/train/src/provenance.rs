@@ -1,14 +1,14 @@
-//! Where training data come from: it travels from scenes into records, and from there into weights.
+//! Provenance of training data: scenes pass it to records, and records to weights.
 
 use scene::licence::{UNKNOWN, is_open, strictest};
 use scene::{AgentType, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Licence of weights whose data ask for nothing.
+/// Licence of weights from data without any terms.
 const OWN: &str = "MIT OR Apache-2.0";
 
-/// What records were made of.
+/// Sources of records.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {

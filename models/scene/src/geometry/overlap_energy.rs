@@ -9,7 +9,7 @@ const MARGIN: f32 = 0.5;
 /// Weight of a square metre that is missing.
 const WEIGHT: f32 = 0.3;
 
-/// Centre x and y, cosine and sine of the heading at each instant. All zero: nobody there.
+/// Centre x and y, cosine and sine of the heading at each instant. All zero: absent.
 pub type Poses<const N: usize> = [[f32; 4]; N];
 
 /// A box that is in the way.
@@ -30,12 +30,12 @@ pub enum Growth {
     Linear,
 }
 
-/// The upright rectangle about the places of somebody who moves: least x and y, then most.
+/// The axis-aligned rectangle around the places of a moving box: least x and y, then greatest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds([f32; 4]);
 
 impl Bounds {
-    /// About the places where somebody is; nobody anywhere is far from all.
+    /// Around the instants at which the box is present. Without any, the bounds are far from all others.
     pub fn of<const N: usize>(poses: &Poses<N>) -> Self {
         let mut all = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
         for pose in poses.iter().filter(|p| !absent(p)) {
@@ -57,7 +57,8 @@ impl Bounds {
     }
 }
 
-/// Boxes whose centres are farther apart than this, along x or along y, are more than the margin apart.
+/// Greatest distance of two centres along x or along y at which their boxes can be within the margin of each
+/// other.
 fn reach_of(half: [f32; 2], other: [f32; 2]) -> f32 {
     MARGIN + half[0] + half[1] + other[0] + other[1]
 }
@@ -106,9 +107,9 @@ pub fn overlap_energy<'a, const N: usize>(
     result
 }
 
-/// Where boxes would be later if each went on, headings held, as it has moved since the instant before;
-/// `share` is how much later, in intervals between instants. Nobody is there at the first instant, and where
-/// one of the two says so.
+/// Boxes extrapolated with their velocity since the previous instant, headings held. `share` is the time
+/// ahead, in intervals between instants. The result is absent at the first instant, and where the pose or the
+/// previous one is absent.
 pub fn carried_on<const N: usize>(poses: &Poses<N>, share: f32) -> Poses<N> {
     let mut out = [[0.0; 4]; N];
     for instant in 1..N {
@@ -133,7 +134,7 @@ pub fn carried_back<const N: usize>(gradient: &[[f32; 2]; N], share: f32) -> [[f
     out
 }
 
-/// Whether a pose says that nobody is there.
+/// Whether the pose marks an absent box.
 pub fn absent(pose: &[f32; 4]) -> bool {
     pose[2] == 0.0 && pose[3] == 0.0
 }

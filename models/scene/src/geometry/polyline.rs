@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
 
-/// Places that are looked at before the foot of a point is searched for.
+/// Places that are probed before the search for the foot of a point.
 const PROBES: usize = 12;
 
 /// Rounding that passing over pieces allows for, metres.
@@ -64,7 +64,7 @@ pub struct Polyline {
     points: Vec<Vec2>,
     /// Arc length of each point, metres.
     arc: Vec<f64>,
-    /// See [`Polyline::headings_rad`]; worked out when first asked for, since most lines are steps towards others.
+    /// See [`Polyline::headings_rad`]; computed on first use, since most lines are intermediate results.
     headings: OnceLock<Vec<f64>>,
 }
 
@@ -136,8 +136,8 @@ impl Polyline {
         headings
     }
 
-    /// Continues the bend of smooth, evenly spaced lines to their ends, where the first and last piece alone
-    /// are off by half the turn of one piece.
+    /// Continues the bend of smooth, evenly spaced lines to their ends. There the first and last pieces are
+    /// off by half the turn of one piece.
     fn turn_ends(&self, headings: &mut [f64]) {
         let n = headings.len();
         if n < 4 {
@@ -261,7 +261,7 @@ impl Polyline {
     /// Foot of `point` on the part from `from_m` to `to_m`; for lines that come near themselves again.
     pub fn project_between(&self, point: Vec2, from_m: f64, to_m: f64) -> Foot {
         let from = self.arc.partition_point(|s| *s < from_m);
-        // A few places tell how far the foot is at most.
+        // A few probed points bound the distance of the foot.
         let stride = (self.points.len() / PROBES).max(1);
         let probed = self.arc.iter().zip(&self.points).skip(from).step_by(stride);
         let probed = probed.take_while(|(s, _)| **s <= to_m).map(|(_, p)| (p - point).norm_squared());
@@ -272,8 +272,8 @@ impl Polyline {
         }
     }
 
-    /// Foot of `point` on the whole line; `None` where that is farther than `within_m`. For lines that are far from
-    /// most of what is asked about: it looks at few pieces of these.
+    /// Foot of `point` on the whole line; `None` where that is farther than `within_m`. Fast for lines that
+    /// are far from most query points: it reads few of their pieces.
     pub fn project_within(&self, point: Vec2, within_m: f64) -> Option<Foot> {
         let (piece, s_m) = self.nearest(point, 0.0, f64::INFINITY, within_m)?;
         Some(self.foot_at(piece, s_m, point)).filter(|foot| foot.distance_m <= within_m)
@@ -303,7 +303,7 @@ impl Polyline {
         best
     }
 
-    /// Foot of `point` whose foot lies on piece `piece` at arc length `s_m`.
+    /// Foot of `point` on piece `piece` at arc length `s_m`.
     pub(crate) fn foot_at(&self, piece: usize, s_m: f64, point: Vec2) -> Foot {
         let Pose { position: foot, heading_rad } = self.sample(s_m);
         let away = point - foot;

@@ -3,7 +3,7 @@
 use super::Vec2;
 use super::obb::OrientedBox;
 
-/// How far ahead a collision is looked for, seconds.
+/// Greatest time to collision that is searched, seconds.
 pub const LOOK_AHEAD_S: f64 = 8.0;
 
 /// Seconds until two boxes that keep their velocities (m/s) and headings begin to overlap; zero when

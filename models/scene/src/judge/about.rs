@@ -1,11 +1,11 @@
-//! What is said about a future: what is wrong with it, how it stands to others, what it does, why it was
-//! taken. These are the members of the API's modes.
+//! Verdicts on a future: faults, relations to others, manoeuvre, reaction. These are the members of the API's
+//! modes.
 
 use crate::AgentId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What can be wrong with a motion, the worst first.
+/// Kind of a fault, the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {
@@ -56,7 +56,7 @@ pub struct Fault {
     pub edge: Option<String>,
 }
 
-/// How a motion stands to another's.
+/// Relation of a motion to another's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationKind {
@@ -89,7 +89,7 @@ pub struct Relation {
     pub gap_s: Option<f64>,
 }
 
-/// What a motion does, by its shape and the lanes that it takes.
+/// Manoeuvre of a motion, by its shape and its lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -104,21 +104,21 @@ pub enum Manoeuvre {
     Reverse,
 }
 
-/// What is said about one future.
+/// Verdicts on one future.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct About {
-    /// What is wrong with it, the worst first.
+    /// Faults, the worst first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<Fault>,
-    /// How it stands to others, the nearest in time first.
+    /// Relations to others, the nearest in time first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub relations: Vec<Relation>,
-    /// What it does.
+    /// Manoeuvre.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub manoeuvre: Option<Manoeuvre>,
 }
 
-/// How a road user answers another.
+/// How a road user reacts to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ReactionKind {
@@ -136,11 +136,11 @@ pub enum ReactionKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reaction {
-    /// How it answers.
+    /// Kind of the reaction.
     pub kind: ReactionKind,
-    /// Whom it answers: the road user that its own motion would have met.
+    /// The road user that its own motion would have met.
     pub cause: AgentId,
-    /// How much later than without it, seconds; negative for earlier.
+    /// Delay against its own motion, seconds; negative for earlier.
     pub delay_s: f64,
     /// Scene time at which it waits or is slowest, seconds.
     pub time_s: f64,

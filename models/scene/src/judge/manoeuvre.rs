@@ -1,4 +1,4 @@
-//! What a motion does, by its shape and the lanes that it takes.
+//! Classifies a motion by its shape and its lanes.
 
 use super::Manoeuvre;
 use crate::geometry::{cross, direction};
@@ -6,9 +6,9 @@ use crate::routes::{LaneGraph, LaneHit};
 use crate::{AgentType, State, wrap_angle};
 use std::collections::VecDeque;
 
-/// Every fifth state is looked at.
+/// Steps between the states that are compared.
 const STRIDE: usize = 5;
-/// Who moves less stays, metres.
+/// A motion of less is a stay, metres.
 const STAYS_M: f64 = 1.0;
 /// Turning by more is a turn, radians: 34 degrees.
 const TURN_RAD: f64 = 0.6;
@@ -21,13 +21,13 @@ const AHEAD_M: f64 = 1.2;
 const ON_LANE_M: f64 = 2.5;
 /// A lane that leads elsewhere is not driven on, radians.
 const ALONG_LANE_RAD: f64 = 0.8;
-/// Lanes looked at between start and end.
+/// Most lanes that are searched between start and end.
 const MOST_LANES: usize = 64;
 /// Lane changes of one motion.
 const MOST_CHANGES: i32 = 3;
 
-/// What states on consecutive steps do. Where lanes are given, a bend of the road is no turn, and a change of lane is
-/// told.
+/// Manoeuvre of states on consecutive steps. With lanes, a bend of the road is no turn, and lane changes are
+/// recognized.
 pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGraph>) -> Option<Manoeuvre> {
     if states.is_empty() {
         return None;

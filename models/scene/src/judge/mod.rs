@@ -1,5 +1,4 @@
-//! What a traffic engineer says of a motion: every future is judged by the same rules as a scene's score, each
-//! fault with its time, place and extent.
+//! Judges every future by the rules of a scene's score; each fault has its time, place and extent.
 
 mod about;
 mod manoeuvre;
@@ -36,26 +35,26 @@ pub const HARSH_S: f64 = 0.2;
 
 /// The rules of one scene over a stretch of time. Cheap to make; judges any number of motions.
 pub struct Judge<'a> {
-    /// Nobody is in it: the map, the time and the thresholds.
+    /// An input without actors: the map, the time and the thresholds.
     input: ScoreInput<'a>,
     lines: Vec<SignalStopLine<'a>>,
 }
 
-/// Somebody else with the motion that one may meet.
+/// Another agent with the motion that may be met.
 pub struct Other<'a> {
     actor: Actor<'a>,
     mover: Mover,
 }
 
 impl Other<'_> {
-    /// Who it is.
+    /// The agent's id.
     pub fn id(&self) -> &str {
         self.actor.id
     }
 }
 
 impl<'a> Judge<'a> {
-    /// `steps` are the scene steps that are looked at, the start of the motions first.
+    /// `steps` are the scene steps that are judged, the start of the motions first.
     pub fn new(map: &'a LaneMap, signals: &'a [Signal], drivable: &'a Drivable, steps: Range<usize>) -> Self {
         let input = ScoreInput {
             actors: Vec::new(),
@@ -77,14 +76,14 @@ impl<'a> Judge<'a> {
         self
     }
 
-    /// Somebody to meet.
+    /// Prepares another agent for many comparisons.
     pub fn other(&self, actor: Actor<'a>) -> Other<'a> {
         let mover = Mover::new(&actor, self.input.steps.clone());
         Other { actor, mover }
     }
 
-    /// What is wrong with a motion whoever else is there, and not in its log too: road, lights, brakes, steering,
-    /// goal.
+    /// Faults of a motion that do not involve another agent: road, lights, brakes, steering, goal. Faults
+    /// that the recording also shows are left out.
     pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
         let mut found = Vec::new();
         let mut road = self.road(actor);
@@ -96,7 +95,7 @@ impl<'a> Judge<'a> {
         let mut add = |kind, stretches: Vec<Stretch>, keeps: &dyn Fn(&Stretch) -> bool| {
             found.extend(stretches.into_iter().filter(|s| !s.in_log && keeps(s)).map(|s| fault(kind, s)));
         };
-        // Who starts off the road or against the traffic was put there.
+        // A motion that starts off the road or against the traffic was placed there.
         let first_s = self.input.steps.start as f64 * STEP_S;
         let entered = |s: &Stretch| s.time_s > first_s + 1e-6;
         let driven = |s: &Stretch| entered(s) && self.driven_m(actor, s) >= TOUCH_M;
@@ -127,7 +126,7 @@ impl<'a> Judge<'a> {
         !crossed_at_red(&self.input, actor, &self.lines).is_empty()
     }
 
-    /// Whom a motion meets, or all but.
+    /// Collisions and near misses of a motion with the others.
     pub fn among<'o>(&self, actor: &Actor<'_>, others: impl Iterator<Item = &'o Other<'a>>) -> Vec<Fault>
     where
         'a: 'o,
@@ -150,13 +149,14 @@ impl<'a> Judge<'a> {
         others.filter(|o| o.actor.id != actor.id).filter_map(meets).collect()
     }
 
-    /// Metres driven in a stretch, a step before it counted: who leaves a kerb at once has touched it.
+    /// Metres driven in a stretch and the step before it, which covers a vehicle that leaves the kerb at
+    /// once.
     fn driven_m(&self, actor: &Actor<'_>, stretch: &Stretch) -> f64 {
         let steps = step(stretch.time_s).saturating_sub(1)..step(stretch.until_s);
         steps.filter_map(|i| actor.state(i)).map(|s| s.speed_mps() * STEP_S).sum()
     }
 
-    /// Riders use pavements and ride both ways, yet nobody rides over a median.
+    /// Cyclists may use pavements and ride both ways, but not over a median.
     fn road(&self, actor: &Actor<'_>) -> RoadScore {
         if actor.agent_type != AgentType::Cyclist {
             return score_road(&self.input, actor);
@@ -187,7 +187,7 @@ impl<'a> Judge<'a> {
             return None;
         }
         let due_s = actor.goal.time_s.unwrap_or(f64::INFINITY);
-        // A future that is known for a first part of the scene alone says nothing of a goal after it.
+        // A future that covers only a first part of the scene has no verdict on a later goal.
         let known = actor.track.last_valid_step()? + 1;
         if due_s > known as f64 * STEP_S && known < self.input.steps.end {
             return None;

@@ -1,4 +1,4 @@
-//! How a motion stands to others': who is first where paths cross, who is followed, who is let go first.
+//! Relations of a motion to others: order at crossing paths, following, yielding.
 
 use super::trace::{
     GOES_M, MOMENT_S, Moment, QUEUE_M, SAME_WAY_RAD, STRIDE, SharedGround, Trace, WINDOW_S, crossing,
@@ -7,7 +7,7 @@ use super::{Relation, RelationKind, rounded};
 use crate::geometry::cross;
 use crate::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 
-/// Most that are told.
+/// Most relations of a motion.
 const MOST: usize = 4;
 /// Behind another by more than this is not following it, seconds.
 const HEADWAY_S: f64 = 3.0;
@@ -18,8 +18,8 @@ const SLOWS_WITHIN_M: f64 = 30.0;
 /// Slower than this share of the speed before is giving way.
 const SLOWED: f64 = 0.6;
 
-/// How `me` stands to the others, at most [`MOST`]: where paths cross first, by the time at which it is there,
-/// then whom it follows. `start_step` is the scene step of all traces' first moments.
+/// Relations of `me` to the others, at most [`MOST`]: crossing paths first, by the time at which it is there,
+/// then its leader. `start_step` is the scene step of all traces' first moments.
 pub fn relations<'a>(
     me: &Trace,
     others: impl IntoIterator<Item = &'a Trace>,
@@ -57,7 +57,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Less tells more: who is given way to, then close calls, then who is followed.
+    /// Rank, lower first: yielding, then crossing with a small gap, then following.
     fn weight(&self) -> f64 {
         let gap_s = self.gap_s.unwrap_or(0.0);
         match self.kind {
@@ -105,7 +105,7 @@ fn gives_way(me: &Trace, ground: &SharedGround) -> bool {
     let drop_mps = if me.agent_type == AgentType::Pedestrian { 0.4 } else { 1.0 };
     let slowed = slowest.speed_mps < SLOWED * before && before - slowest.speed_mps > drop_mps;
     let after = (when..me.moments.len()).filter_map(|k| me.speed_at(k)).fold(0.0, f64::max);
-    // Who stands still waits for it only if it goes once the other has passed, or has come here and stopped.
+    // An agent that stands counts as waiting only if it slowed down before or goes on after.
     let waits = slowest.speed_mps < STANDING_MPS && (slowed || after > drop_mps);
     slowed || waits
 }
@@ -160,7 +160,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
         })
     };
     if ahead && (bumper < HEADWAY_S * moment.speed_mps || bumper < QUEUE_M) {
-        // Both stand: no time tells how far.
+        // Both stand, so the gap has no value in seconds.
         return Some(if moment.speed_mps > STANDING_MPS { bumper / moment.speed_mps } else { f64::INFINITY });
     }
     if along <= 0.0 {
@@ -226,7 +226,7 @@ mod tests {
         assert!((gap_s - 1.4).abs() < 0.21, "{gap_s}");
         assert!((later[0].time_s - 4.7).abs() < 0.4 && (later[0].x_m - 37.0).abs() < 3.0, "{later:?}");
         assert_eq!(kinds(&me, &[car("early", &north(2.0))]), [(RelationKind::After, "early".into())]);
-        // Nobody is first where they meet, nor where ten seconds lie between them.
+        // Neither is first where they collide, nor where ten seconds lie between them.
         assert!(kinds(&me, &[car("meets", &north(4.0))]).is_empty());
         assert!(kinds(&me, &[car("never", &north(12.0))]).is_empty());
     }
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn waiting_for_a_walker_until_the_end_is_giving_way() {
-        // Stops at x = 20 after 4 s and stays there; somebody walks over at x = 26.
+        // Stops at x = 20 after 4 s and stays there; a pedestrian crosses at x = 26.
         let stopping = |t: f64| (10.0 - 2.5 * t).max(0.0);
         let me = car("me", &ride((0.0, 0.0), 0.0, stopping));
         let over = walker("7", &ride((26.0, -8.0), FRAC_PI_2, |_| 1.4));

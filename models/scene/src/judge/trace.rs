@@ -1,27 +1,26 @@
-//! Motions as others see them, and the ground that two of them share.
+//! Traces of motions, and the ground that two of them share.
 //!
-//! Boxes are compared at other times than their own: where the box of one at one moment meets the box of the
-//! other at another moment, the two share ground, and the shift between the moments says who was there first
-//! (compare the post-encroachment time of the score, which needs paths that cross at an angle; merging counts
-//! here too).
+//! Boxes are compared at different times: where the box of one at one moment meets the box of the other at
+//! another moment, the two share ground. The time shift between the moments gives the order (compare the
+//! post-encroachment time of the score, which needs paths that cross at an angle; merging counts here too).
 
 use crate::geometry::direction;
 use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::{AgentId, AgentType, STEP_S, Size, State, Vec2, wrap_angle};
 
-/// Every second step is looked at.
+/// Steps between two moments.
 pub(super) const STRIDE: usize = 2;
-/// Seconds between two moments that are looked at.
+/// Seconds between two moments.
 pub(super) const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
-/// Whoever shares ground later than this has nothing to do with each other, seconds.
+/// Shared ground with a larger time shift is no relation, seconds.
 pub(super) const WINDOW_S: f64 = 6.0;
-/// Ways whose headings differ by less are the same way, radians: 35 degrees.
+/// Paths whose headings differ by less have the same direction, radians: 35 degrees.
 pub(super) const SAME_WAY_RAD: f64 = 0.61;
 /// Standing bumper to bumper is following too, metres.
 pub(super) const QUEUE_M: f64 = 6.0;
-/// Who moves less goes nowhere, metres.
+/// A motion of less has no relation, metres.
 pub(super) const GOES_M: f64 = 2.0;
-/// Who ends slower than this is about to go on, so far, m/s and metres.
+/// An agent that ends slower than this is assumed to go on, m/s, and by this distance, metres.
 const WAITING_MPS: f64 = 1.0;
 const GOES_ON_M: f64 = 7.0;
 /// Goes on, metres a moment.
@@ -118,7 +117,7 @@ impl Trace {
         self
     }
 
-    /// Whose.
+    /// The agent's id.
     pub fn id(&self) -> &str {
         &self.id
     }
@@ -169,7 +168,7 @@ impl Trace {
         false
     }
 
-    /// The box at a moment. Made where it is looked at: most never are.
+    /// The box at a moment, computed on first use: most are never needed.
     fn outline(&self, moment: &Moment) -> OrientedBox {
         let half_m = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
         OrientedBox::facing(moment.center, half_m, moment.heading_rad, moment.forward)
@@ -206,7 +205,7 @@ pub struct SharedGround {
 }
 
 impl SharedGround {
-    /// Who is first: 1 for the first one, -1 for the other, 0 where they meet.
+    /// Order: 1 if the first agent is first, -1 if the other is, 0 where they meet.
     pub fn order(&self) -> i64 {
         match self.shift {
             (least, _) if least > 0 => 1,
@@ -221,8 +220,8 @@ impl SharedGround {
     }
 }
 
-/// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
-/// for two walkers.
+/// Ground where the paths of two agents cross or merge; `None` for two agents that follow each other from the
+/// start on, and for two pedestrians.
 pub fn crossing(me: &Trace, other: &Trace) -> Option<SharedGround> {
     let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
     if walkers || other.way_m < GOES_M || !me.may_meet(other) {

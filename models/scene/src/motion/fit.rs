@@ -29,8 +29,8 @@ const GAUSS_NEWTON_STEPS: usize = 3;
 
 type Square<const N: usize> = SMatrix<f64, N, N>;
 
-/// Knots whose rollout passes the samples as closely as the limits allow. Samples every 0.5 s are
-/// enough. An empty list gives the coasting knots.
+/// Knots whose rollout is as close to the samples as the limits allow. One sample each 0.5 s is enough. An
+/// empty list gives the coasting knots.
 pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
     if samples.is_empty() {
         return model.coasting();

@@ -1,4 +1,4 @@
-//! Goals met exactly: the smallest change of the knots whose rollout ends at the goal, within the limits.
+//! Meets goals exactly: the smallest change of the knots whose rollout ends at the goal, within the limits.
 //!
 //! Gauss-Newton on the rollout with its analytic Jacobian, in the metric of [`super::whiten`], with an
 //! active set at the bounds. A hard start is tried from several first guesses.
@@ -28,13 +28,13 @@ pub struct Target {
 }
 
 impl Target {
-    /// Nothing is asked.
+    /// All fields are free.
     pub fn is_free(&self) -> bool {
         self.position.is_none() && self.heading_rad.is_none() && self.speed_mps.is_none()
     }
 
-    /// The velocity that is asked for at the end, m/s; what is not fixed of its length and direction is as in
-    /// `natural`. `None` when neither is fixed.
+    /// The fixed velocity at the end, m/s. A free speed or direction is taken from `natural`. `None` when
+    /// both are free.
     pub fn end_velocity(&self, natural: Vec2) -> Option<Vec2> {
         match (self.heading_rad, self.speed_mps) {
             (Some(heading), speed) => Some(direction(heading) * speed.unwrap_or_else(|| natural.norm())),
@@ -65,7 +65,7 @@ impl TargetError {
         }
     }
 
-    /// Within 5 cm, 0.015 rad and 5 cm/s: nobody can see the rest.
+    /// Within 5 cm, 0.015 rad and 5 cm/s: a smaller error is invisible.
     pub fn is_met(&self) -> bool {
         self.position_m < 0.05 && self.heading_rad < 0.015 && self.speed_mps < 0.05
     }
@@ -89,7 +89,7 @@ pub enum Limiting {
     Lateral,
     /// Tightness of a turn, 1/m.
     Curvature,
-    /// Somebody is in the way and does not get out of it.
+    /// Another agent is in the way and stays there.
     Traffic,
 }
 
@@ -106,7 +106,7 @@ pub enum Reach {
         residuals: TargetError,
         /// The limit that binds.
         limiting: Limiting,
-        /// What it would take in that limit's unit, where a formula tells.
+        /// The amount that the target would take, in that limit's unit, where a formula gives it.
         needs: Option<f64>,
     },
 }
@@ -117,7 +117,7 @@ impl Reach {
         matches!(self, Self::Reached(_))
     }
 
-    /// True where it is missed because somebody is in the way.
+    /// Whether the goal is missed because another agent is in the way.
     pub fn is_for_traffic(&self) -> bool {
         matches!(self, Self::Unreachable { limiting: Limiting::Traffic, .. })
     }
@@ -144,7 +144,7 @@ const TOLERANCE: f64 = 2e-4;
 
 /// Rows of a target: x, y, heading, speed.
 const TARGET_ROWS: usize = 4;
-/// Rows of a target and of as many places on the way as may be asked.
+/// Rows of a target and of the greatest number of via points.
 const THROUGH_ROWS: usize = TARGET_ROWS + 2 * MAX_VIAS;
 type Controls = SVector<f64, CONTROLS>;
 
@@ -202,7 +202,7 @@ pub fn project_through(
 ) -> Projection {
     let near = model.legal(near);
     let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
-    // Who stands at its goal on foot turns there.
+    // A pedestrian that stands at its goal turns there.
     let turns = model.kind == MotionKind::Walk && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
     let turn_to = target.heading_rad.filter(|_| turns).map(|heading_rad| (target.step, heading_rad));
     let model = MotionModel { turn_to, ..*model };
@@ -225,8 +225,8 @@ fn judged(model: &MotionModel, knots: Knots, trajectory: Trajectory, target: &Ta
     Projection { knots, trajectory, reach }
 }
 
-/// What the goal asked for ends with the goal: later knots go back to the wanted ones (on foot, the
-/// velocity at the goal is kept), so that a hurry to reach it does not carry on beyond.
+/// Limits the goal's effect to the time before it: later knots return to the wanted ones, so that a hurry
+/// ends at the goal. On foot they keep the velocity at the goal.
 fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Target) -> Knots {
     // Up to this knot the motion before the goal depends on them.
     let last = target.step.div_ceil(KNOT_STEPS);
@@ -288,7 +288,7 @@ fn attempts(
     out
 }
 
-/// Target minus value, and the value's derivatives; rows that are not asked are zero and inactive.
+/// Target minus value, and the value's derivatives; rows of free fields are zero and inactive.
 struct Linearized<const ROWS: usize> {
     residual: SVector<f64, ROWS>,
     jacobian: SMatrix<f64, ROWS, CONTROLS>,
@@ -427,7 +427,8 @@ fn linearise_walk<const ROWS: usize>(
     let wanted = match target.speed_mps {
         Some(speed) => Some(speed),
         None if standing => Some(0.0),
-        // A heading alone asks for motion along it, so that the body follows.
+        // With a fixed heading and a free speed the end must move along the heading, so that the body follows
+        // it.
         None if along < 0.4 => Some(0.5),
         None => None,
     };

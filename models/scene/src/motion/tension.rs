@@ -1,4 +1,4 @@
-//! Curves in time whose velocity soon returns to an even pace: how people walk to a place.
+//! Curves in time whose velocity soon returns to a constant one: how people walk to a place.
 //!
 //! A cubic in time carries the velocity of the first moment through the whole way. A walker's does not last:
 //! most of it is sway and gait. The curve here keeps both acceleration and departure from an even velocity
@@ -23,8 +23,8 @@ pub struct Tension {
 impl Tension {
     /// The curve from a place and velocity (m, m/s) to a target's position, met at its step. A departure from
     /// the even velocity fades to 1/e of itself in `relax_s` seconds, which must be above 0. The velocity at
-    /// the end follows the target's speed and heading where they are fixed; a free end has no acceleration,
-    /// and its direction alone is taken where only the speed is fixed. `None` for a target without a position.
+    /// the end follows the target's speed and heading where they are fixed. A free end has no acceleration;
+    /// where only the speed is fixed, it gives the direction. `None` for a target without a position.
     pub fn to_target(from: (Vec2, Vec2), target: &Target, relax_s: f64) -> Option<Self> {
         let to = target.position?;
         let seconds = target.step.max(1) as f64 * STEP_S;

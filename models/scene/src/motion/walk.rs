@@ -82,7 +82,7 @@ pub(crate) fn rollout(model: &MotionModel, knots: &Knots) -> Trajectory {
     states
 }
 
-/// Turns a person who stands at `step` to `heading` over the last steps before it.
+/// Turns a pedestrian that stands at `step` to `heading` over the last steps before it.
 fn turn_on_the_spot(states: &mut Trajectory, step: usize, heading: f64) {
     let step = step.min(HORIZON_STEPS);
     if states[step].velocity.norm() > STANDING_MPS + 0.02 {

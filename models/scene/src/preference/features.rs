@@ -1,4 +1,4 @@
-//! Futures in terms that people can name.
+//! Features of futures that a person can name.
 
 use super::Places;
 use crate::judge::{FaultKind, Manoeuvre, RelationKind};
@@ -7,9 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Who comes no nearer than this in time has room enough, seconds.
+/// A larger time gap is free room, seconds.
 const ROOM_S: f64 = 5.0;
-/// Speeds this many steps apart tell an acceleration: shorter jerks are no manner of driving.
+/// Steps between the speeds that an acceleration is taken from. Shorter changes are jitter.
 const ACCEL_STEPS: usize = 5;
 /// Steps between places.
 const PLACE_STEPS: usize = 5;
@@ -22,7 +22,7 @@ pub(super) const PLACE_S: f64 = PLACE_STEPS as f64 * STEP_S;
 pub enum Trait {
     /// Mean speed.
     Pace,
-    /// Time between it and whoever crosses its way.
+    /// Least time gap to a road user that crosses its path.
     Gap,
     /// Hardest braking, accelerating or turning.
     Harshness,
@@ -39,9 +39,9 @@ pub enum Trait {
     },
     /// What it drives.
     Does {
-        /// Who.
+        /// The road user.
         who: AgentId,
-        /// What.
+        /// The manoeuvre.
         manoeuvre: Manoeuvre,
     },
 }
@@ -160,7 +160,7 @@ impl Trait {
     }
 }
 
-/// A rule is broken, or the goal is not met: nobody wants to choose among such.
+/// The future breaks a rule or misses its goal, and so is no useful card.
 pub(super) fn is_broken(future: &Future) -> bool {
     use FaultKind::{Collision, GoalMissed, OffRoad, OverMedian, RedLight, ViaMissed, WrongWay};
     let missed = |kind| matches!(kind, ViaMissed | GoalMissed);

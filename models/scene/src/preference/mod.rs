@@ -1,10 +1,10 @@
-//! What a person likes, learned from futures that were kept and rejected, in terms that people can name: pace, gap,
-//! smoothness, waiting, distance from the recording, who goes first, what is driven. The second future work of
-//! DragTraffic (IROS 2024, section V): feedback of users in rounds.
+//! Learns a person's preference from kept and rejected futures, by features that people can name: pace, gap,
+//! smoothness, waiting, distance from the recording, order, manoeuvre. The second future work of DragTraffic
+//! (IROS 2024, section V): feedback of users in rounds.
 //!
-//! A wide draw is laid out as [`Candidate`]s. [`Taste`] is the posterior of a Plackett-Luce model over their
-//! features, given the answers so far; [`choose`] takes the next cards from it: the best first, then what the best
-//! may be as far as is known, none like another and none like one that was judged.
+//! A wide draw gives [`Candidate`]s. [`Taste`] is the posterior of a Plackett-Luce model over their features,
+//! given the answers so far. [`choose`] takes the next cards from it: the best first, then the best by draws
+//! of the posterior, each unlike the other cards and unlike judged ones.
 
 mod features;
 mod round;
@@ -23,7 +23,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What a person said of a card.
+/// A person's verdict on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -78,7 +78,7 @@ pub struct JudgedCard {
 /// Box centres at every half second from the first state on, by road user, metres.
 pub type Places = BTreeMap<AgentId, Vec<Vec2>>;
 
-/// All that was said so far.
+/// All feedback so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Judged cards, the first round's first.

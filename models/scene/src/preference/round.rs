@@ -14,11 +14,11 @@ use std::collections::BTreeMap;
 const APART_M: f64 = 1.5;
 /// ...or, of the slow, as far as they go in this time, seconds.
 const APART_S: f64 = 1.0;
-/// Walkers who all but stand differ by this, metres.
+/// Least distance that makes two almost standing motions different, metres.
 const LEAST_APART_M: f64 = 0.3;
 /// Nearer than this share of it, a card is one that was judged.
 const SAME_SHARE: f64 = 0.3;
-/// Those that keep the rules make a choice by themselves when they are so many times the cards.
+/// Rule-keeping candidates suffice for a round if there are this many times as many as cards.
 const ENOUGH_TIMES: usize = 2;
 
 /// A motion that may become a card: a future of one road user, or a joint scene.
@@ -37,12 +37,12 @@ pub struct Candidate {
 /// A candidate that is shown.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RoundCard {
-    /// What it is like: sent back with what is said of it.
+    /// Features of the card; the client returns them with the verdict.
     pub features: Features,
     /// The share of the learned wishes that it fulfils; absent while none is known.
     #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
     pub fulfils: Option<f64>,
-    /// Box centres at every half second, by road user: sent back with what is said of it.
+    /// Box centres at every half second, by road user; the client returns them with the verdict.
     pub places: BTreeMap<AgentId, Vec<[f64; 2]>>,
 }
 
@@ -68,7 +68,7 @@ impl Candidate {
         modes.map(|(sample, mode, future)| Self::of(scene, sample, Some(mode), &[(id, future)])).collect()
     }
 
-    /// All samples, each with the chosen futures of everybody.
+    /// All samples, each with the chosen futures of all agents.
     pub fn scenes(scene: &Scene, samples: &[Sample]) -> Vec<Self> {
         let one = |(k, sample): (usize, &Sample)| {
             let futures = sample.agents.iter();
@@ -114,10 +114,10 @@ impl Candidate {
     }
 }
 
-/// The next `count` cards out of a draw. The same draw, feedback and seed give the same cards. The first card is the
-/// best liked as far as is known; each of the others is the best by one draw of what may be liked. Those that break a
-/// rule are taken only where few keep them, and none is like a card beside it or like one that was judged: a draw
-/// that has no more gives fewer cards.
+/// The next `count` cards out of a draw. The same draw, feedback and seed give the same cards. The first card
+/// has the greatest posterior mean; each of the others is the best by one draw of the posterior. Candidates
+/// that break a rule are taken only where few keep all rules. No card resembles another card or a judged one,
+/// so an exhausted draw gives fewer cards.
 pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed: u64) -> Round {
     let clean: Vec<usize> = (0..candidates.len()).filter(|i| candidates[*i].is_clean()).collect();
     let open = if clean.len() >= ENOUGH_TIMES * count { clean } else { (0..candidates.len()).collect() };
@@ -160,7 +160,7 @@ fn is_new(candidate: &Candidate, feedback: &Feedback) -> bool {
     feedback.answers.iter().all(|answer| are_apart(&candidate.places, &answer.places, SAME_SHARE))
 }
 
-/// Somebody is somewhere clearly elsewhere: by this share of what two cards differ by.
+/// Whether some road user is elsewhere in `b`, by `share` of the distance that makes two cards different.
 fn are_apart(a: &Places, b: &Places, share: f64) -> bool {
     let differs = |(id, mine): (&String, &Vec<Vec2>)| {
         let Some(other) = b.get(id) else { return true };

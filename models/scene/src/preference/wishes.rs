@@ -1,4 +1,4 @@
-//! What was learned, in words that a person can check and take back.
+//! Learned wishes, as statements that a person can check and take back.
 
 use super::taste::Taste;
 use super::{Feedback, JudgedCard, Trait, Verdict, Way, Wish};
@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// A wish is told when so many answers agree with it...
+/// A wish is reported when so many answers agree with it...
 const LEAST_AGREED: usize = 3;
 /// ...and so many times as many as contradict it.
 const AGREED_TIMES: usize = 2;
@@ -46,7 +46,7 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
         return None;
     }
     let spoken = feedback.wishes.iter().rfind(|wish| wish.of == of);
-    // What goes together is told apart by no one: the wish says what the answers show, the strength what counts.
+    // Correlated traits cannot be separated: the wish follows the answers, the strength the posterior.
     let shown = mean(feedback, Verdict::Keep, &of).zip(mean(feedback, Verdict::Reject, &of));
     let way = shown.map_or(Way::More, |(kept, rejected)| if kept < rejected { Way::Less } else { Way::More });
     let wish = Wish { wants: spoken.map_or(way, |wish| wish.wants), of };

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 /// Most routes that are kept.
 pub const MAX_ROUTES: usize = 6;
-/// Routes whose mean distance is less are one, metres.
+/// Two routes with a smaller mean distance count as one, metres.
 pub(super) const DISTINCT_M: f64 = 2.0;
 /// Distance between the places at which routes are compared, metres.
 pub(super) const TRACE_STEP_M: f64 = 4.0;
@@ -29,7 +29,7 @@ struct Chain {
     hops: Vec<Hop>,
     length_m: f64,
     terminal: bool,
-    /// Rank among all: start score, metres short of the length asked for, turning.
+    /// Rank among all: start score, missing length in metres, turning.
     rank: f64,
     trace: Vec<Vec2>,
 }
@@ -117,7 +117,7 @@ fn chain(graph: &LaneGraph, start: &StartLane, mut hops: Vec<Hop>, length: f64, 
     }
     let turning: f64 = hops.iter().map(|hop| turning_rad(graph, hop)).sum();
     let trace = assemble::trace(graph, &hops, TRACE_STEP_M);
-    // The score of the start counts most, then that the chain is as long as asked for, then straightness.
+    // The score of the start counts most, then the missing length, then straightness.
     let short = (-over).max(0.0) / asked.max(1.0);
     let rank = 1e3 * start.score.min(1e3) + 100.0 * short + turning;
     Chain { hops, length_m: length.min(asked), terminal: over < 0.0, rank, trace }

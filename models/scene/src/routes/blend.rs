@@ -26,8 +26,8 @@ const BLEND_CURVATURE: f64 = 0.7;
 /// The road user's foot is looked for on this much of the path's beginning, metres.
 const START_SEARCH_M: f64 = 15.0;
 
-/// How far drivers keep to the inside of a bend: metres for a curvature of 1/m, and at most. Fitted to
-/// recorded turns, whose mean distance from the path it lowers by a fifth.
+/// Shift towards the inside of a bend: metres for a curvature of 1/m, and at most. Fitted to recorded turns,
+/// whose mean distance from the path it lowers by a fifth.
 const INSIDE_M2: f64 = 10.0;
 const MAX_INSIDE_M: f64 = 1.5;
 /// Half of the way over which a bend's curvature is felt, metres: cutting begins before the bend.
@@ -148,7 +148,7 @@ fn inside(path: &Polyline, step_m: f64) -> Polyline {
     Polyline::new(points)
 }
 
-/// `path`, whose end is beside `goal`, bent over at most `room_m` so that it ends there.
+/// `path`, whose end is beside `goal`, bent over at most `room_m` to end there.
 fn ended(path: &Polyline, goal: EndPose, manner: BlendLimits, room_m: f64) -> Polyline {
     let heading = goal.heading_rad.unwrap_or(path.last().heading_rad);
     let backwards = Pose::new(goal.position, wrap_angle(heading + std::f64::consts::PI));
@@ -187,7 +187,7 @@ fn direct(start: Pose, goal: EndPose, manner: BlendLimits) -> Polyline {
     join.path.resample(manner.step_m)
 }
 
-/// `path` entered from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
+/// `path` joined from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
 fn onto(path: &Polyline, start: Pose, manner: BlendLimits, room_m: f64) -> Polyline {
     let room_m = room_m.min(path.length_m());
     let straight = || Polyline::new([start.position, path.last().position]);

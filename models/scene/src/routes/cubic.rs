@@ -25,7 +25,7 @@ pub(super) struct Cubic {
     pub max_curvature: f64,
 }
 
-/// Hermite cubic whose end tangents are `strength` times the distance between its ends.
+/// Hermite cubic with end tangents of `strength` times the distance between its ends.
 pub(super) fn cubic(from: Pose, to: Pose, strength: f64) -> Cubic {
     let reach = strength * (to.position - from.position).norm();
     let (start, end) = (reach * from.direction(), reach * to.direction());

@@ -212,7 +212,7 @@ impl LaneGraph {
             if d2 > radius_m * radius_m {
                 continue;
             }
-            // Pieces of a lane come one after the other: most are told here already.
+            // The pieces of a lane are consecutive, so comparing with the last foot removes most duplicates.
             if let Some(last) = feet.last_mut().filter(|last| last.0 == lane) {
                 if d2.total_cmp(&last.1).then(piece.cmp(&last.2)).is_lt() {
                     *last = (lane, d2, piece, s);

@@ -13,7 +13,7 @@ const MOST_TOGETHER: usize = 64;
 const LINK_TURN_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 /// Greatest difference of heading between lanes side by side.
 const SIDE_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// Distance between the places at which sides are looked for, metres.
+/// Distance between the places at which sides are searched, metres.
 const SIDE_STEP_M: f64 = 10.0;
 /// Most lanes found there, in all: for each of the places, where streets have 2 to 6, beyond what a small map may
 /// have in its junctions, and in any case.
@@ -156,7 +156,7 @@ fn rebuild_sides(graph: &mut LaneGraph) {
     }
 }
 
-/// Stretches between the places at which a lane's sides are looked for.
+/// Stretches between the places at which a lane's sides are searched.
 fn side_pieces(lane: &GraphLane) -> usize {
     (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize
 }

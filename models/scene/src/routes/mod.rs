@@ -50,7 +50,7 @@ pub struct Route {
     pub lateral_m: f64,
     /// The road user's heading minus the path's, wrapped, radians.
     pub heading_error_rad: f64,
-    /// The graph ends where the path does: nobody knows how it goes on.
+    /// The graph ends where the path does; its continuation is unknown.
     pub terminal: bool,
 }
 

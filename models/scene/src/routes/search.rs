@@ -79,7 +79,8 @@ pub(super) fn shortest(
     let lanes = graph.lanes();
     let change_m = (CHANGE_S * speed_mps).max(CHANGE_M);
     let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
-    // Who begins beside the lane under it is on its way there first; who would leave its own at once begins so.
+    // A start beside the lane first changes onto it. A change away from the own lane at once is left to the
+    // start beside it.
     let on_lane_m = start.s_m + if start.beside { change_m } else { 0.0 };
     let leaves_at_once = |left_m: f64| !start.beside && left_m < start.s_m + 1.0;
     let mut heap = BinaryHeap::from([Open(Entered { hop: first, cost: 0.0, before: None })]);

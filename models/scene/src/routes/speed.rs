@@ -1,4 +1,4 @@
-//! How fast a path can be driven and what stands in the way.
+//! Speed caps of a path, and obstacles on it.
 
 use super::{LaneGraph, Leg, Polyline, Route};
 use crate::geometry::direction;
@@ -9,7 +9,7 @@ use crate::{SignalState, Vec2};
 const CURVATURE_WINDOW_M: f64 = 3.0;
 /// No bend asks for a cap above this, m/s.
 const TOP_SPEED_MPS: f64 = 35.0;
-/// A road user whose centre is farther from the path is not in the way, metres.
+/// A road user whose centre is farther from the path is no obstacle, metres.
 const IN_THE_WAY_M: f64 = 1.6;
 /// Nearer centres are beside or behind us, metres.
 const AHEAD_M: f64 = 2.0;
@@ -96,8 +96,8 @@ pub fn speed_caps(path: &Polyline, limits_mps: &[f64], rules: SpeedRules) -> Vec
     caps
 }
 
-/// Nearest obstacle ahead whose centre lies within 1.6 m of the path. The path begins at the centre of the
-/// own box, which is `own_length_m` long and not among `others`.
+/// Nearest obstacle ahead with its centre within 1.6 m of the path. The path begins at the centre of the own
+/// box, which is `own_length_m` long and not among `others`.
 pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option<Leader> {
     leaders(path, own_length_m, others).into_iter().next()
 }

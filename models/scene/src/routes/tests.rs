@@ -48,7 +48,7 @@ fn sides_come_from_the_geometry_when_none_are_recorded() {
     assert_eq!(graph.lanes()[1].right[0].lane, 0);
 }
 
-/// Hundreds of long lanes in one place are no streets. To look for who goes beside whom would take minutes.
+/// Hundreds of long lanes in one place are no streets; a search for neighbours would take minutes.
 #[test]
 fn lanes_that_lie_over_each_other_have_no_sides_and_no_links() {
     let heap =

@@ -18,14 +18,14 @@ pub(super) const GOAL_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
 const CLOSE_M: f64 = 1.5;
 /// Nearer goals are not worth a join, metres.
 const NO_JOIN_M: f64 = 5.0;
-/// Most goal lanes looked at.
+/// Most goal lanes.
 const MAX_GOAL_LANES: usize = 6;
-/// The same where lanes on both sides of the goal are looked at.
+/// Most goal lanes where lanes on both sides of the goal count.
 const MAX_NEAR_LANES: usize = 24;
 /// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
 const COST_PER_OFFSET: f64 = 20.0;
 
-/// What to look for.
+/// Query of a search for routes to a goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GoalQuery {
     /// Where the road user stands.
@@ -36,7 +36,7 @@ pub struct GoalQuery {
     pub agent_type: AgentType,
     /// Where it should go.
     pub goal: Vec2,
-    /// Heading asked for at the goal, radians.
+    /// Fixed heading at the goal, radians.
     pub goal_heading_rad: Option<f64>,
     /// Length of the least-effort motion to the goal, metres: joins longer than 1.25 of it are dropped.
     pub least_effort_m: Option<f64>,
@@ -48,7 +48,7 @@ impl GoalQuery {
         (self.goal - self.pose.position).norm()
     }
 
-    /// How far a lane's heading is from the one asked for; zero when none is.
+    /// Angle between a lane's heading and the fixed one, radians; zero when the heading is free.
     pub(super) fn goal_turn_rad(&self, heading_rad: f64) -> f64 {
         self.goal_heading_rad.map_or(0.0, |asked| wrap_angle(heading_rad - asked).abs())
     }
@@ -59,7 +59,7 @@ impl GoalQuery {
     }
 }
 
-/// How a route reaches the goal.
+/// Way in which a route reaches the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RouteKind {
     /// Along lanes all the way.

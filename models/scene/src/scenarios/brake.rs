@@ -1,4 +1,4 @@
-//! Somebody who is followed brakes to a stand.
+//! Hard braking: a vehicle with a follower brakes to a stop.
 
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};
@@ -15,7 +15,7 @@ const BRAKING_MPS2: (f64, f64) = (3.5, 7.5);
 /// Time until the braking begins, seconds.
 const BEGINS_S: (f64, f64) = (0.2, 1.5);
 
-/// Each driver and who follows it closest in time.
+/// Each leader with its follower, if the gap in seconds is small enough.
 pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let drivers = &stage.drivers;
     let role = |follower: usize| {

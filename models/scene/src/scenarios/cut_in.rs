@@ -1,4 +1,4 @@
-//! Somebody in a neighbouring lane goes close ahead of another.
+//! Cut-in: a vehicle in a neighbouring lane moves close ahead of another.
 
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};

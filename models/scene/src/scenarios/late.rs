@@ -1,5 +1,5 @@
-//! Somebody who would have to wait at a junction goes through it without stopping: past a light that is red by then,
-//! past a stop sign, or shortly before or after one whom it would have let go first.
+//! Failure to yield: a vehicle that would have to wait at a junction passes without stopping. It passes a red
+//! light, a stop sign, or crosses shortly before or after a vehicle with priority.
 
 use super::stage::{BEHIND_M, Driver, Stage};
 use super::{Pairing, Plan, on_step};
@@ -26,10 +26,10 @@ const SPEED_MPS: (f64, f64) = (5.0, 20.0);
 /// Mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
 const PACE: (f64, f64) = (0.6, 1.5);
 const PACE_MORE_MPS: f64 = 4.0;
-/// Others are looked at for so many steps.
+/// Steps of the other motions that are searched for a crossing.
 const LOOK_STEPS: usize = 80;
 
-/// Who would wait: at a line, or for another one.
+/// Vehicles that would have to wait: at a line, or for another vehicle.
 pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let mut roles = Vec::new();
     for (actor, driver) in stage.drivers.iter().enumerate() {
@@ -39,7 +39,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
         for (other, crosser) in stage.drivers.iter().enumerate().filter(|(i, _)| *i != actor) {
             let Some((at_m, at_s)) = crossing(stage, driver, crosser) else { continue };
             let own_s = at_m / driver.speed_mps().max(0.5);
-            // Without a line it waits for those who are there before it.
+            // Without a line the vehicle that arrives later waits.
             let waits = line_m.map_or(own_s > at_s, |line_m| at_m > line_m);
             if waits && at_m >= NEAREST_M && at_m <= reach_m + 25.0 {
                 let misfit = (own_s - at_s).abs() + if line_m.is_some() { 0.0 } else { 4.0 };

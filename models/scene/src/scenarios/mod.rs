@@ -1,5 +1,5 @@
-//! Situations that testing asks for: who in a scene can play them, and what that road user is to do. The same
-//! scene and seed give the same choice; another seed takes another road user, or other figures.
+//! Test situations: the road user of a scene that can play one, and its goal. The same scene and seed give
+//! the same choice; another seed takes another road user, or other figures.
 
 mod brake;
 mod cut_in;
@@ -13,24 +13,24 @@ use crate::routes::{LaneGraph, Pose};
 use crate::{AgentId, Conditions, Goal, STEP_S, Scene};
 use stage::Stage;
 
-/// A situation that can be asked for by name.
+/// A situation by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Template {
-    /// Somebody who is followed brakes to a stand.
+    /// A vehicle with a follower brakes to a stop.
     Brake,
-    /// Somebody in a neighbouring lane goes close ahead of another.
+    /// A vehicle of a neighbouring lane cuts in closely ahead of another.
     CutIn,
-    /// Somebody who would have to wait at a junction goes through it without stopping.
+    /// A vehicle that should yield drives through a junction without stopping.
     Late,
 }
 
-/// Who plays a situation, and what is asked of that road user.
+/// The road user that plays a situation, and its goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Casting {
-    /// Who does it.
+    /// The road user that acts.
     pub actor: AgentId,
-    /// Whom it concerns, where there is one.
+    /// The road user it affects, if any.
     pub other: Option<AgentId>,
     /// The goal for the actor, beside what the scene has fixed about it.
     pub conditions: Conditions,
@@ -38,7 +38,7 @@ pub struct Casting {
     pub words: String,
 }
 
-/// A motion to be asked for: where to be, how fast and when.
+/// Goal of the actor: pose, speed and time.
 struct Plan {
     pose: Pose,
     speed_mps: f64,
@@ -47,7 +47,7 @@ struct Plan {
     words: String,
 }
 
-/// Draws of figures for one road user before the next is looked at.
+/// Draws of figures for one road user before the next one is tried.
 const DRAWS: usize = 6;
 /// Most pairs among which seeds choose, the most fitting first.
 const MOST_ROLES: usize = 8;
@@ -76,7 +76,8 @@ impl Template {
         }
     }
 
-    /// Who plays it from a step of a scene on; `None` where no road user fits. `graph` is that of the scene's map.
+    /// Casts the situation from a step of a scene on; `None` where no road user fits. `graph` is that of the
+    /// scene's map.
     pub fn cast(
         self,
         scene: &Scene,
@@ -92,7 +93,7 @@ impl Template {
             Self::Late => (late::roles(&stage), late::plan),
         };
         let roles = fitting(roles);
-        // Other seeds begin with another road user; who cannot do it with any figures is passed over.
+        // Another seed begins with another road user. A road user without feasible figures is skipped.
         (0..roles.len()).find_map(|turn| {
             let role = &roles[(seed as usize % roles.len() + turn) % roles.len()];
             let driver = &stage.drivers[role.actor];

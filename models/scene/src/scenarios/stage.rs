@@ -1,13 +1,13 @@
-//! A scene as the templates see it: who drives, and where each of them goes on.
+//! A scene as input of the templates: its drivers, and the path of each.
 
 use crate::routes::{LaneGraph, Polyline, Pose, best_route_ahead};
 use crate::{Agent, AgentType, Scene, Shown, State, Vec2, wrap_angle};
 
-/// A way reaches so far behind its road user, metres: who is beside or behind has a place on it too.
+/// Length of a path behind its road user, metres, so that agents beside and behind have a place on it.
 pub(super) const BEHIND_M: f64 = 40.0;
 /// How far lanes are followed past the end of a motion that is known, metres.
 const BEYOND_M: f64 = 120.0;
-/// Who gets no farther than this has no way of its own: the lanes say where it would go, metres.
+/// A motion of less defines no path; the lanes ahead do, metres.
 const LEAST_MOTION_M: f64 = 2.0;
 /// Places of a way are at least this far apart, metres.
 const APART_M: f64 = 0.5;
@@ -55,7 +55,7 @@ impl Driver<'_> {
         (s >= 0.0 && s <= self.way.length_m()).then(|| self.way.sample(s))
     }
 
-    /// Where somebody is on its way.
+    /// Place of a pose relative to the path.
     pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> RelativePlace {
         let foot = self.way.project(position);
         RelativePlace {
@@ -95,7 +95,7 @@ impl<'a> Stage<'a> {
         Self { scene, graph, start_step, drivers: scene.agents.iter().filter_map(driver).collect() }
     }
 
-    /// The next one ahead in the same direction on somebody's way, and the gap between the two, metres.
+    /// The leader on a driver's path in the same direction, and the gap between the two, metres.
     pub(super) fn leader(&self, of: usize) -> Option<(usize, f64)> {
         let own = &self.drivers[of];
         let ahead = self.drivers.iter().enumerate().filter(|(i, _)| *i != of).filter_map(|(i, other)| {

@@ -38,7 +38,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Mean over road users (the greatest of the greatest distances); `None` of nobody.
+    /// Mean over road users (the greatest of the greatest distances); `None` without any.
     pub fn mean<'a>(all: impl Iterator<Item = &'a Self> + Clone) -> Option<Self> {
         let first = all.clone().next()?;
         let over = |field: fn(&Self) -> Option<f64>| mean(all.clone().map(field));

@@ -1,4 +1,4 @@
-//! Where vehicles may drive and in which direction: an index of a map, built once and shared.
+//! Ground and directions in which vehicles may drive: an index of a map, built once and shared.
 
 use crate::geometry::Vec2;
 use crate::geometry::obb::OrientedBox;
@@ -7,11 +7,12 @@ use crate::map::{Area, LaneMap, LaneType};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Distances off the road are not told apart beyond this, metres.
+/// Cap on distances off the road, metres.
 pub const FAR_M: f64 = 50.0;
 /// The road at a lane's end is looked at so far before it, metres.
 const BEFORE_END_M: f64 = 0.05;
-/// Whoever left the map by a lane's end is known to have for so far, metres: a minute at the pace of a town.
+/// Length beyond a lane's end at the map's edge over which the ground is unknown, metres: a minute at urban
+/// speed.
 const BEYOND_MAP_M: f64 = 1000.0;
 /// A lane farther away than this says nothing about a place, metres.
 const LANE_REACH_M: f64 = 30.0;
@@ -90,8 +91,8 @@ impl Drivable {
         }
     }
 
-    /// The same ground for who may drive over these road edges, by id: they bound nothing, and what lies right at
-    /// them counts as road.
+    /// The same ground for an agent that may drive over these road edges, by id. They bound nothing, and
+    /// ground next to them counts as road.
     pub fn allowing(&self, edges: &[String]) -> Cow<'_, Self> {
         if edges.is_empty() {
             return Cow::Borrowed(self);
@@ -390,7 +391,7 @@ mod tests {
         );
         assert_eq!((outside_m(103.0, 0.7), outside_m(900.0, 0.7)), (None, None));
         assert!(outside_m(98.0, 2.0).unwrap() > 0.8, "over the kerb is over the kerb, at the end too");
-        // A wide road, whose end a corner passes far from the middle of the lane.
+        // A wide road, at whose end a corner is far from the middle of the lane.
         let wide = area(&[(0.0, -2.0), (100.0, -2.0), (100.0, 5.0), (0.0, 5.0)]);
         let east = lane("east", &[(0.0, 0.0), (100.0, 0.0)]);
         let index = Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![wide], ..LaneMap::default() });
@@ -409,7 +410,7 @@ mod tests {
         assert!((index.outside_m(at(50.0, -3.75)).unwrap() - 2.0).abs() < 1e-9);
         assert!((index.outside_m(at(50.0, 25.25)).unwrap() - 20.0).abs() < 1e-9);
         assert_eq!(index.outside_m(at(50.0, 500.0)), Some(FAR_M));
-        // Ahead of where a lane leaves the map nobody knows.
+        // Ahead of where a lane leaves the map the ground is unknown.
         assert_eq!((index.outside_m(at(130.0, 3.0)), index.outside_m(at(190.0, 3.0))), (None, None));
         assert!((index.outside_m(at(100.5, 25.25)).unwrap() - 20.0).abs() < 0.1, "beside its end");
         assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(1.0, 0.0)), Some(false));

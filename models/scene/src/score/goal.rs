@@ -1,4 +1,4 @@
-//! How well a road user meets the goal it was given: fixed fields only, at the goal's time.
+//! Error of a road user at its goal: fixed fields only, at the goal's time.
 
 use super::input::{Actor, Thresholds};
 use super::report::mean;
@@ -6,17 +6,14 @@ use crate::{STEP_S, wrap_angle};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Error at the goal time; a member is missing where its field was free.
+/// Error at the goal time; a member is null where its field was free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct GoalError {
     /// Distance from the goal, metres.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub position_m: Option<f64>,
     /// Absolute turn from the goal heading, radians.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub heading_rad: Option<f64>,
     /// Absolute difference from the goal speed, m/s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mps: Option<f64>,
 }
 

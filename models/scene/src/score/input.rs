@@ -1,4 +1,4 @@
-//! What is scored: the road users with their motion, the map index, signals and thresholds.
+//! Input of the score: the road users with their motion, the map index, signals and thresholds.
 
 use super::drivable::Drivable;
 use crate::geometry::obb::OrientedBox;
@@ -108,7 +108,7 @@ impl Thresholds {
         Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },
     ];
 
-    /// Those out of their range, each with the value it has.
+    /// Thresholds out of their range, each with its value.
     pub fn outside(&self) -> impl Iterator<Item = (Threshold, f64)> {
         let valued = Self::ALL.map(|threshold| (threshold, (threshold.of)(self)));
         valued.into_iter().filter(|(Threshold { range: (least, most), .. }, v)| !(least..=most).contains(&v))
@@ -125,7 +125,7 @@ impl Thresholds {
     }
 }
 
-/// Which pairs are looked at.
+/// Which pairs are scored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -168,15 +168,15 @@ pub struct Actor<'a> {
     pub log: Option<&'a Track>,
     /// The motion was made, not recorded: kinematic limits apply.
     pub generated: bool,
-    /// Goal that was asked for; free for recorded motion.
+    /// Goal of a generated motion; free for recorded motion.
     pub goal: Goal,
     /// Road edges that it may drive over.
     pub may_cross: &'a [String],
-    /// Places that it was asked to pass; none for recorded motion.
+    /// Via points of a generated motion; none for recorded motion.
     pub via: &'a [Via],
     /// Motion to compare with, if any.
     pub reference: Option<&'a Track>,
-    /// All futures, for the best of them against the reference; empty: the track alone.
+    /// All futures, for the best of them against the reference; empty: only the track.
     pub modes: &'a [Future],
 }
 
@@ -269,7 +269,7 @@ impl<'a> ScoreInput<'a> {
         Self::of_sample(scene, sample, drivable)
     }
 
-    /// As [`ScoreInput::of_scene`] for one sample of futures, or the log alone for `None`.
+    /// As [`ScoreInput::of_scene`] for one sample of futures, or for the log with `None`.
     pub fn of_sample(scene: &'a Scene, sample: Option<&'a crate::Sample>, drivable: &'a Drivable) -> Self {
         let mut first_future: Option<usize> = None;
         let mut actors = Vec::with_capacity(scene.agents.len());

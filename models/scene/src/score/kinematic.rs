@@ -1,4 +1,4 @@
-//! How hard a motion accelerates, brakes and turns, by central differences over two steps.
+//! Acceleration, braking and turning of a motion, by central differences over two steps.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{Stretch, maximum, stretches};
@@ -91,7 +91,7 @@ pub struct Kinematic {
 }
 
 impl Kinematic {
-    /// Greatest of each over all, violations together; `None` of nobody.
+    /// Greatest of each over all, violations together; `None` without any.
     pub fn over_all<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
         let optional = |a: Option<f64>, b: Option<f64>| maximum([a, b].into_iter());
         all.copied().reduce(|a, b| Self {
@@ -167,7 +167,8 @@ fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<KinematicV
     let (speed, along) = (signed_speed(here), (signed_speed(after) - signed_speed(before)) / span);
     let yaw_rate = wrap_angle(after.heading_rad - before.heading_rad).abs() / span;
     Some(KinematicValues {
-        // In reverse gear, faster is speeding up. Who stands is in no gear, whatever the sign of its zero.
+        // In reverse, higher speed is acceleration too. A standing vehicle has no gear, whatever the sign of
+        // its zero.
         along: if speed < 0.0 { -along } else { along },
         lateral: speed.abs() * yaw_rate,
         yaw_rate: Some(yaw_rate),

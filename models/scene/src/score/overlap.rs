@@ -87,8 +87,8 @@ pub struct Overlap {
     pub close: bool,
 }
 
-/// How two motions meet at their common moments. Motions whose bounding rectangles are apart cost
-/// four comparisons; crossing ones about a microsecond.
+/// Overlap of two motions at their common moments. Motions with separate bounding rectangles cost four
+/// comparisons; crossing ones about a microsecond.
 ///
 /// ```
 /// use scene::geometry::{Vec2, obb::OrientedBox};

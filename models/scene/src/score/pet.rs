@@ -56,7 +56,7 @@ fn coarse(mover: &Mover) -> Vec<(usize, Vec2)> {
     seen.into_iter().enumerate().filter(|(k, _)| kept(*k)).map(|(_, p)| p).collect()
 }
 
-/// Where two paths cross, and at which step each is there.
+/// Crossing of two paths, and the step at which each road user is there.
 #[derive(Clone, Copy, Debug)]
 struct PathCrossing {
     point: Vec2,

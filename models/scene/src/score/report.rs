@@ -1,4 +1,4 @@
-//! The score as it is answered: these are the members of the reply to `POST /v1/score`.
+//! The reply to `POST /v1/score` and its members.
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;
@@ -7,7 +7,7 @@ use super::kinematic::Kinematic;
 use super::pairs::{PairScores, PairTotals};
 use crate::{AgentId, State};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// Answer to a score request.
@@ -80,7 +80,7 @@ pub struct NearMiss {
 /// Something one road user does over a stretch of time.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
-    /// Who.
+    /// The road user.
     pub agent: AgentId,
     /// Scene time of the first step, seconds.
     pub time_s: f64,
@@ -94,7 +94,6 @@ pub struct Stretch {
     /// Box centre where it is worst, metres.
     pub y_m: f64,
     /// Off the road and over a median: the road edge that is driven over, by its id in the map.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub edge: Option<String>,
     /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
     /// the same time, no less bad.
@@ -104,9 +103,9 @@ pub struct Stretch {
 /// A stop line is crossed while its signal says stop.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RedLight {
-    /// Who.
+    /// The road user.
     pub agent: AgentId,
-    /// Lane whose signal says stop.
+    /// Lane of the red signal.
     pub lane: String,
     /// Scene time at which the front crosses, seconds.
     pub time_s: f64,
@@ -117,7 +116,7 @@ pub struct RedLight {
     pub in_log: bool,
 }
 
-/// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+/// Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
 ///
 /// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
 /// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
@@ -131,7 +130,7 @@ pub struct SceneScore {
     /// Share of road users in any collision, those of the log counted (the paper's scenario collision
     /// rate).
     pub collision_rate_with_log: f64,
-    /// Share of road users whose box overlaps another's at all, however little.
+    /// Share of road users with any overlap of boxes, however small.
     pub overlap_rate: f64,
     /// By time, then by pair.
     pub overlaps: Vec<BoxOverlap>,
@@ -154,14 +153,13 @@ pub struct SceneScore {
     pub wrong_way_share: Option<f64>,
     /// Greatest values of all generated road users, and their violations together.
     pub kinematic: Option<Kinematic>,
-    /// Same as `kinematic.violations`: steps over a limit.
-    pub violations: usize,
     /// Means over the road users with fixed goal fields.
     pub goal_error: Option<GoalError>,
     /// Share of road users with fixed goal fields that meet them all.
     pub goals_reached: Option<f64>,
-    /// Means over the road users with a reference.
-    #[serde(flatten)]
+    /// Means over the road users with a reference; null without one.
+    #[serde(flatten, serialize_with = "nullable")]
+    #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
     /// Vehicles off the road, but for those over a median.
     pub off_road: Vec<Stretch>,
@@ -212,9 +210,15 @@ pub struct AgentScore {
     pub kinematic: Option<Kinematic>,
     /// Only when a goal field is fixed.
     pub goal_error: Option<GoalError>,
-    /// Only with a reference.
-    #[serde(flatten)]
+    /// Against the reference; null without one.
+    #[serde(flatten, serialize_with = "nullable")]
+    #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
+}
+
+/// Members that no reference gives a value are null, as everywhere in a score.
+fn nullable<S: Serializer>(accuracy: &Option<Accuracy>, serializer: S) -> Result<S::Ok, S::Error> {
+    accuracy.unwrap_or_default().serialize(serializer)
 }
 
 impl SceneScore {
@@ -240,7 +244,6 @@ impl SceneScore {
         self.assumed_width = input.drivable.assumed_width();
         self.wrong_way_share = share(self.wrong_way_steps, self.moving_steps);
         self.kinematic = Kinematic::over_all(agents.iter().filter_map(|a| a.kinematic.as_ref()));
-        self.violations = self.kinematic.as_ref().map_or(0, |k| k.violations);
         self.goal_error = GoalError::mean(agents.iter().filter_map(|a| a.goal_error.as_ref()));
         let goals = agents.iter().filter_map(|a| a.goal_error.as_ref());
         let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();

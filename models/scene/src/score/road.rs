@@ -9,7 +9,7 @@ use crate::{AgentType, STEP_S, Subtype, Vec2};
 /// A vehicle that stays within this of its first place is parked, metres.
 const PARKED_M: f64 = 1.0;
 
-/// What a vehicle's motion comes to on the map.
+/// Road score of a vehicle's motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadScore {
     /// Share of its steps with a corner off the road.
@@ -83,7 +83,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     score
 }
 
-/// It begins where its recording has it then; with no recording of that step, somebody has put it there.
+/// Whether it begins at its recorded state of that step; without a recording of the step, the user placed it.
 fn stands_where_logged(input: &ScoreInput<'_>, actor: &Actor<'_>) -> bool {
     let Some(step) = input.steps.clone().find(|step| actor.state(*step).is_some()) else { return true };
     let (now, logged) = (actor.state(step), actor.log.and_then(|log| log.at(step)));

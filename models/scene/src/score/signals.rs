@@ -10,9 +10,9 @@ use std::f64::consts::FRAC_PI_4;
 
 /// A lane is taken by a road user that stays within this of its centre on average, metres.
 const ON_LANE_M: f64 = 1.5;
-/// Lanes this close to equally near cannot be told apart, metres.
+/// Lanes whose distances differ by less count as equally near, metres.
 const SAME_LANE_M: f64 = 0.3;
-/// Length of path after (or before) the line that tells which lane is taken, metres.
+/// Length of path after (or before) the line that decides which lane is taken, metres.
 const TELLING_M: f64 = 20.0;
 
 /// Stop line of a signal.
@@ -99,8 +99,9 @@ pub(crate) fn crossed_at_red(
     }
     crossings.sort_by_key(|c| c.step);
     let mut found = Vec::new();
-    // Crossings within a second are of one junction: the nearest lane counts, and only if no lane that is
-    // as near lets go. Who takes none of these lanes, nor one without a signal, is bound by all of them.
+    // Crossings within a second belong to one junction: the nearest lane counts, and only if no equally near
+    // lane lets it pass. An agent on none of these lanes, nor on one without a signal, is bound by all of
+    // them.
     for group in crossings.chunk_by(|a, b| b.step - a.step < 10) {
         let least = group.iter().map(|c| c.off_lane_m).fold(f64::INFINITY, f64::min);
         let most = if least < ON_LANE_M { (least + SAME_LANE_M).min(ON_LANE_M) } else { f64::INFINITY };
@@ -170,7 +171,7 @@ fn crosses(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize) -> Option<
     (u0 <= 0.0 && u1 > 0.0 && in_lane && forward.dot(&ahead) > 0.5).then(|| -u0 / (u1 - u0))
 }
 
-/// Mean distance of the centre from the signal's lane on the stretch that tells.
+/// Mean distance of the centre from the signal's lane over that length of path.
 fn off_lane_m(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize, end: usize) -> f64 {
     let Some(here) = actor.state(step).map(crate::State::position) else { return f64::INFINITY };
     let within = |p: &Vec2| (p - here).norm() <= TELLING_M;

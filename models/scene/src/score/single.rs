@@ -1,4 +1,4 @@
-//! What one road user's motion comes to by itself.
+//! Score of one road user's motion by itself.
 
 use super::accuracy::{Accuracy, accuracy};
 use super::goal::{GoalError, goal_error};
@@ -10,7 +10,7 @@ use super::report::{AgentScore, RedLight, SceneScore, Stretch};
 use super::road::{RoadScore, score_road};
 use super::signals::{SignalStopLine, crossed_at_red};
 
-/// What one road user's motion comes to by itself.
+/// Score of one road user's motion by itself.
 #[derive(Clone, Debug)]
 pub(super) struct Single {
     road: RoadScore,

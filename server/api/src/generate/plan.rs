@@ -7,7 +7,8 @@ use crate::events::GeneratedHead;
 use crate::limits::CallLimits;
 use crate::opened::Standings;
 use crate::problem::Problem;
-use experts::{Generator, Request};
+use experts::{Generator, Request, Warning, WarningCode, sentences};
+use formats::native::ConditionsDoc;
 use scene::score::Thresholds;
 use scene::{ContentHash, Scene, licence};
 use serde_json::json;
@@ -38,6 +39,8 @@ pub struct GenerationPlan {
     pub(super) with_kept: bool,
     /// The rest of `generated`.
     pub(super) head: GeneratedHead,
+    /// Warnings that follow from the request alone.
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl GenerateRequest {
@@ -57,6 +60,7 @@ impl GenerateRequest {
         let mut head =
             GeneratedHead::new(applied.input_hash().hex(), generator.hashes(), self.seed, self.options());
         head.stale = self.keeps_stale(scene, &applied, &request);
+        let warnings = self.unused(&applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
         Ok(GenerationPlan {
@@ -70,7 +74,19 @@ impl GenerateRequest {
             score: self.score,
             with_kept: self.kept_futures == KeptFutures::Answered,
             head,
+            warnings,
         })
+    }
+
+    /// Conditions of this call that change no motion: of road users that are not regenerated and keep no future.
+    fn unused(&self, applied: &Scene, request: &Request) -> Vec<Warning> {
+        let given = |doc: &ConditionsDoc| doc.goal.is_some() || doc.start.is_some() || !doc.via.is_empty();
+        let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
+        let keeps = |id: &String| applied.generated.as_ref().is_some_and(|g| g.chosen_future(id).is_some());
+        let unused = self.conditions.0.iter().filter(|(id, doc)| given(doc) && !asked(id) && !keeps(id));
+        unused
+            .map(|(id, _)| Warning::of(WarningCode::ConditionUnused, id, sentences::condition_unused(id)))
+            .collect()
     }
 
     /// A future that is kept answers something else than what the scene says with this call's conditions.

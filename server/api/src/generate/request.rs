@@ -57,7 +57,7 @@ pub enum StreamModes {
     All,
 }
 
-/// What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+/// What becomes of the futures of earlier calls, of road users that are not generated in this one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum KeptFutures {
@@ -66,7 +66,7 @@ pub enum KeptFutures {
     Answered,
     /// They are planned around and not answered, for a client that has them itself.
     Omitted,
-    /// They are dropped: who has one goes back to its log before anything is planned.
+    /// They are dropped before planning: their road users follow the recording again.
     Forgotten,
 }
 
@@ -84,7 +84,9 @@ pub struct GenerateRequest {
     /// With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
     /// reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
     pub hold: bool,
-    /// Replace the scene's own conditions of these road users, whole.
+    /// Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
+    /// size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
+    /// a future of it.
     pub conditions: Members<ConditionsDoc>,
     /// Road users put in for this call.
     pub add_agents: Vec<AgentDoc>,
@@ -99,12 +101,13 @@ pub struct GenerateRequest {
     pub revision: Option<u64>,
     /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
     pub background: bool,
-    /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
-    /// has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
-    /// give way to each other there.
+    /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
+    /// user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
+    /// motion, and where it ends before the last window (`horizon_s` above 9, or `replan_interval_s`), they plan on
+    /// from there. Without such a road user the answer has no futures, and the warning `nothing-generated`.
     #[schemars(with = "AgentChoice")]
     pub agents: Option<AgentChoice>,
-    /// Who else answers to them.
+    /// Road users that may react to them.
     pub react: ReactChoice,
     /// Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
     /// the others answer it.
@@ -112,24 +115,24 @@ pub struct GenerateRequest {
     /// Scene time of the start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
     pub start_s: f64,
-    /// Seconds to generate. More than 9 is planned window after window.
+    /// Time to generate, seconds. Beyond 9 s it is planned window after window.
     #[schemars(range(min = 0.5, max = 20.0))]
     pub horizon_s: f64,
-    /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
+    /// Replan interval, seconds: 3, 6 or 9; null is 9. Each plan starts from the states reached.
     pub replan_interval_s: Option<f64>,
-    /// The same seed gives the same answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
-    /// Independent joint scenes.
+    /// Joint samples.
     #[schemars(range(min = 1, max = 32))]
     pub samples: u64,
-    /// Alternatives kept per road user.
+    /// Futures kept per road user.
     #[schemars(range(min = 1, max = 6))]
     pub modes: u64,
-    /// Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+    /// Scale of the noise, which makes seeds differ; 0 gives the most probable answer for every seed.
     #[schemars(range(min = 0.0, max = 2.0))]
     pub diversity: f64,
-    /// Denoising steps; 0 returns the first guess.
+    /// Refinement steps; 0 returns the first draft.
     #[schemars(range(max = 100))]
     pub steps: u64,
     /// What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
@@ -152,7 +155,7 @@ pub struct GenerateRequest {
     pub draft_interval_ms: u64,
     /// How futures are written, in drafts and in `final`.
     pub futures: FuturesForm,
-    /// What becomes of the futures that the scene has, of those who are not part of this call.
+    /// What becomes of the futures of earlier calls, of road users that are not generated in this one.
     pub kept_futures: KeptFutures,
     /// Put scores into `final`.
     pub score: bool,

@@ -6,6 +6,7 @@ use crate::events::{DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, 
 use crate::problem::Problem;
 use crate::score::with_standings;
 use experts::{Accepted, Answer, Cancel, Clock, Event, GenerateError, Generator};
+use experts::{Warning, WarningCode, sentences};
 use scene::preference::Round;
 use scene::score::{Score, ScoreInput};
 use scene::{Sample, Scene};
@@ -143,7 +144,13 @@ pub struct GenerationAnswer {
 
 impl GenerationAnswer {
     /// Of a plan.
-    pub fn new(plan: &GenerationPlan, answer: Answer, generator: &Generator, clock: Clock) -> Self {
+    pub fn new(plan: &GenerationPlan, mut answer: Answer, generator: &Generator, clock: Clock) -> Self {
+        answer.warnings.extend(plan.warnings.iter().cloned());
+        let named = plan.request.agents.as_ref().is_none_or(|asked| !asked.is_empty());
+        if !named && answer.samples.iter().all(|sample| sample.agents.is_empty()) {
+            let message = sentences::nothing_generated();
+            answer.warnings.push(Warning::of_scene(WarningCode::NothingGenerated, message));
+        }
         let scene = Arc::clone(&plan.request.scene);
         let (mut scores, mut score_ms) = (None, 0.0);
         let whole = (plan.with_kept || plan.score).then(|| whole(&scene, &answer.samples));

@@ -2,7 +2,7 @@
 
 mod one;
 
-use super::inputs::{Inputs, Item, Reading, Source, tell_notes};
+use super::inputs::{Inputs, Item, Reading, Source, notes};
 use super::output::{self, Folder};
 use super::progress::Progress;
 use super::tally::Tally;
@@ -24,30 +24,30 @@ use std::sync::Arc;
 pub struct ConvertArgs {
     #[command(flatten)]
     inputs: Inputs,
-    /// File to write, or folder for a file a scene; - or absent is stdout. Formats that hold many scenes (womd, csv)
-    /// take all of them into one file.
+    /// File to write, or a folder (DIR/) for one file per scene; - is standard output. Formats that hold many
+    /// scenes (womd, csv) take all of them in one file.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
-    #[arg(long, alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable, help = format!("Format of the output: {}", ids(|info| info.export)))]
+    #[arg(long, value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable, help = format!("Format of the output: {}", ids(|info| info.export)))]
     to: &'static str,
     #[arg(long, value_name = "FORMAT", value_parser = readable, help = format!("Format of the input; recognised from its content when absent: {}", ids(|info| info.import)))]
     from: Option<&'static str>,
-    /// Network that a SUMO recording belongs to, or map of an Argoverse scenario.
+    /// Road network of a SUMO recording, or map of an Argoverse scenario.
     #[arg(long, value_name = "FILE")]
     net: Option<PathBuf>,
-    /// Which columns of a table say what: JSON of our names and theirs, with units and factors.
+    /// JSON file that maps the columns of a table to the names of this program, with units and factors.
     #[arg(long, value_name = "FILE")]
     columns: Option<PathBuf>,
-    /// Scenes to take of each file: one number, or FIRST..LAST.
+    /// Scenes to take from each file, counted from 0: a number, or FIRST..LAST (both included). Default: all.
     #[arg(long, value_name = "WHICH", value_parser = values::index)]
     index: Option<Range<usize>>,
-    /// Which sample of the generated futures; the chosen one when absent, all in csv.
+    /// Sample of the generated futures, counted from 0. Default: the chosen one; in csv, all.
     #[arg(long, value_name = "N")]
     sample: Option<usize>,
-    /// Which motion the output takes.
+    /// Motion to write.
     #[arg(long, value_enum, default_value_t)]
     mode: MotionChoice,
-    /// Exit 5 and write nothing when the output cannot hold something.
+    /// Write nothing and exit with 5 if the format cannot hold a detail.
     #[arg(long)]
     strict: bool,
     /// Overwrite the output.
@@ -106,7 +106,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
     let mut tally = Tally::default();
     let only = sources.len() == 1;
     let mut note = |converted: &Converted| {
-        converted.lines.iter().for_each(|line| progress.line(line));
+        common.listed(converted.lines.clone(), "notes").iter().for_each(|line| progress.line(line));
         for (code, detail) in &converted.losses {
             losses.entry(code).or_insert_with(|| detail.clone());
         }
@@ -163,18 +163,14 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
-/// Says once what is not in the output: in sentences for one file, by code for many.
+/// Lists once what is not in the output: in sentences for one file, by code for many.
 fn tell(losses: &Losses, only: bool, args: &ConvertArgs, common: &Common) {
-    if common.quiet || losses.is_empty() {
-        return;
-    }
     if only {
-        for (code, detail) in losses {
-            output::complain(&format!("not in {}: {code}: {detail}", args.to));
-        }
-    } else {
+        let lines = losses.iter().map(|(code, detail)| format!("not in {}: {code}: {detail}", args.to));
+        common.listed(lines.collect(), "losses").iter().for_each(|line| common.say(line));
+    } else if !losses.is_empty() {
         let codes: Vec<&str> = losses.keys().copied().collect();
-        output::complain(&format!("not in {}: {}", args.to, codes.join(", ")));
+        common.say(&format!("not in {}: {}", args.to, codes.join(", ")));
     }
 }
 
@@ -246,7 +242,7 @@ fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Conv
             converted = Converted { deferred: true, ..Converted::default() };
             return Err(Failure::new(Exit::Failure, ""));
         }
-        converted.lines.extend(tell_notes(source, &item.notes));
+        converted.lines.extend(notes(source, &item.notes));
         let file = written(&item, args, true, &mut converted)?;
         converted.parts.push(file.bytes);
         Ok(())
@@ -264,7 +260,7 @@ fn streamed(
 ) -> Result<(), Failure> {
     let read = source.each(reading, &mut |item| {
         let mut converted = Converted::default();
-        converted.lines.extend(tell_notes(source, &item.notes));
+        converted.lines.extend(notes(source, &item.notes));
         let file = written(&item, args, true, &mut converted)?;
         note(&converted);
         one.add(&file.bytes)

@@ -16,6 +16,8 @@ pub struct One {
     pub many: bool,
     /// The only scene of a format that holds one.
     only: Option<Vec<u8>>,
+    /// Bytes that are counted instead of printed on a terminal.
+    unprinted: Option<usize>,
 }
 
 impl One {
@@ -38,7 +40,8 @@ impl One {
             let file = Whole::create(path).map_err(|error| unwritable(path, &error))?;
             Ok::<_, Failure>((path.to_path_buf(), file))
         };
-        Ok(Self { file: path.map(create).transpose()?, heading, many, only: None })
+        let unprinted = output::is_terminal(args.output.as_deref()).then_some(0);
+        Ok(Self { file: path.map(create).transpose()?, heading, many, only: None, unprinted })
     }
 
     /// A scene in the format.
@@ -59,9 +62,10 @@ impl One {
     fn put(&mut self, part: &[u8]) -> Result<(), Failure> {
         let heading = std::mem::take(&mut self.heading);
         for bytes in [heading.as_slice(), part].into_iter().filter(|bytes| !bytes.is_empty()) {
-            match &mut self.file {
-                None => output::print(bytes)?,
-                Some((path, file)) => match file.write_all(bytes) {
+            match (&mut self.file, &mut self.unprinted) {
+                (None, Some(unprinted)) => *unprinted += bytes.len(),
+                (None, None) => output::print(bytes)?,
+                (Some((path, file)), _) => match file.write_all(bytes) {
                     Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => {}
                     done => done.map_err(|error| unwritable(path, &error))?,
                 },
@@ -78,6 +82,11 @@ impl One {
         if let Some(only) = self.only.take() {
             self.put(&only)?;
         }
+        if let Some(unprinted) = self.unprinted {
+            let size = unprinted.div_ceil(1000);
+            let hint = format!("{size} kB: --output FILE writes them, --output - prints them\n");
+            return output::print(hint.as_bytes());
+        }
         let Some((path, file)) = self.file else { return Ok(()) };
         match file.finish() {
             // A reader of a pipe that has closed its end is no failure.
@@ -89,7 +98,9 @@ impl One {
 
 /// Why several scenes do not go into one file.
 pub fn too_many() -> Failure {
-    Failure::usage("more than one scene; --index takes one, --output FOLDER/ takes all, a file each")
+    Failure::usage(
+        "several scenes: pick one with --index, or give a folder, --output DIR/, for one file per scene",
+    )
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Failure {

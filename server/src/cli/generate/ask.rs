@@ -5,7 +5,7 @@ use super::who::{self, AgentSelector};
 use crate::cli::values::For;
 use crate::cli::{Failure, output};
 use api::GenerateRequest;
-use api::generate::request::{AgentChoice, AllWord, KeptFutures, ReactChoice};
+use api::generate::request::{AgentChoice, AllWord, ReactChoice};
 use formats::native::{ConditionsDoc, GoalDoc, Members};
 use scene::scenarios::Casting;
 use scene::{Agent, Conditions, STEP_S, Scene};
@@ -32,9 +32,6 @@ pub fn request(
             Some(ids.map_or(AgentChoice::All(AllWord::All), AgentChoice::Ids))
         }
     };
-    if let (None, Some(AgentChoice::Ids(ids))) = (casting, &agents) {
-        left_out(args, ids)?;
-    }
     let react = match (args.react.as_slice(), casting) {
         ([], None) => ReactChoice::Whether(false),
         ([], Some(_)) => ReactChoice::Whether(true),
@@ -55,7 +52,7 @@ pub fn request(
         diversity: args.diversity,
         steps: args.steps,
         score: scored,
-        kept_futures: if args.forget { KeptFutures::Forgotten } else { KeptFutures::Answered },
+        kept_futures: args.kept_futures,
         ..GenerateRequest::default()
     })
 }
@@ -126,33 +123,6 @@ fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure>
     match values.iter().find(|given| scene.agent(&given.id).is_none()) {
         Some(given) => Err(Failure::usage(format!("{flag} {}: the scene has no such road user", given.id))),
         None => Ok(()),
-    }
-}
-
-/// Refuses conditions that would change nothing: those of a road user that is not regenerated.
-fn left_out(args: &GenerateArgs, agents: &[String]) -> Result<(), Failure> {
-    fn of<'a, T>(
-        flag: &'static str,
-        given: &'a [For<T>],
-    ) -> impl Iterator<Item = (&'static str, &'a String)> {
-        given.iter().map(move |one| (flag, &one.id))
-    }
-    let logged = args.goal_from_log.iter().filter_map(|who| match who {
-        AgentSelector::Id(id) => Some(("--goal-from-log", id)),
-        _ => None,
-    });
-    let all = of("--goal", &args.goal)
-        .chain(of("--via", &args.via))
-        .chain(of("--start", &args.start))
-        .chain(of("--size", &args.size))
-        .chain(of("--type", &args.agent_type))
-        .chain(of("--condition", &args.condition));
-    match all.chain(logged).find(|(_, id)| !agents.contains(*id)) {
-        None => Ok(()),
-        Some((flag, id)) => {
-            let hint = "add it to --agents, or leave --agents out";
-            Err(Failure::usage(format!("{flag} {id}: this road user is not regenerated; {hint}")))
-        }
     }
 }
 

@@ -90,7 +90,7 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
     if args.strict && sums.values().any(|sum| sum.unfit > 0 || sum.kept == 0) {
         return Err(Failure::new(
             Exit::Partly,
-            "--strict: nobody fits a template somewhere, or nothing of it was kept",
+            "--strict: a template fits no road user of a scene, or none of its samples was kept",
         ));
     }
     Ok(())
@@ -175,13 +175,10 @@ fn words(made: &MadeScene) -> String {
 }
 
 fn figures_words(figures: &Figures, actor: bool) -> String {
-    let (name, whose) = if actor { ("actor.min_ttc_s", "its ") } else { ("min_ttc_s", "") };
+    let (name, whose) = if actor { ("actor.min_ttc_s", "actor's ") } else { ("min_ttc_s", "") };
     let ttc = figures.get(name).map_or("none".into(), |ttc| format!("{ttc:.2} s"));
     let collisions = figures.get("collisions").unwrap_or(0.0);
-    format!(
-        "{whose}least time to collision {ttc}, {collisions} collision{}",
-        if collisions == 1.0 { "" } else { "s" }
-    )
+    format!("{whose}minimum TTC {ttc}, {collisions} collision{}", if collisions == 1.0 { "" } else { "s" })
 }
 
 /// What is gathered while results come in.
@@ -251,7 +248,7 @@ impl Sum {
     fn words(&self, template: Option<Template>, args: &GenerateArgs) -> String {
         let Self { all, kept, unfit } = self;
         let name = template.map_or_else(String::new, |template| format!("{}: ", template.name()));
-        let unfit = if *unfit > 0 { format!(", {unfit} where nobody fits") } else { String::new() };
+        let unfit = if *unfit > 0 { format!(", {unfit} without a fitting road user") } else { String::new() };
         match &args.filter {
             Some(filter) => format!("{name}{kept} of {all} hold {}{unfit}", filter.text()),
             None => format!("{name}{kept} of {all} made{unfit}"),

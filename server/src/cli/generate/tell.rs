@@ -3,6 +3,7 @@
 
 use super::GenerateArgs;
 use super::made::MadeScene;
+use crate::cli::Common;
 use experts::{ReachReport, Resolved, Source as From, WarningCode};
 use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
 use scene::{AgentFutures, Future};
@@ -12,21 +13,24 @@ const MOST_FAULTS: usize = 3;
 /// A goal is off by so little that nobody needs the number, metres.
 const NEAR_M: f64 = 0.005;
 
-/// All lines of an answer, those of the first sample.
-pub fn lines(made: &MadeScene, args: &GenerateArgs) -> Vec<String> {
+/// All lines of an answer, those of the first sample; road users with a goal come first, then those that react.
+pub fn lines(made: &MadeScene, args: &GenerateArgs, common: &Common) -> Vec<String> {
     let mut lines: Vec<String> = made.casting.iter().map(|c| format!("template: {}", c.words)).collect();
     let sample = made.scene.generated.as_ref().and_then(|generated| generated.samples.first());
-    for (id, futures) in
-        sample.into_iter().flat_map(|sample| &sample.agents).filter(|(id, _)| !made.kept.contains(id))
-    {
-        lines.push(format!("{id}: {}", of_one(made.resolved.get(id), futures)));
-    }
+    let agents = sample.into_iter().flat_map(|sample| &sample.agents);
+    let mut agents: Vec<_> = agents.filter(|(id, _)| !made.kept.contains(id)).collect();
+    agents.sort_by_key(|(id, futures)| {
+        (made.resolved.get(*id).and_then(goal).is_none(), futures.reaction.is_none())
+    });
+    let of_agents = agents.into_iter().map(|(id, f)| format!("{id}: {}", of_one(made.resolved.get(id), f)));
+    lines.extend(common.listed(of_agents.collect(), "road users"));
     // What the lines have said already is not said again.
     let warnings = made.warnings.iter().filter(|warning| warning.code != WarningCode::GoalUnreachable);
-    for warning in warnings {
-        let who = warning.agent.as_deref().unwrap_or("scene");
-        lines.push(format!("{who}: {}: {}", warning.code, warning.detail));
-    }
+    let of_warnings = warnings.map(|warning| {
+        let subject = warning.agent.as_deref().unwrap_or("scene");
+        format!("{subject}: {}: {}", warning.code, warning.detail)
+    });
+    lines.extend(common.listed(of_warnings.collect(), "warnings"));
     lines.extend(latecomers(made, args));
     if made.all_samples > 1 {
         let kept = made.samples.len();

@@ -15,11 +15,13 @@ pub enum AgentSelector {
     Kind(AgentType),
     /// The recording vehicle.
     Ego,
+    /// No road user.
+    Nobody,
     /// This one.
     Id(String),
 }
 
-const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego";
+const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego, @none";
 
 impl FromStr for AgentSelector {
     type Err = String;
@@ -32,6 +34,7 @@ impl FromStr for AgentSelector {
             "@pedestrians" => Ok(Self::Kind(AgentType::Pedestrian)),
             "@cyclists" => Ok(Self::Kind(AgentType::Cyclist)),
             "@ego" => Ok(Self::Ego),
+            "@none" => Ok(Self::Nobody),
             _ if text.starts_with('@') => Err(format!("an id or one of {WORDS} expected")),
             "" => Err("an id expected".into()),
             id => Ok(Self::Id(id.to_owned())),
@@ -55,6 +58,7 @@ pub fn ids(
         let there = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other);
         let meant: Vec<String> = match who {
             AgentSelector::All => return Ok(None),
+            AgentSelector::Nobody => continue,
             AgentSelector::Id(id) => vec![id.clone()],
             _ => there
                 .filter(|agent| who.means(scene, agent, start_step))
@@ -62,7 +66,7 @@ pub fn ids(
                 .collect(),
         };
         if meant.is_empty() {
-            return Err(Failure::usage(format!("{flag}: nobody in the scene is {}", who.words())));
+            return Err(Failure::usage(format!("{flag}: no road user of the scene is {}", who.words())));
         }
         for id in meant {
             if !ids.contains(&id) {
@@ -82,6 +86,7 @@ impl AgentSelector {
             Self::Moving => state.speed_mps() > STANDING_MPS,
             Self::Kind(kind) => shown.agent_type == *kind,
             Self::Ego => agent.role.as_deref() == Some("ego"),
+            Self::Nobody => false,
             Self::Id(id) => agent.id == *id,
         }
     }
@@ -94,6 +99,7 @@ impl AgentSelector {
             Self::Kind(AgentType::Cyclist) => "a cyclist at the start".into(),
             Self::Kind(_) => "a vehicle at the start".into(),
             Self::Ego => "the ego".into(),
+            Self::Nobody => "none".into(),
             Self::Id(id) => format!("\"{id}\""),
         }
     }
@@ -124,7 +130,7 @@ mod tests {
         assert_eq!(meant(&["car", "@all"]).unwrap(), None);
         assert_eq!(
             meant(&["@cyclists"]).unwrap_err().message,
-            "--agents: nobody in the scene is a cyclist at the start"
+            "--agents: no road user of the scene is a cyclist at the start"
         );
         assert!("@everybody".parse::<AgentSelector>().unwrap_err().contains("@moving"));
     }

@@ -23,10 +23,10 @@ const AT_A_TIME: usize = 16;
 /// Which files, for commands that take many.
 #[derive(Args, Clone, Debug)]
 pub struct Inputs {
-    /// Files, folders or patterns such as 'runs/**/*.json', of any format; - is stdin.
+    /// Files, folders or patterns such as 'runs/**/*.json', in any format; - is standard input.
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
-    /// Files worked on at the same time; one a core when absent.
+    /// Files processed in parallel. Default: one per core.
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=512))]
     pub jobs: Option<u16>,
 }
@@ -184,7 +184,7 @@ pub fn refused(path: &Path, problem: &Problem) -> Failure {
     Failure::input(message)
 }
 
-/// Says what readers changed or left out.
-pub fn tell_notes(source: &Source, notes: &[formats::ImportWarning]) -> Vec<String> {
+/// What readers changed or left out, in lines.
+pub fn notes(source: &Source, notes: &[formats::ImportWarning]) -> Vec<String> {
     notes.iter().map(|note| format!("{}: {}: {}", source.shown(), note.code, note.detail)).collect()
 }

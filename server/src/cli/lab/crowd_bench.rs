@@ -1,4 +1,4 @@
-//! `dragtraffic bench --crowd`: many callers at once, and one who drags beside the heaviest calls there can be.
+//! `dragtraffic lab bench --crowd`: many callers at once, and one who drags beside the heaviest calls there can be.
 
 use super::failed;
 use super::http_bench::longest_way;

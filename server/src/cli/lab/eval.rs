@@ -1,4 +1,4 @@
-//! `dragtraffic eval` and `bench`.
+//! `dragtraffic lab eval` and `bench`.
 
 use super::{SceneArgs, crowd_bench, failed, http_bench, print_json, scenes};
 use crate::cli::progress::Progress;
@@ -18,36 +18,37 @@ pub struct EvalArgs {
     /// Name of the weights in the tables.
     #[arg(long, default_value = "ours")]
     name: String,
-    /// Further weights to judge beside them.
+    /// Further weights to evaluate.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
-    /// The same weights with one tuned number changed, beside them in the same tables: a name of
-    /// `experts::tuning`, such as `choice.overlap`. Without a value, what the number is for is left out.
+    /// The same weights with one tuned number changed, such as `choice.overlap` of `experts::tuning`. Without
+    /// a value, the term of that number is left out.
     #[arg(long, value_name = "NAME[=VALUE]", value_parser = tuned)]
     ablate: Vec<(String, Tuning)>,
-    /// Learned rivals to stand beside them in tables 1, 2 and 4: weights made by `train --baseline`, a file or
-    /// a folder with one for each type.
+    /// Trained baselines for tables 1, 2 and 4: weights of `lab train --baseline`, one file or a folder with
+    /// one file per type.
     #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
     baseline: Vec<(String, PathBuf)>,
-    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations; the long
-    /// 8, refinement (some ten minutes of a core for 40 scenes); and 9, trust
+    /// Tables to compute: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations, 8
+    /// refinement (about 10 min on one core for 40 scenes), 9 trust.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
           value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=TABLES.len() as u64))]
     tables: Vec<usize>,
-    /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
+    /// Folder for the tables as Markdown and JSON, and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Overwrite the tables of the folder.
+    /// Overwrite the tables in the folder.
     #[arg(long)]
     force: bool,
-    /// Draws noise, resamples, drags and random pictures.
+    /// Seed that draws noise, resamples, drags and random pictures.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Table 2: lines for the product re-planned every so many seconds, 0.1 to 9 each.
+    /// Table 2: replan intervals to compare, 0.1 to 9 s each.
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values = ["3", "6", "9"],
           value_parser = replan_steps)]
     replan: Vec<usize>,
-    /// The paper's crop: road users of a 120 m square about the ego alone, scenes with at least 32 of them.
+    /// Use the paper's crop: the road users in a 120 m square around the ego, in scenes with at least 32 of
+    /// them.
     #[arg(long)]
     paper_crop: bool,
 }
@@ -57,15 +58,14 @@ pub struct EvalArgs {
 pub struct BenchArgs {
     #[command(flatten)]
     scenes: SceneArgs,
-    /// Over HTTP: a server is started beside, and each call's time stands beside that of the same request answered
-    /// in this process.
+    /// Measure over HTTP: start a server, and time each call beside the same request in this process.
     #[arg(long, conflicts_with = "crowd")]
     http: bool,
-    /// So many callers at once, one number after the other, then one who drags beside the heaviest calls; on the
-    /// first scene, over HTTP.
+    /// Numbers of simultaneous clients, one after another; then one client that drags beside the heaviest
+    /// calls. Uses the first scene, over HTTP.
     #[arg(long, value_name = "CLIENTS", value_delimiter = ',')]
     crowd: Vec<usize>,
-    /// How long each crowd stays, seconds.
+    /// Duration of each crowd, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0, requires = "crowd")]
     seconds: f64,
 }

@@ -1,4 +1,4 @@
-//! `dragtraffic bench --http`: calls over a real socket, and the same requests answered in this process.
+//! `dragtraffic lab bench --http`: calls over a real socket, and the same requests answered in this process.
 
 use super::failed;
 use super::served::{Connection, JSON, NDJSON, Served};

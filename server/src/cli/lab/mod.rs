@@ -1,4 +1,4 @@
-//! How experts are made and judged: the only folder that knows the lab. One file a command, or a pair.
+//! How experts are trained and evaluated: the only folder that knows the lab. One file a command, or a pair.
 
 mod crowd_bench;
 mod eval;
@@ -16,36 +16,35 @@ use super::{Common, Exit, Failure, output};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// The commands that make and judge experts.
+/// The commands that train and evaluate experts.
 #[derive(Subcommand)]
 pub enum LabCommand {
-    /// Make training windows from procedural networks, driven through SUMO.
-    #[command(after_help = examples!("dragtraffic synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
+    /// Simulate training windows on procedural networks, with SUMO.
+    #[command(after_help = examples!("dragtraffic lab synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic lab synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
     Synthesize(synthesize::SynthesizeArgs),
-    /// Lay the statistics of sets of scenes side by side.
-    #[command(after_help = examples!("dragtraffic statistics synthetic=windows/ recorded=recordings/", "dragtraffic statistics recorded=recordings/ --json --most 50"))]
+    /// Compare the statistics of sets of scenes.
+    #[command(after_help = examples!("dragtraffic lab statistics synthetic=windows/ recorded=recordings/", "dragtraffic lab statistics recorded=recordings/ --json --most 50"))]
     Statistics(statistics::StatisticsArgs),
-    /// Make training shards from logs.
-    #[command(after_help = examples!("dragtraffic prepare windows/ --expert vehicle -o vehicle.records", "dragtraffic prepare recordings/ --expert cyclist --crop 120 --least-agents 32 --mirror -o cyclist.records"))]
+    /// Make training records from scenes.
+    #[command(after_help = examples!("dragtraffic lab prepare windows/ --expert vehicle -o vehicle.records", "dragtraffic lab prepare recordings/ --expert cyclist --crop 120 --least-agents 32 --mirror -o cyclist.records"))]
     Prepare(prepare::PrepareArgs),
     /// Train an expert.
-    #[command(after_help = examples!("dragtraffic train vehicle.records --expert vehicle --stage initializer --steps 20000 -o v1.safetensors", "dragtraffic train vehicle.records --expert vehicle --stage joint --steps 1200 --init v1.safetensors -o vehicle.safetensors"))]
+    #[command(after_help = examples!("dragtraffic lab train vehicle.records --expert vehicle --stage initializer --steps 20000 -o v1.safetensors", "dragtraffic lab train vehicle.records --expert vehicle --stage joint --steps 1200 --init v1.safetensors -o vehicle.safetensors"))]
     Train(train::TrainArgs),
     /// Learn the placement weights from scenes.
-    #[command(after_help = examples!("dragtraffic train-placement windows/ -o placement.json", "dragtraffic train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
+    #[command(after_help = examples!("dragtraffic lab train-placement windows/ -o placement.json", "dragtraffic lab train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
     TrainPlacement(placement::TrainPlacementArgs),
-    /// Judge the placement on recorded scenes.
-    #[command(after_help = examples!("dragtraffic eval-place recordings/", "dragtraffic eval-place recordings/ --radius 80 --seeds 8 --json"))]
+    /// Evaluate the placement on recorded scenes.
+    #[command(after_help = examples!("dragtraffic lab eval-place recordings/", "dragtraffic lab eval-place recordings/ --radius 80 --seeds 8 --json"))]
     EvalPlace(placement::EvalPlaceArgs),
-    /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
-    #[command(after_help = examples!("dragtraffic eval recordings/ --tables 1,2 -o tables/", "dragtraffic eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
+    /// Evaluate the experts on scenes, in tables and pictures.
+    #[command(after_help = examples!("dragtraffic lab eval recordings/ --tables 1,2 -o tables/", "dragtraffic lab eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
     Eval(eval::EvalArgs),
-    /// Reproduce the paper on recordings: its sets, its methods trained as it says, its two tables with its own figures
-    /// beside.
-    #[command(after_help = examples!("dragtraffic reproduce recordings/ --quick -o paper/", "dragtraffic reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
+    /// Reproduce the tables and the figure of the paper on recordings.
+    #[command(after_help = examples!("dragtraffic lab reproduce recordings/ --quick -o paper/", "dragtraffic lab reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
     Reproduce(reproduce::ReproduceArgs),
-    /// Time answers: one drag, and whole scenes.
-    #[command(after_help = examples!("dragtraffic bench recordings/", "dragtraffic bench recordings/ --scenes 20 --weights DIR"))]
+    /// Measure the response times of drags and of whole scenes.
+    #[command(after_help = examples!("dragtraffic lab bench recordings/", "dragtraffic lab bench recordings/ --scenes 20 --weights DIR"))]
     Bench(eval::BenchArgs),
 }
 
@@ -78,7 +77,7 @@ struct SceneArgs {
     /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
-    /// Most files, in the order of their names.
+    /// Maximum number of files, in the order of their names.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     scenes: usize,
 }

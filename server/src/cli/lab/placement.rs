@@ -1,4 +1,4 @@
-//! `dragtraffic train-placement` and `eval-place`.
+//! `dragtraffic lab train-placement` and `eval-place`.
 
 use super::{SceneArgs, failed, print_json, scenes};
 use crate::cli::inputs::patterns;
@@ -19,7 +19,7 @@ pub struct TrainPlacementArgs {
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
-    /// What the data are, for the weights' header, in place of what the scenes say.
+    /// Description of the data for the header of the weights. Default: the description in the scenes.
     #[arg(long, value_name = "TEXT")]
     trained_on: Option<String>,
 }
@@ -29,13 +29,13 @@ pub struct TrainPlacementArgs {
 pub struct EvalPlaceArgs {
     #[command(flatten)]
     scenes: SceneArgs,
-    /// Region: a circle of this radius about the ego, metres.
+    /// Radius of the region around the ego, m.
     #[arg(long, default_value_t = 60.0)]
     radius: f64,
-    /// Placements of each scene.
+    /// Placements per scene.
     #[arg(long, default_value_t = 4)]
     seeds: u64,
-    /// JSON in place of Markdown.
+    /// Print JSON instead of Markdown.
     #[arg(long)]
     json: bool,
 }

@@ -1,4 +1,4 @@
-//! `dragtraffic prepare`.
+//! `dragtraffic lab prepare`.
 
 use super::{failed, print_json};
 use crate::cli::inputs::patterns;
@@ -18,32 +18,32 @@ pub struct PrepareArgs {
     /// File of records to write.
     #[arg(short, long)]
     output: PathBuf,
-    /// Whose expert the records are for.
+    /// Expert to make records for.
     #[arg(long, value_enum)]
     expert: AgentType,
-    /// Draws road users and conditions.
+    /// Seed that draws road users and conditions.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Most road users of a scene.
+    /// Maximum number of road users per scene.
     #[arg(long, default_value_t = 6)]
     per_scene: usize,
-    /// Choices of conditions for each moving road user.
+    /// Draws of conditions per moving road user.
     #[arg(long, default_value_t = 2)]
     draws: usize,
-    /// Stop after so many records.
+    /// Maximum number of records.
     #[arg(long, default_value_t = 200_000)]
     most: u64,
-    /// Side of a square about the ego (else the first road user), metres: those outside are left out. The
-    /// paper's is 120.
+    /// Side of a square around the ego (or the first road user), m; road users outside are left out. The
+    /// paper uses 120.
     #[arg(long, value_name = "METRES", value_parser = metres)]
     crop: Option<f64>,
-    /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
+    /// Minimum number of road users at the first step; scenes with fewer are left out. The paper uses 32.
     #[arg(long, value_name = "N", default_value_t = 0)]
     least_agents: usize,
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
-    /// Take each scene's mirror image too: twice the records from few scenes.
+    /// Add each scene's mirror image, which doubles the records.
     #[arg(long)]
     mirror: bool,
 }

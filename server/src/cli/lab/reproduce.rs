@@ -1,4 +1,4 @@
-//! `dragtraffic reproduce`.
+//! `dragtraffic lab reproduce`.
 
 use super::failed;
 use crate::cli::inputs::patterns;
@@ -20,63 +20,64 @@ const QUICK_SCENES: [usize; 2] = [16, 16];
 /// Flags of `reproduce`.
 #[derive(Args, Clone, Debug)]
 pub struct ReproduceArgs {
-    /// Files, folders or patterns of recordings in any format, such as Waymo Scenario TFRecords of 9 or 20 s. A tenth of their
-    /// places is held out for validation and, without --test, another tenth for the tests.
+    /// Files, folders or patterns of recordings in any format, such as Waymo Scenario TFRecords of 9 or 20 s.
+    /// A tenth of their places is held out for validation and, without --test, another tenth for the test.
     #[arg(required = true)]
     data: Vec<PathBuf>,
-    /// Files, folders or patterns for the tests alone; their places are never learned from.
+    /// Files, folders or patterns for the test alone; their places are never trained on.
     #[arg(long, value_name = "PATH")]
     test: Vec<PathBuf>,
-    /// Folder of the run. The same command goes on with what is there.
+    /// Folder of the run; an interrupted run continues with what it holds.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Short trainings and few scenes: ten minutes on two cores.
+    /// Train briefly and use few scenes: 10 min on two cores.
     #[arg(long)]
     quick: bool,
-    /// Make the tables alone, or the figure alone.
+    /// Make only this result.
     #[arg(long, value_enum)]
     only: Option<Only>,
-    /// Draws first weights, batches, noise and conditions.
+    /// Seed that draws initial weights, batches, noise and conditions.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Length of an interval, and from one start to the next, seconds.
+    /// Length of an interval and distance between two starts, s.
     #[arg(long, value_name = "SECONDS", default_value = "6", value_parser = interval)]
     interval: usize,
-    /// Side of the square about the ego, a pedestrian or a cyclist, metres.
+    /// Side of the square around the ego, a pedestrian or a cyclist, m.
     #[arg(long, value_name = "METRES", default_value_t = 120.0)]
     crop: f64,
-    /// Least road users of a square at its first frame.
+    /// Minimum number of road users of a square at its first frame.
     #[arg(long, value_name = "N", default_value_t = 32)]
     least_agents: usize,
-    /// Least frames at which somebody who is judged is known.
+    /// Minimum number of frames at which an evaluated road user is known.
     #[arg(long, value_name = "N", default_value_t = 30)]
     frames: usize,
     /// Intersection over union above which two boxes collide in Table II.
     #[arg(long, default_value_t = lab_eval::together::PAPER_IOU)]
     iou: f64,
-    /// Hidden numbers of the MLP of the condition; the paper has 1024.
+    /// Hidden units of the condition MLP. The paper uses 1024.
     #[arg(long, value_name = "N", default_value_t = 128,
           value_parser = RangedU64ValueParser::<usize>::new().range(1..=4096))]
     condition_width: usize,
-    /// Epochs of the denoiser, of regressors, and of both together; the paper's unless --quick.
+    /// Epochs of the denoiser, of the regressors, and of both together. Default: those of the paper, fewer
+    /// with --quick.
     #[arg(long, value_name = "D,R,J", value_parser = epochs)]
     epochs: Option<[f64; 3]>,
-    /// Learning rate at first; the paper's is 3e-4.
+    /// Initial learning rate. The paper uses 3e-4.
     #[arg(long)]
     rate: Option<f64>,
-    /// Learning rate at the end; the paper's is 4e-5.
+    /// Final learning rate. The paper uses 4e-5.
     #[arg(long)]
     rate_end: Option<f64>,
-    /// Records a step.
+    /// Records per step.
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Most files of the data and of the tests, evenly over their names.
+    /// Maximum number of files of the data and of the test, spread evenly over their names.
     #[arg(long, value_name = "N")]
     files: Option<usize>,
-    /// Threads that share a step of training; the result does not depend on it.
+    /// CPU threads per training step; the result does not depend on it.
     #[arg(long, default_value_t = 2)]
     workers: usize,
-    /// Begin anew, whatever run the folder holds.
+    /// Start a new run even if the folder holds one.
     #[arg(long)]
     force: bool,
 }
@@ -86,7 +87,7 @@ pub struct ReproduceArgs {
 enum Only {
     /// Tables I and II.
     Tables,
-    /// Creating, editing, correcting, and cases (a) to (d), with the weights as they are shipped.
+    /// Creating, editing, correcting, and the cases (a) to (d), with the shipped weights.
     Figure,
 }
 

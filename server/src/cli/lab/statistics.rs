@@ -1,4 +1,4 @@
-//! `dragtraffic statistics`.
+//! `dragtraffic lab statistics`.
 
 use super::print_json;
 use crate::cli::inputs::patterns;
@@ -9,13 +9,13 @@ use std::path::PathBuf;
 /// Flags of `statistics`.
 #[derive(Args, Clone, Debug)]
 pub struct StatisticsArgs {
-    /// Sets of scenes, each NAME=PATH; a column of the table each.
+    /// Sets of scenes, each NAME=PATH; one column of the table per set.
     #[arg(required = true, value_name = "NAME=PATH")]
     sets: Vec<String>,
-    /// Print JSON, not Markdown.
+    /// Print JSON instead of Markdown.
     #[arg(long)]
     json: bool,
-    /// Most files of a set, spread evenly over it.
+    /// Maximum number of files per set, spread evenly over it.
     #[arg(long, default_value_t = 250)]
     most: usize,
 }

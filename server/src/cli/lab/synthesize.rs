@@ -1,4 +1,4 @@
-//! `dragtraffic synthesize`.
+//! `dragtraffic lab synthesize`.
 
 use super::failed;
 use crate::cli::progress::Progress;
@@ -10,25 +10,25 @@ use std::path::PathBuf;
 /// Flags of `synthesize`.
 #[derive(Args, Clone, Debug)]
 pub struct SynthesizeArgs {
-    /// Seeds to work on; each gives one file.
+    /// Number of seeds; each gives one file.
     #[arg(long, default_value_t = 1)]
     count: u64,
     /// First seed.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Folder to write to; files that are there already are kept.
+    /// Folder to write to; existing files are kept.
     #[arg(short, long)]
     output: PathBuf,
-    /// Windows of 9 seconds cut from each seed's two minutes.
+    /// Windows of 9 s cut from the two minutes of each seed.
     #[arg(long, default_value_t = 40)]
     per_seed: usize,
-    /// Seeds worked on at the same time; 0 means one a core.
+    /// Seeds processed in parallel; 0 means one per core.
     #[arg(long, default_value_t = 0)]
     threads: usize,
-    /// SUMO's folder, with bin/ in it; else SUMO_HOME, else PATH.
+    /// Folder of SUMO, with bin/ in it. Default: SUMO_HOME, else PATH.
     #[arg(long, value_name = "DIR")]
     sumo_home: Option<PathBuf>,
-    /// Kind of all networks; mixed when absent.
+    /// Kind of all networks. Default: mixed.
     #[arg(long, value_enum)]
     template: Option<Template>,
 }

@@ -1,4 +1,4 @@
-//! `dragtraffic train`.
+//! `dragtraffic lab train`.
 
 use super::failed;
 use crate::cli::progress::Progress;
@@ -19,68 +19,69 @@ const PUSH: &str = "push";
 /// Flags of `train`.
 #[derive(Args, Clone, Debug)]
 pub struct TrainArgs {
-    /// Files made by `prepare`.
+    /// Files written by `lab prepare`.
     #[arg(required = true)]
     records: Vec<PathBuf>,
-    /// denoiser, then initializer, then joint.
+    /// Stage of the training, in this order.
     #[arg(long, value_enum, required_unless_present = "baseline")]
     stage: Option<Stage>,
-    /// Which expert.
+    /// Expert to train.
     #[arg(long, value_enum, required_unless_present = "baseline")]
     expert: Option<AgentType>,
-    /// Train a rival of the experts in their place, for `eval --baseline`. trafficgen takes vehicles' records,
-    /// trafficgen-conditional a file of each type, paper an --expert and the three stages.
+    /// Train a baseline for `lab eval --baseline` instead of an expert. trafficgen takes the records of
+    /// vehicles, trafficgen-conditional one file per type, paper an --expert and the three stages.
     #[arg(long, value_enum)]
     baseline: Option<BaselineKind>,
     /// Weights file to write; its checkpoint lies beside it.
     #[arg(short, long)]
     output: PathBuf,
-    /// Weights of the stage before.
+    /// Weights of the previous stage.
     #[arg(long)]
     init: Option<PathBuf>,
     /// Optimiser steps.
     #[arg(long, default_value_t = 3000)]
     steps: u64,
-    /// Times through the records, in place of steps.
+    /// Passes through the records, instead of --steps.
     #[arg(long, conflicts_with = "steps")]
     epochs: Option<f64>,
-    /// Records a step.
+    /// Records per step.
     #[arg(long, default_value_t = 64)]
     batch: usize,
-    /// Greatest learning rate.
+    /// Maximum learning rate.
     #[arg(long, default_value_t = 1e-3)]
     rate: f64,
-    /// Learning rate at the end; a hundredth of the greatest when absent.
+    /// Final learning rate. Default: a hundredth of the maximum.
     #[arg(long)]
     rate_end: Option<f64>,
-    /// Hidden numbers of a baseline's MLP of the condition; the paper has 1024.
+    /// Hidden units of a baseline's condition MLP. The paper uses 1024.
     #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=4096))]
     condition_width: usize,
-    /// What computes the networks. cuda is the first NVIDIA graphics card, in a program built with the feature
-    /// cuda; only the CPU gives the same bits again.
+    /// Device that computes the networks. cuda needs a program built with the feature cuda; only the CPU
+    /// repeats a run bit for bit.
     #[arg(long, value_enum, default_value = "cpu")]
     device: Processor,
-    /// Threads that share a step on the CPU; the result does not depend on it.
+    /// CPU threads per step; the result does not depend on it.
     #[arg(long, default_value_t = 1)]
     workers: usize,
-    /// Draws records and first weights.
+    /// Seed that draws records and initial weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Parts of refinement to leave out, to see what they bring.
+    /// Parts of the refinement to leave out, for ablation.
     #[arg(long, value_delimiter = ',', value_parser = [PUSH])]
     without: Vec<String>,
-    /// End after this time, the rate falling accordingly; the result then depends on the machine's speed.
+    /// Stop after this time, min, with the learning rate scaled to it; the result then depends on the speed
+    /// of the machine.
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
-    /// Go on from the checkpoint. One is kept at each validation, each minute and on Ctrl-C; the weights with the
-    /// least held-out loss lie beside the last ones under the name .best.
+    /// Continue from the checkpoint, which is written at each validation, each minute and on Ctrl-C. The
+    /// weights with the lowest held-out loss have the suffix .best.
     #[arg(long)]
     resume: bool,
-    /// Overwrite weights that are there.
+    /// Overwrite existing weights.
     #[arg(long)]
     force: bool,
-    /// What the data are, for the weights' header, in place of what the records say. The licence is that of the
-    /// records: the strictest of their scenes'.
+    /// Description of the data for the header of the weights. Default: the description in the records. The
+    /// licence is always the strictest of the records.
     #[arg(long, value_name = "TEXT")]
     trained_on: Option<String>,
 }
@@ -123,8 +124,8 @@ pub fn train(mut args: TrainArgs, common: &Common) -> Result<(), Failure> {
         }
         Some(kind) => {
             let expert = kind.expert().map(str::to_owned).or(expert);
-            let expert = expert
-                .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
+            let expert =
+                expert.ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper needs --expert"))?;
             let mut options = baselines::options(kind, records, stage, output);
             options.architecture.condition_width = args.condition_width;
             baselines::train(&args.set(options, expert, stop), &mut report)

@@ -46,6 +46,9 @@ impl FigureFilter {
 }
 
 fn unknown(name: &str) -> String {
+    if name == "violations" {
+        return "violations is kinematic.violations now".to_owned();
+    }
     let near = names().iter().filter_map(|known| Some((distance(known, name)?, known))).min();
     let near = near.map_or_else(String::new, |(_, known)| format!(" (did you mean {known}?)"));
     format!("no figure is named \"{name}\"{near}; there are {}", names().join(", "))

@@ -28,24 +28,25 @@ use thresholds::Counting;
 pub struct ScoreArgs {
     #[command(flatten)]
     inputs: Inputs,
-    /// Samples of generated futures: the chosen one, all, one number, or FIRST..LAST.
+    /// Samples to score: chosen, all, a number counted from 0, or FIRST..LAST (both included).
     #[arg(long, value_name = "WHICH", default_value = "chosen", value_parser = which)]
-    samples: Which,
-    /// Only what this holds for, such as 'min_ttc_s < 1.5 && collisions == 0': figures of the score (lists count
-    /// what the log does not show), actor.FIGURE for the road user asked for; <, <=, >, >=, ==, !=, &&, ||, !, ( ).
-    /// A figure that a scene does not have holds for nothing. An unknown name lists all there are.
+    sample: Which,
+    /// Keep only samples that satisfy this condition, such as 'min_ttc_s < 1.5 && collisions == 0'. Terms: a
+    /// figure of the score, or actor.FIGURE for the generated road user; a list counts its entries that are
+    /// not in the recording. Operators: < <= > >= == != && || ! ( ). A comparison with a missing figure is
+    /// false. An unknown name lists all figures.
     #[arg(long = "where", value_name = "CONDITION", value_parser = FigureFilter::parse)]
     filter: Option<FigureFilter>,
-    /// One JSON object a line in place of text.
+    /// Print one JSON object per line instead of text.
     #[arg(long)]
     json: bool,
-    /// A table with a line for each sample to this file; - is stdout, in place of text.
+    /// Write a table with one row per sample to this file; - is standard output instead of text.
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     csv: Option<PathBuf>,
-    /// Copy what is scored to this folder, a scene for each sample.
+    /// Copy each scored sample to this folder, one scene per sample.
     #[arg(long, value_name = "DIR")]
     copy_to: Option<PathBuf>,
-    /// Overwrite the table and copies.
+    /// Overwrite the table and the copies.
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -120,7 +121,7 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
     let mut scored = Scored { text: String::new(), rows: Vec::new(), held: 0, looked_at: 0 };
     source.each(&Reading::default(), &mut |item| {
         let drivable = Drivable::new(&item.scene.map);
-        for (number, sample) in picked(&item.scene, &args.samples) {
+        for (number, sample) in picked(&item.scene, &args.sample) {
             scored.looked_at += 1;
             let input = ScoreInput::of_sample(&item.scene, sample, &drivable);
             let score = scene::score::score(&args.counting.applied(input));
@@ -131,7 +132,7 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
             }
             scored.held += 1;
             let several = item.scene.generated.as_ref().is_some_and(|g| g.samples.len() > 1);
-            let number = number.filter(|_| several || args.samples != Which::Chosen);
+            let number = number.filter(|_| several || args.sample != Which::Chosen);
             if args.csv.is_some() {
                 scored.rows.push(table::row(&source.shown(), &item, number, &figures));
             }

@@ -7,16 +7,16 @@ use scene::score::{PairChoice, ScoreInput, Threshold, Thresholds};
 /// Flags of scoring.
 #[derive(Args, Clone, Debug)]
 pub struct Counting {
-    /// Which pairs are looked at: all of them, or those with a generated road user.
+    /// Pairs of road users to check.
     #[arg(long, value_enum, default_value_t)]
     pub pairs: PairChoice,
-    /// Boxes collide when their intersection over union is above this; 0 takes any overlap.
+    /// Collision: intersection over union of two boxes above this share; 0 counts any overlap.
     #[arg(long, value_name = "SHARE", default_value_t = Thresholds::default().iou, value_parser = ranged(Thresholds::IOU, ""))]
     pub iou: f64,
-    /// Near miss: time to collision below this, seconds.
+    /// Near miss: time to collision (TTC) below this, s.
     #[arg(long, value_name = "SECONDS", default_value_t = Thresholds::default().ttc_s, value_parser = ranged(Thresholds::TTC_S, "seconds"))]
     pub ttc: f64,
-    /// Near miss: gap below this, metres.
+    /// Near miss: gap below this, m.
     #[arg(long, value_name = "METRES", default_value_t = Thresholds::default().gap_m, value_parser = ranged(Thresholds::GAP_M, "metres"))]
     pub gap: f64,
 }

@@ -8,14 +8,14 @@ pub fn line(place: &str, score: &Score) -> String {
     let scene = &score.scene;
     let list = |one: &str, many: &str, in_log: Vec<bool>| {
         let (all, log) = (in_log.len(), in_log.iter().filter(|in_log| **in_log).count());
-        let of_log = if log > 0 { format!(" (and {log} of the log)") } else { String::new() };
+        let of_log = if log > 0 { format!(" (and {log} in the recording)") } else { String::new() };
         format!("{} {}{of_log}", all - log, if all - log == 1 { one } else { many })
     };
     // Without a threshold every overlap is a collision.
     let overlaps = || list("overlap", "overlaps", scene.overlaps.iter().map(|c| c.in_log).collect()) + ", ";
     let overlaps = if score.thresholds.iou > 0.0 { overlaps() } else { String::new() };
     format!(
-        "{place}: {}, {overlaps}{}, least time to collision {}, least gap {}, off road {}",
+        "{place}: {}, {overlaps}{}, minimum TTC {}, minimum gap {}, off road {}",
         list("collision", "collisions", scene.collisions.iter().map(|c| c.in_log).collect()),
         list("near miss", "near misses", scene.near_misses.iter().map(|c| c.in_log).collect()),
         number(scene.min_ttc_s, "s"),

@@ -12,13 +12,13 @@ pub(super) struct ImportFile {
     pub(super) file: Arc<dyn Source>,
     /// Name that the file was given: a label, nothing is opened.
     pub(super) label: Option<String>,
-    /// What came with it.
+    /// Companion files.
     pub(super) beside: Companions,
 }
 
 impl ImportFile {
-    /// What was uploaded: a file, or the parts `file` of a form of this type, at most so many, each with the parts
-    /// `net` and `columns` where they are there.
+    /// Uploaded files: one, or the parts `file` of a form of this type, at most so many, each with the parts
+    /// `net` and `columns` if the form has them.
     pub(super) fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
         let Some(content_type) = form else {
             let beside = companions();

@@ -58,8 +58,8 @@ const MULTIPART: &str = "multipart/form-data";
 refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
     FormatUnknown, CannotRepresent, PickleRefused, LicenceRefused, StoreFull);
 
-/// Stores the scenes of a file, or of the files of a form: each of several is told by itself, and the call is refused
-/// when none of them can be read.
+/// Stores the scenes of a file, or of the files of a form. Each of several files has its own result, and the
+/// request is refused if none of them can be read.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody")),

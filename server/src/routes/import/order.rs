@@ -27,7 +27,7 @@ pub(super) enum Ready {
     Tried(PackedText),
 }
 
-/// What the worker is to do with an upload.
+/// Task of the worker for an upload.
 pub(super) struct ImportOrder {
     pub(super) upload: Arc<Upload>,
     /// Content-Type of a form.
@@ -47,7 +47,7 @@ impl ImportOrder {
     /// of the files that were read.
     pub(super) fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
         let ready = self.read(room, cancel);
-        // A body that is broken is told before what was made of it.
+        // A broken body is reported rather than the faults that follow from it.
         self.upload.check()?;
         ready
     }
@@ -64,7 +64,7 @@ impl ImportOrder {
     }
 }
 
-/// What there is of an upload so far. Of each scene only what is stored or replied is kept, in compressed form.
+/// Results of an upload so far. Of each scene only the stored or returned form is kept, compressed.
 struct ImportProgress<'o> {
     order: &'o ImportOrder,
     /// Scenes of all files.

@@ -1,4 +1,4 @@
-//! What files gave, as JSON.
+//! Results of imported files, as JSON.
 
 use crate::base::problem::ProblemDoc;
 use crate::scenes::Counts;
@@ -19,13 +19,13 @@ pub struct ImportedScene {
     pub(super) etag: Option<String>,
     /// For people.
     pub(super) name: String,
-    /// What the reader changed or left out.
+    /// Changes and omissions of the reader.
     pub(super) warnings: Vec<formats::ImportWarning>,
     /// Road users by type.
     pub(super) counts: Counts,
     /// Steps of 0.1 s.
     pub(super) steps: usize,
-    /// The scene itself, in a dry run alone.
+    /// The scene itself, only in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) scene: Option<SceneDoc>,
 }
@@ -39,7 +39,7 @@ pub struct SkippedRecord {
     pub(super) problem: ProblemDoc,
 }
 
-/// What a file gave.
+/// Result of a file.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportReply {
     /// A name of the formats table.
@@ -64,18 +64,18 @@ pub struct ImportedFile {
     pub(super) problem: Option<ProblemDoc>,
 }
 
-/// What several files gave.
+/// Results of several files.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportedFiles {
     /// In the order of the form.
     pub(super) files: Vec<ImportedFile>,
 }
 
-/// What a file gave, or each of several.
+/// Result of a file, or of each of several.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ImportedBody {
-    /// The file that came alone.
+    /// The only file.
     One(ImportReply),
     /// Files of a form that has several.
     Several(ImportedFiles),

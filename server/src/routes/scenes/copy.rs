@@ -14,7 +14,7 @@ use axum::response::Response;
 use scene::MAX_NAME_CHARS;
 use serde::Deserialize;
 
-/// How the copy is called.
+/// Name of the copy.
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DuplicateRequest {

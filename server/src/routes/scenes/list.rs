@@ -65,7 +65,7 @@ pub async fn list(
             && params.tag.as_ref().is_none_or(|tag| tags.contains(tag))
             && params.parent.as_ref().is_none_or(|parent| parent_id == Some(parent))
     };
-    // One more than is shown tells whether there is another page.
+    // One row more than shown reveals whether there is another page.
     let most = params.limit + 1;
     let order = |a: &(String, String), b: &(String, String)| {
         let keys = if sort.falls { b.0.cmp(&a.0) } else { a.0.cmp(&b.0) };

@@ -9,7 +9,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
-/// What a change gave.
+/// Result of a change.
 #[derive(Debug, Serialize, schemars::JsonSchema)]
 pub struct Saved {
     /// Of the scene.

@@ -19,12 +19,12 @@ use std::sync::Arc;
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub struct ReadParams {
-    /// The map itself or its hash alone: `inline` or `ref`.
+    /// The whole map or only its hash: `inline` or `ref`.
     #[param(default = "inline", inline)]
     map: MapParam,
 }
 
-/// How the map is given.
+/// Form of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum MapParam {
@@ -68,7 +68,7 @@ pub async fn read(
     scene_reply(&app, headers, &summary.etag, json).await
 }
 
-/// Does the one who asks not have this version?
+/// Whether the client lacks this version.
 fn fresh(headers: &HeaderMap, etag: &str) -> bool {
     let known = if_none_match(headers).unwrap_or_default();
     !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
@@ -92,8 +92,8 @@ async fn scene_reply(app: &App, headers: HeaderMap, etag: &str, json: Vec<u8>) -
 
 refusals!(Unpreviewed: WORK, NotFound);
 
-/// Reads what a small picture of a scene shows: a scene with its lines in few points, and of each road user who
-/// is there at first the first and the last state.
+/// Reads the content of a scene's small picture: the scene with simplified lines, and for each road user
+/// present at the first step its first and last state.
 #[utoipa::path(get, path = "/v1/scenes/{id}/preview", operation_id = "previewScene", tag = "scenes",
     params(("id" = String, Path)),
     responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene"),

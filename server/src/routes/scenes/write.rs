@@ -69,7 +69,7 @@ fn writable(app: &App, id: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Merge patch of what people say about a scene.
+/// Merge patch of a scene's metadata.
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ScenePatch {
@@ -84,7 +84,7 @@ pub struct ScenePatch {
     notes: Option<Option<String>>,
 }
 
-/// Tells null from absence.
+/// Distinguishes null from absence.
 fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
     d: D,
 ) -> Result<Option<Option<T>>, D::Error> {

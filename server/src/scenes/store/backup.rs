@@ -10,11 +10,11 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
-/// How often a file that is held by others is tried again, and after which time.
+/// Number of attempts to copy a file that others hold, and the pause between them.
 const TRIES: usize = 50;
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// What a copy holds.
+/// Content of a copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Copied {
     /// Saved scenes.
@@ -23,8 +23,9 @@ pub struct Copied {
     pub bytes: u64,
 }
 
-/// Copies a store as it is at one moment: every write that was answered before is in it, later ones are not or
-/// whole. The copy is one file without a log, for its owner alone, and is there only when it was found sound.
+/// Copies a store as it is at one moment: it has every write answered before, and each later one wholly or
+/// not at all. The copy is one file without a log, readable only by its owner, and appears only after an
+/// integrity check.
 ///
 /// # Errors
 /// When the file is none of ours, is damaged, or one of the two cannot be read or written.
@@ -56,7 +57,7 @@ pub(super) fn copy(source: &Connection, to: &Path) -> Result<Copied, StoreError>
 /// Fills an empty file and looks through it; the number of scenes.
 fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
     let mut target = Connection::open(partial)?;
-    // Nobody sees the file before it is whole and on the disk.
+    // No reader sees the file before it is complete and on the disk.
     target.pragma_update(None, "journal_mode", "OFF")?;
     target.pragma_update(None, "synchronous", "OFF")?;
     all_pages(source, &mut target)?;
@@ -79,7 +80,7 @@ fn clear(partial: &Path) {
     }
 }
 
-/// All pages in one step, under one read lock. In several steps the copy would begin anew with each write of
+/// All pages in one step, under one read lock. In several steps the copy would restart at each write of
 /// another process, and never end on a busy server.
 fn all_pages(source: &Connection, target: &mut Connection) -> Result<(), StoreError> {
     let copying = Backup::new(source, target)?;

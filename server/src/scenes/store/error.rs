@@ -1,4 +1,4 @@
-//! What can go wrong with the store, and what callers are told.
+//! Errors of the store, and their messages to callers.
 
 use super::migrations;
 use crate::base::problem::Refusal;
@@ -59,7 +59,7 @@ impl From<StoreError> for Problem {
         let text = error.to_string();
         match error {
             StoreError::Stale { etag, updated_at } => {
-                let detail = "The stored scene is another than the one you read.";
+                let detail = "The stored scene has changed since it was read.";
                 Self::new(Code::StaleEtag, detail)
                     .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
             }

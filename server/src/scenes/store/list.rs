@@ -13,7 +13,7 @@ pub struct Sort {
 }
 
 impl Sort {
-    /// What it is ordered by.
+    /// Sort key.
     pub fn key<'a>(self, name: &'a str, updated_at: &'a str) -> &'a str {
         if self.by_name { name } else { updated_at }
     }

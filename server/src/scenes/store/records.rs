@@ -1,4 +1,4 @@
-//! Rows of the store, and the questions asked of it.
+//! Rows of the store, and its queries.
 
 use super::{Store, StoreError};
 use crate::base::limits::Limits;
@@ -60,7 +60,7 @@ impl SceneRecord {
     }
 }
 
-/// A scene ready to be written; its text is there in compressed form alone.
+/// A scene ready to be written; its text exists only in compressed form.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
     name: String,
@@ -98,7 +98,7 @@ pub struct StoredMap {
     pub points: u64,
 }
 
-/// What a write gave.
+/// Result of a write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     /// New ETag, with quotes.
@@ -132,7 +132,7 @@ pub struct SceneSummary {
     pub updated_at: String,
 }
 
-/// What must hold before a scene is written.
+/// Precondition of a write.
 #[derive(Clone, Debug)]
 pub enum Expect {
     /// Nothing has the id yet.
@@ -275,7 +275,7 @@ impl Store {
         .await
     }
 
-    /// The same after a write, which is done whether its size can be told or not.
+    /// The same after a write, which succeeds even if the size is unknown.
     async fn tell_size(&self) {
         if let Err(error) = self.measure().await {
             tracing::warn!(%error, "the store's size cannot be told");

@@ -57,7 +57,7 @@ impl Reserve {
             return false;
         }
         let full = fill(&self.probe, ROOM_BYTES).is_err();
-        // What was written of it is in nobody's way; a probe that stays is written over by the next.
+        // A remaining probe does no harm: the next one overwrites it.
         let _ = std::fs::remove_file(&self.probe);
         self.note(full);
         full
@@ -71,7 +71,7 @@ fn fill(path: &Path, bytes: usize) -> io::Result<()> {
     file.sync_all()
 }
 
-/// Makes the file of a database for its owner alone; one that exists is closed to others.
+/// Creates a database file that only its owner can read; an existing one is closed to others.
 ///
 /// # Errors
 /// When it cannot be made or changed.

@@ -120,7 +120,7 @@ async fn a_store_that_was_full_takes_scenes_again_after_deletes() {
             }
         }
         assert!(count >= 3, "{count} scenes in round {round}");
-        // One that is stored may be written anew where it does not grow.
+        // A stored scene may be rewritten if it does not grow.
         let again = store.put("s0", Expect::Etags(vec!["*".into()]), record("small")).await;
         assert!(matches!(again, Ok(_) | Err(StoreError::Full(_))));
         for k in 0..count {

@@ -73,12 +73,12 @@ export class RequestBuilder {
    * The same, independent of the shown state and of the scene stored on the server: all road users move as in `set`.
    */
   makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
-    const { map, mapRef } = this.file;
+    const { map } = this.file;
     return {
       preview: false,
       on,
       options: { ...this.#options(scene, w), ...ANSWER_ALONE },
-      scene: () => ({ scene: this.#written(scene, set, w, mapRef ? { ref: mapRef } : map!) }),
+      scene: () => ({ scene: this.#written(scene, set, w, this.file.sentMap()) }),
       whole: () => this.#written(scene, set, w, map!),
     };
   }
@@ -115,7 +115,7 @@ export class RequestBuilder {
     const { file } = this;
     const asStored = file.holds(scene) && !set.driving.size && !w.kept?.size && !someStill(scene);
     if (asStored) return { id: scene.id };
-    const map = file.mapRef ? { ref: file.mapRef } : file.map!;
+    const map = file.sentMap();
     if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag sends sixty requests a second with the same surroundings.
     const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));

@@ -132,7 +132,7 @@ export class Library {
     return { json, map, plain: readScene(json, map), etag: reply.etag };
   }
 
-  #mapRefOf(json: SceneJson): string | null {
+  #mapHashOf(json: SceneJson): string | null {
     if (isMapRef(json.map)) return json.map.ref;
     const sha = this.list.find(json.id ?? '')?.map_sha256;
     return sha ? (sha.startsWith('sha256:') ? sha : `sha256:${sha}`) : null;
@@ -192,7 +192,7 @@ export class Library {
     if (away && own && standing !== 'conflict') standing = 'ahead';
     journal.letGo();
     this.file.adopt(json, map, true);
-    this.file.mapRef = this.#mapRefOf(json);
+    this.file.mapHash = () => this.#mapHashOf(json);
     keep('last-scene', scene.id);
     this.list.noteOpened(scene.id);
     const answers = generated ? readGenerated({ ...json, generated }, scene) : null;

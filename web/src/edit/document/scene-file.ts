@@ -28,8 +28,8 @@ export class SceneFile {
   /** As read from the server; null while no scene is open. */
   raw: SceneJson | null = null;
   map: MapJson | null = null;
-  /** Hash of the map on the server. */
-  mapRef: string | null = null;
+  /** Hash of the map on the server; the list of scenes, which has it, may arrive after the scene. */
+  mapHash: () => string | null = () => null;
   /** Does the server hold a scene under this id? */
   stored = false;
   /** Variants whose motions are stored with the scene. */
@@ -43,9 +43,15 @@ export class SceneFile {
   adopt(json: SceneJson, map: MapJson, stored: boolean): void {
     this.raw = json;
     this.map = map;
-    this.mapRef = null;
+    this.mapHash = () => null;
     this.stored = stored;
     this.noteStored(json);
+  }
+
+  /** The map of a request: its hash where the server has it, else the whole map. */
+  sentMap(): SceneJson['map'] {
+    const hash = this.mapHash();
+    return hash ? { ref: hash } : this.map!;
   }
 
   /** Does the server hold a scene of these road users under the id of this one? */
@@ -65,8 +71,7 @@ export class SceneFile {
   /** The scene of a request about its motions: by name where the server holds it, else with its road users. */
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
-    const map = this.mapRef ? { ref: this.mapRef } : this.map!;
-    return { scene: { ...this.raw!, agents: castJson(scene), map, generated: null } };
+    return { scene: { ...this.raw!, agents: castJson(scene), map: this.sentMap(), generated: null } };
   }
 
   hadConditions(id: string): boolean {
@@ -76,17 +81,14 @@ export class SceneFile {
   /** The committed document now; null while no scene is open. */
   snapshot(): Snapshot | null {
     const committed = this.session.document.committed.peek();
-    const { raw, map, mapRef } = this;
+    const { raw, map } = this;
     if (!committed || !raw) return null;
     const { scene } = committed;
     const generated = this.answers();
     const takes = generated ? this.variantTakes() : [];
     let written: SceneJson | null = null;
     const body = (): SceneJson =>
-      (written ??= withVariants(
-        writeScene(raw, scene, generated, mapRef ? { ref: mapRef } : (map ?? undefined)),
-        takes,
-      ));
+      (written ??= withVariants(writeScene(raw, scene, generated, this.sentMap() ?? undefined), takes));
     return { committed, map, body, complete: () => (map ? { ...body(), map } : body()) };
   }
 

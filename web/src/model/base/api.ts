@@ -77,20 +77,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * A WebSocket for many generations, one after the other or at the same time, at a third of what requests of their
-         *     own cost a browser. Each text message asks, `{"ask": 1, "body": {..}}` with the body of a `POST` and a number of
-         *     the client's choice, or gives up: `{"end": 1}`. What is told of a question is a line `{"ask": 1, "status": 200}`,
-         *     in the first message with `retry_after_s` and `scene` (the header `Dragtraffic-Scene`) where the reply would have
-         *     them, in the last one with `"last": true`; after it come lines as a `POST` streams them as NDJSON, or the problem.
-         *     A question that is given up ends with `{"ask": 1, "last": true}` too, and then its number is free. One whose answer
-         *     breaks off ends with a second `status` and its problem. Questions beyond `line_questions` wait until another one
-         *     ends; while 64 wait, or 1 MB (`line_bytes`), a further one is refused with 503 `busy`.
+         * A WebSocket for many generations, one after the other or at the same time, at a third of a browser's cost
+         *     for separate requests. Each text message is a request `{"ask": 1, "body": {..}}` with the body of a `POST`
+         *     and a number of the client's choice, or a cancellation `{"end": 1}`. Each message of the reply begins with
+         *     a line `{"ask": 1, "status": 200}`. The first one also has `retry_after_s` and `scene` (the header
+         *     `Dragtraffic-Scene`) where a `POST` would have them, the last one has `"last": true`. After it come lines
+         *     as a `POST` streams them as NDJSON, or the problem. A cancelled request also ends with `{"ask": 1, "last":
+         *     true}`, and then its number is free. An interrupted reply ends with a second `status` and its problem.
+         *     Requests beyond `line_questions` wait until another one ends; while 64 wait, or 1 MB (`line_bytes`), a
+         *     further one is refused with 503 `busy`.
          */
         get: operations["openLine"];
         put?: never;
         /**
-         * Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),
-         *     by Accept. Stores nothing.
+         * Generates futures. The reply is a stream of events (NDJSON or SSE) or only the last event (JSON), by
+         *     Accept. Stores nothing.
          */
         post: operations["generate"];
         delete?: never;
@@ -109,8 +110,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Stores the scenes of a file, or of the files of a form: each of several is told by itself, and the call is refused
-         *     when none of them can be read.
+         * Stores the scenes of a file, or of the files of a form. Each of several files has its own result, and the
+         *     request is refused if none of them can be read.
          */
         post: operations["importScenes"];
         delete?: never;
@@ -235,8 +236,8 @@ export interface paths {
         put?: never;
         /**
          * Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-         *     cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m apart
-         *     and all centres lie in the region. Fewer than asked is no error. Stores nothing.
+         *     cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m
+         *     apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
          */
         post: operations["place"];
         delete?: never;
@@ -325,8 +326,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Reads what a small picture of a scene shows: a scene with its lines in few points, and of each road user who
-         *     is there at first the first and the last state.
+         * Reads the content of a scene's small picture: the scene with simplified lines, and for each road user
+         *     present at the first step its first and last state.
          */
         get: operations["previewScene"];
         put?: never;
@@ -369,7 +370,7 @@ export interface components {
              */
             elapsed_ms: number;
             /**
-             * @description What it is.
+             * @description Type of the event.
              * @constant
              */
             event: "accepted";
@@ -379,7 +380,7 @@ export interface components {
             job: string;
             /**
              * Format: uint
-             * @description Jobs before this one when it was asked for.
+             * @description Jobs before this one when it was queued.
              */
             queue_position: number;
             /** @description Road users that answer to them. */
@@ -420,7 +421,7 @@ export interface components {
          */
         AgentDoc: {
             /**
-             * @description What the user fixed.
+             * @description Conditions fixed by the user.
              * @default {}
              */
             conditions?: components["schemas"]["ConditionsDoc"];
@@ -450,7 +451,7 @@ export interface components {
              */
             subtype?: "car" | "truck" | "bus" | "van" | "motorcycle" | "trailer" | "emergency" | "adult" | "child" | "wheelchair" | "scooter" | "bicycle" | "unknown";
             /**
-             * @description What was recorded; empty when absent.
+             * @description Recorded track; empty when absent.
              * @default {
              *       "first_step": 0,
              *       "heading_rad": [],
@@ -499,33 +500,33 @@ export interface components {
              * Format: double
              * @description Mean distance of the chosen future, metres.
              */
-            ade_m?: number | null;
+            ade_m: number | null;
             /**
              * Format: uint
              * @description Collisions it is part of and the log does not show.
              */
             collisions: number;
             /** @description Which step counted as the end. */
-            endpoint?: components["schemas"]["Endpoint"];
+            endpoint: components["schemas"]["Endpoint"];
             /** @description Only when a goal field is fixed. */
             goal_error: components["schemas"]["GoalError"] | null;
             /**
              * Format: double
              * @description Mean absolute heading error of the future that ends closest, radians.
              */
-            heading_error_rad?: number | null;
+            heading_error_rad: number | null;
             /** @description Generated motion only. */
             kinematic: components["schemas"]["Kinematic"] | null;
             /**
              * Format: double
              * @description Greatest distance of the chosen future, metres (the log ghost's figure).
              */
-            max_distance_m?: number | null;
+            max_distance_m: number | null;
             /**
              * Format: double
              * @description Least mean distance of any future, metres.
              */
-            min_ade_m?: number | null;
+            min_ade_m: number | null;
             /**
              * Format: double
              * @description As in [`SceneScore`].
@@ -535,7 +536,7 @@ export interface components {
              * Format: double
              * @description Least distance at the end of any future, metres.
              */
-            min_fde_m?: number | null;
+            min_fde_m: number | null;
             /**
              * Format: double
              * @description As in [`SceneScore`].
@@ -570,7 +571,7 @@ export interface components {
              * Format: double
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
-            speed_error_mps?: number | null;
+            speed_error_mps: number | null;
             /**
              * Format: double
              * @description Vehicles only.
@@ -579,7 +580,7 @@ export interface components {
         };
         /**
          * AgentType
-         * @description What kind of road user; selects the expert and the motion model.
+         * @description Type of a road user; selects the expert and the motion model.
          */
         AgentType: "vehicle" | "pedestrian" | "cyclist" | "other";
         /**
@@ -753,7 +754,7 @@ export interface components {
         };
         /**
          * ArmPlace
-         * @description Where an arm lies, for whoever draws handles on it.
+         * @description Position of an arm, for editing handles.
          */
         ArmPlace: {
             /** @description Where the arm leaves the map, metres. */
@@ -941,7 +942,7 @@ export interface components {
         };
         /**
          * CheckKind
-         * @description What a check is about.
+         * @description Subject of a check.
          */
         CheckKind: "lanes-lead" | "turns" | "widths" | "signals-apart";
         /**
@@ -1049,7 +1050,7 @@ export interface components {
         };
         /**
          * Condition
-         * @description A word for those who look after the server.
+         * @description Condition of the server, for its operators.
          */
         Condition: "ok" | "ready";
         /**
@@ -1143,7 +1144,7 @@ export interface components {
         };
         /**
          * Control
-         * @description Who goes first where roads meet.
+         * @description Priority where roads meet.
          */
         Control: "signals" | "priority" | "equal";
         /**
@@ -1157,7 +1158,7 @@ export interface components {
             at_m: number[];
             /**
              * Format: double
-             * @description Its radius, metres: less than asked where arms are too close.
+             * @description Its radius, metres: less than requested where arms are too close.
              */
             radius_m: number;
         };
@@ -1177,7 +1178,7 @@ export interface components {
         };
         /**
          * Defaults
-         * @description What a request has when it does not say: the one place, for the API, the command line and clients.
+         * @description Defaults of a request, shared by the API, the command line and clients.
          */
         Defaults: {
             /**
@@ -1244,7 +1245,7 @@ export interface components {
              */
             elapsed_ms: number;
             /**
-             * @description What it is.
+             * @description Type of the event.
              * @enum {string}
              */
             event: "initial" | "step";
@@ -1298,7 +1299,7 @@ export interface components {
         };
         /**
          * DuplicateRequest
-         * @description How the copy is called.
+         * @description Name of the copy.
          */
         DuplicateRequest: {
             /**
@@ -1323,13 +1324,13 @@ export interface components {
              */
             elapsed_ms: number;
             /**
-             * @description What it is.
+             * @description Type of the event.
              * @constant
              */
             event: "error";
             /** @description Id of the job. */
             job: string;
-            /** @description What a refusal before the stream would have been answered with. */
+            /** @description Problem that a refusal before the stream would have returned. */
             problem: components["schemas"]["Problem"];
             /**
              * Format: uint64
@@ -1386,7 +1387,7 @@ export interface components {
         };
         /**
          * FaultKind
-         * @description What can be wrong with a motion, the worst first.
+         * @description Kind of a fault, the worst first.
          */
         FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "via_missed" | "goal_missed";
         /**
@@ -1472,7 +1473,7 @@ export interface components {
         FieldProblem: {
             /** @description A word that programs can switch on. */
             code: string;
-            /** @description What was found and what was expected, for people. */
+            /** @description Value found and value expected, for people. */
             detail: string;
             /**
              * Format: double
@@ -1484,6 +1485,8 @@ export interface components {
              * @description Greatest value allowed, where that is the fault.
              */
             max?: number;
+            /** @description The fault as data, where it has a sentence of its own. */
+            message?: components["schemas"]["Message"];
             /**
              * Format: double
              * @description Least value allowed, where that is the fault.
@@ -1508,7 +1511,7 @@ export interface components {
              */
             elapsed_ms: number;
             /**
-             * @description What it is.
+             * @description Type of the event.
              * @constant
              */
             event: "final";
@@ -1555,7 +1558,7 @@ export interface components {
         };
         /**
          * FormatInfo
-         * @description What people and programs need to know about a format.
+         * @description Description of a format for clients.
          */
         FormatInfo: {
             /** @description Can be written. */
@@ -1567,8 +1570,8 @@ export interface components {
             /** @description Can be read. */
             import: boolean;
             /**
-             * @description Codes of what a written file may lack ([`crate::loss::code`]). What it lacks of a scene is told when it is
-             *     written.
+             * @description Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports the
+             *     losses it had.
              */
             loses: string[];
             /** @description Holds many scenes in one file. */
@@ -1577,7 +1580,7 @@ export interface components {
             media_type: string;
             /** @description For people. */
             name: string;
-            /** @description What a file holds, and how it is read and written. */
+            /** @description Content of a file, and how it is read and written. */
             notes: string;
             /** @description May come with the network it belongs to ([`ImportOptions::net`]). */
             takes_net: boolean;
@@ -1594,7 +1597,7 @@ export interface components {
              *     idea.
              */
             anchor?: number | null;
-            /** @description What is wrong with it, the worst first. */
+            /** @description Faults, the worst first. */
             faults?: components["schemas"]["Fault"][];
             /**
              * Format: uint64
@@ -1603,14 +1606,14 @@ export interface components {
             first_step: number;
             /** @description Radians. */
             heading_rad: number[];
-            /** @description What it does. */
+            /** @description Manoeuvre. */
             manoeuvre?: components["schemas"]["Manoeuvre"] | null;
             /**
              * Format: double
              * @description Share of belief among the road user's futures.
              */
             probability: number;
-            /** @description How it stands to others. */
+            /** @description Relations to other road users. */
             relations?: components["schemas"]["Relation"][];
             /** @description m/s. */
             vx_mps: number[];
@@ -1642,9 +1645,10 @@ export interface components {
              */
             add_agents?: components["schemas"]["AgentDoc"][];
             /**
-             * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when nobody
-             *     has. With an empty list, those of `react` go on as they do, past the end of what is known of them, and
-             *     give way to each other there.
+             * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
+             *     user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
+             *     motion, and where it ends before the last window (`horizon_s` above 9, or `replan_interval_s`), they plan on
+             *     from there. Without such a road user the answer has no futures, and the warning `nothing-generated`.
              */
             agents?: components["schemas"]["Who"];
             /**
@@ -1658,7 +1662,9 @@ export interface components {
              */
             client?: string | null;
             /**
-             * @description Replace the scene's own conditions of these road users, whole.
+             * @description Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
+             *     size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
+             *     a future of it.
              * @default {}
              */
             conditions?: {
@@ -1666,7 +1672,7 @@ export interface components {
             };
             /**
              * Format: double
-             * @description Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+             * @description Scale of the noise, which makes seeds differ; 0 gives the most probable answer for every seed.
              * @default 0.5
              */
             diversity?: number;
@@ -1707,7 +1713,7 @@ export interface components {
             hold?: boolean;
             /**
              * Format: double
-             * @description Seconds to generate. More than 9 is planned window after window.
+             * @description Time to generate, seconds. Beyond 9 s it is planned window after window.
              * @default 9
              */
             horizon_s?: number;
@@ -1717,13 +1723,13 @@ export interface components {
              */
             job?: string | null;
             /**
-             * @description What becomes of the futures that the scene has, of those who are not part of this call.
+             * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
              * @default answered
              */
             kept_futures?: components["schemas"]["KeptFutures"];
             /**
              * Format: uint64
-             * @description Alternatives kept per road user.
+             * @description Futures kept per road user.
              * @default 6
              */
             modes?: number;
@@ -1734,7 +1740,7 @@ export interface components {
              */
             pinned?: string[];
             /**
-             * @description Who else answers to them.
+             * @description Road users that may react to them.
              * @default false
              */
             react?: components["schemas"]["Reacting"];
@@ -1745,7 +1751,7 @@ export interface components {
             remove_agents?: string[];
             /**
              * Format: double
-             * @description Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
+             * @description Replan interval, seconds: 3, 6 or 9; null is 9. Each plan starts from the states reached.
              * @default null
              */
             replan_interval_s?: number | null;
@@ -1757,7 +1763,7 @@ export interface components {
             revision?: number | null;
             /**
              * Format: uint64
-             * @description Independent joint scenes.
+             * @description Joint samples.
              * @default 1
              */
             samples?: number;
@@ -1778,7 +1784,7 @@ export interface components {
             score?: boolean;
             /**
              * Format: uint64
-             * @description The same seed gives the same answer.
+             * @description Seed of the random draws; equal seeds give equal answers.
              * @default 0
              */
             seed?: number;
@@ -1797,7 +1803,7 @@ export interface components {
             start_s?: number;
             /**
              * Format: uint64
-             * @description Denoising steps; 0 returns the first guess.
+             * @description Refinement steps; 0 returns the first draft.
              * @default 5
              */
             steps?: number;
@@ -1834,7 +1840,7 @@ export interface components {
         });
         /**
          * GeneratedDoc
-         * @description What the generator added to a scene.
+         * @description Futures that the generator added to a scene.
          */
         GeneratedDoc: {
             /**
@@ -1907,7 +1913,7 @@ export interface components {
         };
         /**
          * GoalDoc
-         * @description Where a road user should be at `time_s`; absent or null is free.
+         * @description Position and state that a road user should have at `time_s`; absent or null is free.
          */
         GoalDoc: {
             /**
@@ -1960,35 +1966,35 @@ export interface components {
         } & (unknown & unknown & unknown & unknown);
         /**
          * GoalError
-         * @description Error at the goal time; a member is missing where its field was free.
+         * @description Error at the goal time; a member is null where its field was free.
          */
         GoalError: {
             /**
              * Format: double
              * @description Absolute turn from the goal heading, radians.
              */
-            heading_rad?: number | null;
+            heading_rad: number | null;
             /**
              * Format: double
              * @description Distance from the goal, metres.
              */
-            position_m?: number | null;
+            position_m: number | null;
             /**
              * Format: double
              * @description Absolute difference from the goal speed, m/s.
              */
-            speed_mps?: number | null;
+            speed_mps: number | null;
         };
         /**
          * Health
-         * @description How the server is.
+         * @description Health of the server.
          */
         Health: {
             status: components["schemas"]["Condition"];
         };
         /**
          * HeartbeatEvent
-         * @description A sign of life between events, in NDJSON alone: SSE has comments for it.
+         * @description A sign of life between events, only in NDJSON: SSE has comments for it.
          */
         HeartbeatEvent: {
             /** @constant */
@@ -1996,7 +2002,7 @@ export interface components {
         };
         /**
          * ImportReply
-         * @description What a file gave.
+         * @description Result of a file.
          */
         ImportReply: {
             /** @description A name of the formats table. */
@@ -2020,7 +2026,7 @@ export interface components {
         };
         /**
          * ImportedBody
-         * @description What a file gave, or each of several.
+         * @description Result of a file, or of each of several.
          */
         ImportedBody: components["schemas"]["ImportReply"] | components["schemas"]["ImportedFiles"];
         /**
@@ -2041,7 +2047,7 @@ export interface components {
         };
         /**
          * ImportedFiles
-         * @description What several files gave.
+         * @description Results of several files.
          */
         ImportedFiles: {
             /** @description In the order of the form. */
@@ -2060,14 +2066,14 @@ export interface components {
             id?: string;
             /** @description For people. */
             name: string;
-            /** @description The scene itself, in a dry run alone. */
+            /** @description The scene itself, only in a dry run. */
             scene?: components["schemas"]["SceneDoc"];
             /**
              * Format: uint
              * @description Steps of 0.1 s.
              */
             steps: number;
-            /** @description What the reader changed or left out. */
+            /** @description Changes and omissions of the reader. */
             warnings: components["schemas"]["ImportWarning"][];
         };
         /**
@@ -2105,8 +2111,8 @@ export interface components {
         };
         /**
          * Intermediate
-         * @description Where a window sent a road user whose goal is due after the window's end: the state there on the
-         *     way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+         * @description The state to which a window sends a road user whose goal is due after the window's end. It lies on the way
+         *     to the goal at constant acceleration, along the lanes where they lead to it, else straight.
          */
         Intermediate: {
             /** Format: double */
@@ -2189,10 +2195,10 @@ export interface components {
              *     ]
              */
             arms: components["schemas"]["Arm"][];
-            /** @description Single ways through the junction, beside those that the turn lanes make. */
+            /** @description Single connections through the junction, in addition to those of the turn lanes. */
             connections?: components["schemas"]["Connections"];
             /**
-             * @description Who goes first.
+             * @description Priority at the junction.
              * @default signals
              */
             control: components["schemas"]["Control"];
@@ -2233,7 +2239,7 @@ export interface components {
         };
         /**
          * KeptFutures
-         * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+         * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
          */
         KeptFutures: "answered" | "omitted" | "forgotten";
         /**
@@ -2445,11 +2451,11 @@ export interface components {
             /** @description The other. */
             with: string;
         } | {
-            /** @description What. */
+            /** @description The manoeuvre. */
             manoeuvre: components["schemas"]["Manoeuvre"];
             /** @constant */
             trait: "does";
-            /** @description Who. */
+            /** @description The road user. */
             who: string;
         });
         /**
@@ -2464,7 +2470,7 @@ export interface components {
         Log: "log";
         /**
          * Manoeuvre
-         * @description What a motion does, by its shape and the lanes that it takes.
+         * @description Manoeuvre of a motion, by its shape and its lanes.
          * @enum {string}
          */
         Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
@@ -2673,7 +2679,7 @@ export interface components {
         MessageValue: number | string;
         /**
          * MetaDoc
-         * @description Where the scene came from and what people say about it.
+         * @description Source of the scene, and notes on it.
          */
         MetaDoc: {
             /**
@@ -2834,7 +2840,7 @@ export interface components {
         };
         /**
          * OriginDoc
-         * @description Where the scene lies in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
+         * @description Position of the scene in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
          */
         OriginDoc: {
             /** @default null */
@@ -2887,7 +2893,7 @@ export interface components {
         };
         /**
          * PairChoice
-         * @description Which pairs are looked at.
+         * @description Which pairs are scored.
          */
         PairChoice: "all" | "regenerated";
         /**
@@ -3051,7 +3057,7 @@ export interface components {
              * @description Column of the fault in bytes, from 1.
              */
             column?: number;
-            /** @description What happened this time. */
+            /** @description Explanation of this occurrence. */
             detail: string;
             /** @description All faults that were found in the body or the query. */
             errors?: components["schemas"]["FieldProblem"][];
@@ -3064,7 +3070,7 @@ export interface components {
              * @description The highest revision that the client has sent.
              */
             highest_revision?: number;
-            /** @description Address that was asked for. */
+            /** @description Requested address. */
             instance?: string;
             /**
              * Format: uint64
@@ -3176,7 +3182,7 @@ export interface components {
             nearest: components["schemas"]["NearestState"];
             /**
              * Format: double
-             * @description What it would take, in that limit's unit, when it can be told.
+             * @description Amount that the goal would take, in that limit's unit, where a formula gives it.
              */
             needs: number | null;
             /** @constant */
@@ -3196,14 +3202,14 @@ export interface components {
          * @description Why a road user gave up the motion that it had.
          */
         Reaction: {
-            /** @description Whom it answers: the road user that its own motion would have met. */
+            /** @description The road user that its own motion would have met. */
             cause: string;
             /**
              * Format: double
-             * @description How much later than without it, seconds; negative for earlier.
+             * @description Delay against its own motion, seconds; negative for earlier.
              */
             delay_s: number;
-            /** @description How it answers. */
+            /** @description Kind of the reaction. */
             kind: components["schemas"]["ReactionKind"];
             /**
              * Format: double
@@ -3228,7 +3234,7 @@ export interface components {
         };
         /**
          * ReactionKind
-         * @description How a road user answers another.
+         * @description How a road user reacts to another.
          */
         ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear";
         /**
@@ -3236,14 +3242,14 @@ export interface components {
          * @description A stop line is crossed while its signal says stop.
          */
         RedLight: {
-            /** @description Who. */
+            /** @description The road user. */
             agent: string;
             /**
              * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
              *     the same time, no less bad.
              */
             in_log: boolean;
-            /** @description Lane whose signal says stop. */
+            /** @description Lane of the red signal. */
             lane: string;
             /**
              * Format: double
@@ -3308,7 +3314,7 @@ export interface components {
         };
         /**
          * RelationKind
-         * @description How a motion stands to another's.
+         * @description Relation of a motion to another's.
          */
         RelationKind: "before" | "after" | "follows" | "gives_way_to";
         /**
@@ -3379,7 +3385,7 @@ export interface components {
             time_s: number;
             /**
              * Format: double
-             * @description How near was asked, metres.
+             * @description Tolerance of the condition, metres.
              */
             tolerance_m: number;
             /**
@@ -3528,14 +3534,14 @@ export interface components {
          * @description A candidate that is shown.
          */
         RoundCard: {
-            /** @description What it is like: sent back with what is said of it. */
+            /** @description Features of the card; the client returns them with the verdict. */
             features: components["schemas"]["Features"];
             /**
              * Format: double
              * @description The share of the learned wishes that it fulfils; absent while none is known.
              */
             match?: number | null;
-            /** @description Box centres at every half second, by road user: sent back with what is said of it. */
+            /** @description Box centres at every half second, by road user; the client returns them with the verdict. */
             places: {
                 [key: string]: number[][];
             };
@@ -3664,7 +3670,7 @@ export interface components {
         };
         /**
          * Saved
-         * @description What a change gave.
+         * @description Result of a change.
          */
         Saved: {
             /** @description As in the ETag header. */
@@ -3689,7 +3695,7 @@ export interface components {
              */
             format: "dragtraffic.scene";
             /**
-             * @description What the generator added.
+             * @description Futures added by the generator.
              * @default null
              */
             generated?: components["schemas"]["GeneratedDoc"] | null;
@@ -3701,7 +3707,7 @@ export interface components {
             /** @description Map, or its hash. */
             map: components["schemas"]["MapField"];
             /**
-             * @description Where it came from.
+             * @description Source and notes.
              * @default {
              *       "created_with": null,
              *       "licence": null,
@@ -3796,7 +3802,7 @@ export interface components {
         };
         /**
          * ScenePatch
-         * @description Merge patch of what people say about a scene.
+         * @description Merge patch of a scene's metadata.
          */
         ScenePatch: {
             /**
@@ -3817,7 +3823,7 @@ export interface components {
         };
         /**
          * SceneScore
-         * @description Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+         * @description Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
          *
          *     Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
          *     `collision_rate` nor with the road users; distances, times and the other shares are measured over all
@@ -3828,7 +3834,7 @@ export interface components {
              * Format: double
              * @description Mean distance of the chosen future, metres.
              */
-            ade_m?: number | null;
+            ade_m: number | null;
             /** @description The map has no drivable areas, and some lane widths were assumed by type. */
             assumed_width: boolean;
             /**
@@ -3845,7 +3851,7 @@ export interface components {
             /** @description By time, then by pair. */
             collisions: components["schemas"]["Collision"][];
             /** @description Which step counted as the end. */
-            endpoint?: components["schemas"]["Endpoint"];
+            endpoint: components["schemas"]["Endpoint"];
             /** @description Means over the road users with fixed goal fields. */
             goal_error: components["schemas"]["GoalError"] | null;
             /**
@@ -3861,7 +3867,7 @@ export interface components {
              * Format: double
              * @description Mean absolute heading error of the future that ends closest, radians.
              */
-            heading_error_rad?: number | null;
+            heading_error_rad: number | null;
             /** @description Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only). */
             implausible_turns: components["schemas"]["Stretch"][];
             /** @description Greatest values of all generated road users, and their violations together. */
@@ -3870,12 +3876,12 @@ export interface components {
              * Format: double
              * @description Greatest distance of the chosen future, metres (the log ghost's figure).
              */
-            max_distance_m?: number | null;
+            max_distance_m: number | null;
             /**
              * Format: double
              * @description Least mean distance of any future, metres.
              */
-            min_ade_m?: number | null;
+            min_ade_m: number | null;
             /**
              * Format: double
              * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
@@ -3886,7 +3892,7 @@ export interface components {
              * Format: double
              * @description Least distance at the end of any future, metres.
              */
-            min_fde_m?: number | null;
+            min_fde_m: number | null;
             /**
              * Format: double
              * @description Least time to collision of any pair, seconds; none within the look-ahead.
@@ -3910,7 +3916,7 @@ export interface components {
             over_median: components["schemas"]["Stretch"][];
             /**
              * Format: double
-             * @description Share of road users whose box overlaps another's at all, however little.
+             * @description Share of road users with any overlap of boxes, however small.
              */
             overlap_rate: number;
             /** @description By time, then by pair. */
@@ -3926,12 +3932,7 @@ export interface components {
              * Format: double
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
-            speed_error_mps?: number | null;
-            /**
-             * Format: uint
-             * @description Same as `kinematic.violations`: steps over a limit.
-             */
-            violations: number;
+            speed_error_mps: number | null;
             /** @description Vehicles against the traffic. */
             wrong_way: components["schemas"]["Stretch"][];
             /**
@@ -4036,7 +4037,7 @@ export interface components {
             /** @description Run-length states; first steps rise. */
             states: components["schemas"]["SignalRun"][];
             /**
-             * @description Where to stop.
+             * @description Stop position.
              * @default null
              */
             stop_m?: components["schemas"]["Point"] | null;
@@ -4085,7 +4086,7 @@ export interface components {
         };
         /**
          * StartDoc
-         * @description Where a road user starts; absent or null is free.
+         * @description Start of a road user; absent or null is free.
          */
         StartDoc: {
             /**
@@ -4123,7 +4124,7 @@ export interface components {
              * @default []
              */
             lanes?: string[];
-            /** @description Where it stands. */
+            /** @description Position of the sign. */
             position_m: components["schemas"]["Point"];
         };
         /**
@@ -4136,10 +4137,10 @@ export interface components {
          * @description Something one road user does over a stretch of time.
          */
         Stretch: {
-            /** @description Who. */
+            /** @description The road user. */
             agent: string;
             /** @description Off the road and over a median: the road edge that is driven over, by its id in the map. */
-            edge?: string | null;
+            edge: string | null;
             /**
              * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
              *     the same time, no less bad.
@@ -4188,7 +4189,7 @@ export interface components {
              */
             elapsed_ms: number;
             /**
-             * @description What it is.
+             * @description Type of the event.
              * @constant
              */
             event: "superseded";
@@ -4339,7 +4340,7 @@ export interface components {
             step_s?: 0.1;
             /**
              * Format: uint64
-             * @description How many steps the scene spans.
+             * @description Number of steps of the scene.
              */
             steps: number;
         };
@@ -4441,11 +4442,11 @@ export interface components {
             /** @description The other. */
             with: string;
         } | {
-            /** @description What. */
+            /** @description The manoeuvre. */
             manoeuvre: components["schemas"]["Manoeuvre"];
             /** @constant */
             trait: "does";
-            /** @description Who. */
+            /** @description The road user. */
             who: string;
         };
         /**
@@ -4466,13 +4467,13 @@ export interface components {
         };
         /**
          * Turn
-         * @description A way out of a junction, as seen by who comes in.
+         * @description A direction out of a junction, as seen from the entry.
          * @enum {string}
          */
         Turn: "left" | "straight" | "right";
         /**
          * TurnAcross
-         * @description What left turns (right turns in left-hand traffic) do while oncoming traffic has green.
+         * @description Left turns (right turns in left-hand traffic) while oncoming traffic has green.
          */
         TurnAcross: "permissive" | "protected";
         /**
@@ -4504,7 +4505,7 @@ export interface components {
         } & (unknown & unknown & unknown & unknown);
         /**
          * Verdict
-         * @description What a person said of a card.
+         * @description A person's verdict on a card.
          */
         Verdict: "keep" | "reject";
         /**
@@ -4552,7 +4553,7 @@ export interface components {
          * WarningCode
          * @description What is unlikely.
          */
-        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed";
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "condition-unused" | "nothing-generated";
         /**
          * Way
          * @description Which way of a trait is wished.
@@ -4571,7 +4572,7 @@ export interface components {
             lane: string;
             /** @description A lane away from it, such as `arm3.out1`. */
             to: string;
-            /** @description The direction, as seen by who comes in. */
+            /** @description The direction, as seen from the entry. */
             turn: components["schemas"]["Turn"];
         };
         /**
@@ -4627,11 +4628,11 @@ export interface components {
             /** @description The other. */
             with: string;
         } | {
-            /** @description What. */
+            /** @description The manoeuvre. */
             manoeuvre: components["schemas"]["Manoeuvre"];
             /** @constant */
             trait: "does";
-            /** @description Who. */
+            /** @description The road user. */
             who: string;
         });
     };
@@ -5010,7 +5011,7 @@ export interface operations {
                 format?: string;
                 /** @description Which sample of the generated futures; the chosen one when absent. */
                 sample?: number;
-                /** @description `chosen` futures, or the `log` alone. */
+                /** @description `chosen` futures, or only the `log`. */
                 mode?: string;
             };
             header?: never;
@@ -7275,7 +7276,7 @@ export interface operations {
     readScene: {
         parameters: {
             query?: {
-                /** @description The map itself or its hash alone: `inline` or `ref`. */
+                /** @description The whole map or only its hash: `inline` or `ref`. */
                 map?: ("inline" | "ref") & Record<string, never>;
             };
             header?: never;
@@ -8372,7 +8373,7 @@ export interface operations {
                 format?: string;
                 /** @description Which sample of the generated futures; the chosen one when absent. */
                 sample?: number;
-                /** @description `chosen` futures, or the `log` alone. */
+                /** @description `chosen` futures, or only the `log`. */
                 mode?: string;
             };
             header?: never;

@@ -1,83 +1,285 @@
 // Warnings of the file readers by code: see `messages.ts`.
-import { table, type Values } from '../table';
+import { plural, table, type Values } from '../table';
 
 export const SENTENCES = table('file-messages', {
-  lists: { subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' } },
+  lists: {
+    fault: {
+      'cut-off': 'the file is cut off',
+      'no-value': 'a value is missing',
+      'no-sign': 'a comma, colon or bracket is missing',
+      comma: 'one comma too many',
+      'text-after': 'text follows after the end',
+      'no-quotes': 'a name has no quotes',
+      number: 'a number is invalid',
+      text: 'a text is invalid',
+    },
+    subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' },
+  },
   sentences: {
     'agents-near-ego': (v: Values) => `${v.found} road users; the ${v.kept} nearest to the ego are kept`,
     'agents-near-centre': (v: Values) =>
       `${v.found} road users; the ${v.kept} nearest to their centre are kept, within ${v.within_m} of the origin`,
-    'agents-with-used-id': (v: Values) => `${v.count} obstacles with the id of another obstacle are left out`,
+    'agents-over-limit': (v: Values) => `The scene has ${v.agents} road users; at most ${v.most}.`,
+    'agents-with-used-id': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} obstacle with the id of another obstacle is left out`,
+        other: `${v.count} obstacles with the id of another obstacle are left out`,
+      }),
     'agents-outside-network': (v: Values) =>
-      `${v.count} of ${v.found} road users lie outside the network: it belongs to another recording, or positions are degrees (fcd-output.geo) rather than metres`,
+      plural(Number(v.count), {
+        one: `${v.count} of ${v.found} road users lies outside the network: it belongs to another recording, or positions are degrees (fcd-output.geo) rather than metres`,
+        other: `${v.count} of ${v.found} road users lie outside the network: it belongs to another recording, or positions are degrees (fcd-output.geo) rather than metres`,
+      }),
     'areas-too-far': (v: Values) =>
-      `${v.count} drivable areas reach farther than ${v.within_m} from the centre and are left out`,
+      plural(Number(v.count), {
+        one: `${v.count} drivable area reaches farther than ${v.within_m} from the centre and is left out`,
+        other: `${v.count} drivable areas reach farther than ${v.within_m} from the centre and are left out`,
+      }),
+    'columns-missing': (v: Values) =>
+      `No column ${v.missing}; there are ${v.columns}. A file of columns can name them.`,
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
     'crossing-lanelets': 'Lanelets overlap too often to find the edges of the road',
     'crossing-roads': 'Roads overlap too often to find their edges',
-    'cut-in-scenes': (v: Values) => `The recording is longer than a scene: it is cut in scenes of ${v.each_s}`,
-    'elements-unread': (v: Values) => `${v.count} elements have no place in a scene and are left out`,
-    'features-unread': (v: Values) => `${v.count} map features of unknown kind or with too few points are left out`,
+    'cut-in-scenes': (v: Values) => `The recording is longer than a scene: it is cut into scenes of ${v.each_s}`,
+    'elements-unread': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} element has no place in a scene and is left out`,
+        other: `${v.count} elements have no place in a scene and are left out`,
+      }),
+    'features-unread': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} map feature of unknown kind or with too few points is left out`,
+        other: `${v.count} map features of unknown kind or with too few points are left out`,
+      }),
     'futures-unread': (v: Values) =>
-      `${v.count} possible motions are empty, impossible or beyond the limit, and are left out`,
-    'goals-beyond-first': (v: Values) => `${v.count} further goals of the same road users are left out`,
-    'goals-are-regions': (v: Values) => `${v.count} goals are regions; their centres are taken`,
+      plural(Number(v.count), {
+        one: `${v.count} future is empty, impossible or beyond the limit, and is left out`,
+        other: `${v.count} futures are empty, impossible or beyond the limit, and are left out`,
+      }),
+    'goals-beyond-first': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} further goal of the same road user is left out`,
+        other: `${v.count} further goals of the same road users are left out`,
+      }),
+    'goals-are-regions': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} goal is a region; its centre is used`,
+        other: `${v.count} goals are regions; their centres are used`,
+      }),
     'headings-derived': 'Headings are derived from the motion; a standing road user keeps its last heading',
     'headings-in-degrees': 'Headings are in degrees and were converted to radians',
     'ids-renumbered': "Lanes and junctions have numbers instead of SUMO's ids",
     'ids-replaced': (v: Values) =>
-      `${v.count} ${v.subject} got other ids: an id occurs once and has letters, digits and _ . : - alone`,
-    'ids-respelled': (v: Values) => `${v.count} ids were respelled or got a suffix`,
-    'ids-suffixed': (v: Values) => `${v.count} ${v.subject} repeat an id and got a suffix`,
+      plural(Number(v.count), {
+        one: `${v.count} id of ${v.subject} was replaced: an id occurs once and has letters, digits and _ . : - alone`,
+        other: `${v.count} ids of ${v.subject} were replaced: an id occurs once and has letters, digits and _ . : - alone`,
+      }),
+    'ids-respelled': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} id was respelled or got a suffix`,
+        other: `${v.count} ids were respelled or got a suffix`,
+      }),
+    'ids-suffixed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} repeated id of ${v.subject} got a suffix`,
+        other: `${v.count} repeated ids of ${v.subject} got a suffix`,
+      }),
     'identities-joined': (v: Values) =>
-      `${v.count} road users had a second id and are joined: ${v.pairs} (and ${v.more} more)`,
-    'identities-joined-all': (v: Values) => `${v.count} road users had a second id and are joined: ${v.pairs}`,
-    jumps: (v: Values) => `Road users were moved elsewhere ${v.count} times; these gaps stay gaps`,
-    'lanelets-unusable': (v: Values) => `${v.count} lanelets without two sides, or not for traffic, are left out`,
-    'lanelets-with-used-id': (v: Values) => `${v.count} lanelets with the id of another lanelet are left out`,
-    'lanes-closed': (v: Values) => `${v.count} lanes open to no road user (rails, strips) are left out`,
+      plural(Number(v.count), {
+        one: `${v.count} road user had a second id and is joined: ${v.pairs} (and ${v.more} more)`,
+        other: `${v.count} road users had a second id and are joined: ${v.pairs} (and ${v.more} more)`,
+      }),
+    'identities-joined-all': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user had a second id and is joined: ${v.pairs}`,
+        other: `${v.count} road users had a second id and are joined: ${v.pairs}`,
+      }),
+    jumps: (v: Values) =>
+      plural(Number(v.count), {
+        one: `A road user was moved elsewhere ${v.count} time; this gap remains`,
+        other: `Road users were moved elsewhere ${v.count} times; these gaps remain`,
+      }),
+    'lanelets-unusable': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lanelet without two sides, or not for traffic, is left out`,
+        other: `${v.count} lanelets without two sides, or not for traffic, are left out`,
+      }),
+    'lanelets-with-used-id': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lanelet with the id of another lanelet is left out`,
+        other: `${v.count} lanelets with the id of another lanelet are left out`,
+      }),
+    'lanes-closed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lane open to no road user (rails, strips) is left out`,
+        other: `${v.count} lanes open to no road user (rails, strips) are left out`,
+      }),
+    'json-syntax': (v: Values) => `Not valid JSON: ${v.fault}.`,
     'lane-links-derived': 'The file does not link its lanes: a lane that ends where another one begins is linked to it',
-    'lane-segments-unusable': (v: Values) => `${v.count} lane segments without two sides are left out`,
+    'lane-segments-unusable': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lane segment without two sides is left out`,
+        other: `${v.count} lane segments without two sides are left out`,
+      }),
     'left-hand': 'Traffic keeps to the left, as it does in this region',
     'left-hand-as-right': 'Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right',
-    'lines-approximated': (v: Values) => `${v.count} painted lines have a sort or colour without a word of its own`,
+    'lines-approximated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} painted line has a type or colour that a scene does not support`,
+        other: `${v.count} painted lines have a type or colour that a scene does not support`,
+      }),
+    'loss-lane-lines': (v: Values) =>
+      plural(Number(v.count), {
+        one: `lanes are lines within ${v.off_mm} mm, and ${v.count} begins with a way into it`,
+        other: `lanes are lines within ${v.off_mm} mm, and ${v.count} begin with a way into them`,
+      }),
+    'loss-lane-points': (v: Values) =>
+      `lanes are within ${v.off_mm} mm of their lines when their points are set anew; stop lines and stop signs are where lanes begin and end`,
+    'loss-lanes-without-length': (v: Values) =>
+      plural(Number(v.count), { one: `${v.count} lane of no length`, other: `${v.count} lanes of no length` }),
+    'loss-lights-over-room': (v: Values) => `a record has room for ${v.most} lights per step`,
+    'loss-lines-sampled': (v: Values) =>
+      `lines as points ${v.apart_m} apart, without the graph and the limits of lanes`,
+    'loss-longer': (v: Values) => `nothing is cut: ${v.steps} steps, where the scene has ${v.known}`,
+    'loss-motion-extrapolated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} motion ends early and continues straight`,
+        other: `${v.count} motions end early and continue straight`,
+      }),
+    'loss-points-over-room': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} map point; a record has room for ${v.most}`,
+        other: `${v.count} map points; a record has room for ${v.most}`,
+      }),
+    'loss-rollouts': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} of the ${v.most} rollouts that the challenge takes: generate as many samples`,
+        other: `${v.count} of the ${v.most} rollouts that the challenge takes: generate as many samples`,
+      }),
+    'loss-single-precision': (v: Values) => `numbers are of single precision: off by up to ${v.off_um} µm`,
+    'loss-steps-over-room': (v: Values) =>
+      `states more than ${v.past} steps before the current one or ${v.future} after it`,
+    'loss-users-off-lanes': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user on no lane of its own is in the recording alone`,
+        other: `${v.count} road users on no lane of their own are in the recording alone`,
+      }),
+    'loss-users-over-room': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user; a record has room for ${v.most}`,
+        other: `${v.count} road users; a record has room for ${v.most}`,
+      }),
     'map-fault': (v: Values) => `${v.first}`,
     'map-faults': (v: Values) => `${v.first} (and ${v.more} more)`,
     'map-heights-dropped': 'The network has heights; the map is flat',
     'map-lacks-lanelets': 'The file has no lanelets: the scene has no map',
-    'map-missing': 'No map came with the scenario (log_map_archive_*.json): the scene has no lanes',
+    'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
-    'network-missing': 'No network came with the recording: the scene has no lanes and no signals',
-    'now-step-moved': (v: Values) => `The current step is ${v.now} of ${v.steps}: the last step is taken`,
-    'obstacles-absent': (v: Values) => `${v.count} obstacles are absent at all steps that are kept`,
+    'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
+    'not-a-known-format': (v: Values) => `Not a file of a known format (${v.formats}).`,
+    'now-step-moved': (v: Values) => `The current step is ${v.now} of ${v.steps}: the last step is used`,
+    'obstacles-absent': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} obstacle is absent at all steps that are kept`,
+        other: `${v.count} obstacles are absent at all steps that are kept`,
+      }),
     'obstacles-are-sets': (v: Values) =>
-      `${v.count} obstacles have possible areas instead of motion: their first state is kept`,
-    'obstacles-uncertain': (v: Values) => `${v.count} obstacles have uncertain states; the centres are taken`,
+      plural(Number(v.count), {
+        one: `${v.count} obstacle has possible areas instead of a trajectory: its first state is kept`,
+        other: `${v.count} obstacles have possible areas instead of a trajectory: their first state is kept`,
+      }),
+    'obstacles-uncertain': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} obstacle has uncertain states; the centres are used`,
+        other: `${v.count} obstacles have uncertain states; the centres are used`,
+      }),
     'obstacles-unplaced': (v: Values) =>
-      `${v.count} obstacles without a place, or without a size of at most 60 m, are left out`,
+      plural(Number(v.count), {
+        one: `${v.count} obstacle without a place, or without a size of at most 60 m, is left out`,
+        other: `${v.count} obstacles without a place, or without a size of at most 60 m, are left out`,
+      }),
     'parts-left-out': (v: Values) => `Left out: ${v.parts}`,
-    'passengers-left-out': (v: Values) => `${v.count} containers and passengers are left out so far`,
+    'passengers-left-out': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} container or passenger is left out`,
+        other: `${v.count} containers and passengers are left out`,
+      }),
+    'points-out-of-range': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} point; ${v.least} to ${v.most} expected`,
+        other: `${v.count} points; ${v.least} to ${v.most} expected`,
+      }),
     'programs-beyond-last': 'A signal has several programs; the last one is shown',
     'projection-dropped': 'Positions stay in the frame of the network; its projection is not kept',
     'recording-heights-dropped': 'The recording has heights; the scene is flat',
-    'shapes-boxed': (v: Values) => `${v.count} obstacles are no boxes: boxes around them are taken`,
-    'signal-links-unprogrammed': (v: Values) => `${v.count} links of signals have no program and are left out`,
-    'signals-empty': (v: Values) => `${v.count} signals without a lane or without states are left out`,
-    'signals-held': (v: Values) => `${v.count} signals respond to traffic; they keep the times of their plan`,
+    'shapes-boxed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} obstacle is not rectangular: its bounding box is used`,
+        other: `${v.count} obstacles are not rectangular: their bounding boxes are used`,
+      }),
+    'signal-links-unprogrammed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} link of a signal has no program and is left out`,
+        other: `${v.count} links of signals have no program and are left out`,
+      }),
+    'signals-empty': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} signal without a lane or without states is left out`,
+        other: `${v.count} signals without a lane or without states are left out`,
+      }),
+    'signals-held': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} signal responds to traffic; it keeps the times of its plan`,
+        other: `${v.count} signals respond to traffic; they keep the times of their plan`,
+      }),
     'signals-made': (v: Values) =>
-      `${v.count} signal heads at ${v.junctions} junctions have no program; they got fixed times`,
+      plural(Number(v.junctions), {
+        one: `The signal heads of ${v.junctions} junction (${v.count}) have no program; they got fixed times`,
+        other: `The signal heads of ${v.junctions} junctions (${v.count}) have no program; they got fixed times`,
+      }),
     'signals-made-near': (v: Values) =>
-      `${v.count} signal heads at ${v.junctions} junctions have no program; they got fixed times, and the ${v.kept} nearest to the centre are kept`,
+      plural(Number(v.junctions), {
+        one: `The signal heads of ${v.junctions} junction (${v.count}) have no program; they got fixed times, and the ${v.kept} nearest to the centre are kept`,
+        other: `The signal heads of ${v.junctions} junctions (${v.count}) have no program; they got fixed times, and the ${v.kept} nearest to the centre are kept`,
+      }),
     'signals-near-centre': (v: Values) => `${v.found} signals; the ${v.kept} nearest to the centre are kept`,
-    'signals-over-limit': (v: Values) => `${v.count} signals beyond the limit of ${v.kept} are left out`,
-    'signals-without-lane': (v: Values) => `${v.count} signals control no lane of the map and are left out`,
-    'sizes-assumed': (v: Values) => `${v.count} road users have the default size of their type`,
-    'sizes-assumed-by-name': (v: Values) => `${v.count} road users have the default size for the name of their type`,
-    'sizes-assumed-car': (v: Values) => `${v.count} planning problems have no size: that of a car is taken`,
-    'sizes-vary-median': (v: Values) => `${v.count} road users change size; the median is kept`,
-    'sizes-vary-now': (v: Values) => `${v.count} road users change size; the size at the current step is kept`,
+    'signals-over-limit': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} signal beyond the limit of ${v.kept} is left out`,
+        other: `${v.count} signals beyond the limit of ${v.kept} are left out`,
+      }),
+    'signals-without-lane': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} signal controls no lane of the map and is left out`,
+        other: `${v.count} signals control no lane of the map and are left out`,
+      }),
+    'sizes-assumed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user has the default size of its type`,
+        other: `${v.count} road users have the default size of their type`,
+      }),
+    'sizes-assumed-by-name': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user has the default size for the name of its type`,
+        other: `${v.count} road users have the default size for the name of their type`,
+      }),
+    'sizes-assumed-car': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} planning problem has no size: the size of a car is used`,
+        other: `${v.count} planning problems have no size: the size of a car is used`,
+      }),
+    'sizes-vary-median': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user changes size; the median is kept`,
+        other: `${v.count} road users change size; the median is kept`,
+      }),
+    'sizes-vary-now': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user changes size; the size at the current step is kept`,
+        other: `${v.count} road users change size; the size at the current step is kept`,
+      }),
     'steps-beyond-limit': (v: Values) => `The file lasts ${v.length_s}; the first ${v.kept} steps of 0.1 s are kept`,
-    'steps-coarse': (v: Values) => `Time steps are ${v.apart_s} apart; gaps longer than ${v.filled_s} stay gaps`,
+    'steps-coarse': (v: Values) => `Time steps are ${v.apart_s} apart; gaps longer than ${v.filled_s} remain`,
     'stop-points-vary': 'A signal has several stop points; its first one is kept',
     'time-resampled': (v: Values) => `Rows are ${v.apart_s} apart; states are computed every ${v.step_s}`,
     'time-interpolated': (v: Values) => `Steps are ${v.apart_s} apart; states every 0.1 s are interpolated linearly`,
@@ -86,7 +288,11 @@ export const SENTENCES = table('file-messages', {
     'times-incomplete': 'Some steps have no time; steps of 0.1 s are assumed',
     'times-irregular': 'Steps are not 0.1 s apart; they are read as if they were',
     'types-assumed': 'The table has no types; all road users count as vehicles',
-    'types-unknown': (v: Values) => `${v.count} road users have an unknown type; they are shown and never generated`,
+    'types-unknown': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user has an unknown type; it is shown but not generated`,
+        other: `${v.count} road users have an unknown type; they are shown but not generated`,
+      }),
     'velocities-derived': 'Velocities are derived from positions and times',
   },
 });

@@ -8,28 +8,29 @@ export const SENTENCES = table('messages', {
   lists: { kind: { vehicle: 'this vehicle', cyclist: 'this cyclist', pedestrian: 'this pedestrian' } },
   sentences: {
     'goal-too-far': (v: Values) =>
-      `Too far for ${v.time_s}. The goal is ${v.goal_m} away. In ${v.time_s} from ${v.start_mps} ${v.kind} gets ${v.most_m} at most.`,
+      `Too far for ${v.time_s}. The goal is ${v.goal_m} away. From ${v.start_mps}, ${v.kind} covers at most ${v.most_m} in ${v.time_s}.`,
     'goal-too-fast': (v: Values) =>
-      `Cannot accelerate that much in ${v.time_s} from ${v.start_mps}.${v.need_mps2 && ` It would take ${v.need_mps2}.`}`,
+      `Cannot accelerate that much in ${v.time_s} from ${v.start_mps}.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
     'goal-above-top-speed': (v: Values) =>
-      `Faster than ${v.kind} can go.${v.need_mps && ` It would take ${v.need_mps}.`}`,
+      `Above the top speed of ${v.kind}.${v.need_mps && ` Required: ${v.need_mps}.`}`,
     'goal-too-near': (v: Values) =>
-      `Cannot stop that soon. From ${v.start_mps} it needs ${v.least_m}, the goal is ${v.goal_m} away.${v.need_mps2 && ` It would take ${v.need_mps2}.`}`,
+      `Cannot stop that soon. Braking from ${v.start_mps} takes ${v.least_m}; the goal is ${v.goal_m} away.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
     'goal-too-slow': (v: Values) =>
-      `Cannot brake that much in ${v.time_s}.${v.need_mps2 && ` It would take ${v.need_mps2}.`}`,
-    'goal-too-tight': (v: Values) =>
-      `Too tight at this speed.${v.need_mps2 && ` It would take ${v.need_mps2} sideways.`}`,
-    'goal-turn-too-tight': (v: Values) => `Too tight a turn for ${v.kind}.`,
-    'goal-blocked': (v: Values) =>
-      `Road user ${v.agent} is in the way of ${v.kind}. It stops ${v.short_m} short of the goal.`,
+      `Cannot brake that much in ${v.time_s}.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
+    'goal-too-tight': (v: Values) => `Too tight at this speed.${v.need_mps2 && ` Required: ${v.need_mps2} sideways.`}`,
+    'goal-turn-too-tight': (v: Values) => `The turn is too tight for ${v.kind}.`,
+    'goal-blocked': (v: Values) => `Road user ${v.agent} blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
     'goal-blocked-by-traffic': (v: Values) =>
-      `Another road user is in the way of ${v.kind}. It stops ${v.short_m} short of the goal.`,
+      `Another road user blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
     'goal-off-road': (v: Values) => `There is no lane within ${v.within_m} of the goal.`,
-    'goal-beyond-top-speed': (v: Values) => `${v.goal_m} in ${v.time_s} is beyond the top speed.`,
+    'goal-beyond-top-speed': (v: Values) => `${v.goal_m} in ${v.time_s} requires more than the top speed.`,
     'start-off-road': (v: Values) => `There is no lane within ${v.within_m} of the start.`,
     'start-overlaps': (v: Values) => `The start overlaps road user ${v.agent}.`,
     'via-missed': (v: Values) =>
-      `The future passes via point ${v.number} ${v.distance_m} away at ${v.time_s}; the tolerance is ${v.tolerance_m}.`,
+      `The future misses via point ${v.number} by ${v.distance_m} at ${v.time_s}; the tolerance is ${v.tolerance_m}.`,
+    'condition-unused': (v: Values) =>
+      `Road user ${v.agent} is not regenerated: its start, goal and via points do not change its motion.`,
+    'nothing-generated': 'No road user is regenerated, and no known motion ends before the last window.',
     'motion-ends': (v: Values) =>
       `The known motion ends at ${v.time_s}; the road user continues straight at its speed.`,
   },

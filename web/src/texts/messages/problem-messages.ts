@@ -1,23 +1,31 @@
 // Sentences of refused requests by code: see `messages.ts`.
-import { table, type Values } from '../table';
+import { plural, table, type Values } from '../table';
 
 export const SENTENCES = table('problem-messages', {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `the scene has no road user \"${v.id}\"`,
-    'no-agents-named': '\"all\" or at least one id expected, or at least one road user that reacts',
-    'too-many-regenerated': (v: Values) => `${v.count} road users to regenerate; at most ${v.most}`,
+    'no-agents-named': 'expected \"all\", at least one id, or at least one road user that reacts',
+    'too-many-regenerated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} road user to regenerate; at most ${v.most}`,
+        other: `${v.count} road users to regenerate; at most ${v.most}`,
+      }),
     'too-many-points': (v: Values) => `the reply would have ${v.points} points; at most ${v.most}`,
     'no-future-kept': 'the scene keeps no future of this road user from the start on',
     'replan-interval': (v: Values) => `${v.got} s; null, 3, 6 or 9 expected`,
     'more-than-a-turn': (v: Values) => `${v.got} rad is more than a turn; ${v.got} degrees are ${v.radians} rad`,
     'unknown-edge': 'the id of a road edge of the map expected',
-    'unequal-columns': (v: Values) => `${v.count} values, as many as x_m (${v.expected}) expected`,
+    'unequal-columns': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} value, ${v.expected} expected, as in x_m`,
+        other: `${v.count} values, ${v.expected} expected, as in x_m`,
+      }),
     'one-scene': 'exactly one of scene and scene_id is needed',
-    'changed-scene': 'The stored scene is another than the one you read.',
-    'no-network': (v: Values) => `a file of format ${v.format} comes without a network`,
+    'changed-scene': 'The stored scene has changed since it was read.',
+    'no-network': (v: Values) => `a file of format ${v.format} has no network`,
     'no-columns': (v: Values) => `a file of format ${v.format} has no columns to name`,
     'unknown-format': (v: Values) => `No format is named \"${v.format}\"; there are ${v.formats}.`,
-    defect: 'The server failed; its log says more.',
+    defect: 'The server failed; see its log.',
   },
 });

@@ -7,8 +7,8 @@ use scene::{HORIZON_STEPS, Meta, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The call's scene with the motion of those that keep theirs known to the end of the last window, and from where
-/// on that is a guess, one entry an agent. `replaced` are those that do not keep theirs.
+/// The call's scene with every kept motion extended to the end of the last window. Also, for each agent, the
+/// step from which its motion is extrapolated. `replaced` returns true for agents that get a new motion.
 pub(super) fn known_to_the_end(
     request: &Request,
     replaced: impl Fn(usize) -> bool,

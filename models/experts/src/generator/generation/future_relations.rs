@@ -1,5 +1,5 @@
-//! How the futures of a finished sample stand to what the others are shown to do, or would do if they were taken, and
-//! what they do.
+//! Relations of the futures of a finished sample to the shown motions of others, or to their reactions if the
+//! future is taken. Also the manoeuvre of each future.
 
 use crate::maps::KnownMap;
 use crate::request::Request;
@@ -7,7 +7,8 @@ use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
 use scene::score::Actor;
 use scene::{AgentType, Future, Sample};
 
-/// In larger answers only the shown futures of those that were not asked for get relations.
+/// Most futures of a sample that all get relations. In a larger one an agent that the call does not regenerate
+/// gets them only for its shown future.
 const FEW: usize = 60;
 
 /// All agents as they are shown, to compare futures with.
@@ -47,7 +48,7 @@ impl<'a> ShownAgents<'a> {
         Trace::new(&agent.id, agent.kind(), &actor.size, request.horizon_steps, at)
     }
 
-    /// How a future of a road user stands to the others, some of whom do something else than they are shown to do.
+    /// Relations of a future to the other agents. `instead` replaces the shown motion of some of them.
     pub(super) fn relations(
         &self,
         agent: usize,

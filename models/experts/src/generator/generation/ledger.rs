@@ -30,7 +30,7 @@ pub(super) struct AgentProgress {
     parked: bool,
     reach: ReachReport,
     intermediate: Vec<Intermediate>,
-    /// It drives its own way at another pace, for somebody else.
+    /// It keeps its path and changes its timing to yield to another agent.
     reacts: bool,
     /// Its plan of the last window after the executed steps.
     ahead: Vec<State>,
@@ -183,8 +183,8 @@ impl Ledger {
         }
     }
 
-    /// Ends a sample: one continuous future each. The first one says what became of everybody's conditions;
-    /// `world` is that of the first window.
+    /// Ends a sample: one continuous future for each agent. The first sample also settles the outcome of all
+    /// conditions; `world` is that of the first window.
     pub(super) fn finish_sample(
         &mut self,
         request: &Request,
@@ -275,8 +275,8 @@ impl Ledger {
     }
 }
 
-/// A road user's first window: its alternatives are those of the answer. One that comes later has the future that
-/// is shown alone.
+/// A road user's first window: its alternatives are those of the answer. An agent that joins in a later
+/// window has only its shown future.
 fn first_of(
     window: &PlanningWindow<'_>,
     actor: &PlannedActor,

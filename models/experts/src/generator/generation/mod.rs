@@ -1,9 +1,9 @@
 //! One call: planning windows one after the other, each from the states that the last one reached, and
 //! the answer made of what was executed.
 //!
-//! A window plans 9 s ahead; its first seconds, up to the next re-planning, are executed. The next one
-//! sees everybody where they are by then: those with futures where these led, the rest on their log (or
-//! straight on where it has ended). Nothing of an earlier window is planned again.
+//! A window plans 9 s ahead; its first seconds, up to the next re-planning, are executed. The next window
+//! starts every agent from its state at that time: at the end of the executed future, else on the log, else
+//! extrapolated straight on. Motion of an earlier window is not planned again.
 
 mod base_scene;
 mod future_relations;
@@ -53,7 +53,7 @@ struct CallWindows<'g> {
     base: Arc<Scene>,
     /// The moment at which the first begins, until it is planned.
     start: Option<World<'g>>,
-    /// The first serves all samples, a later one the present sample alone.
+    /// `first` serves all samples; `later` serves only the present sample.
     first: Option<PlanningWindow<'g>>,
     later: Option<PlanningWindow<'g>>,
 }
@@ -94,7 +94,7 @@ impl<'g> Generation<'g> {
         let start = world(resources, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
         let (roster, base) = Roster::of(&request, &start, &spans)?;
-        // All who are there at the start are there in both scenes alike.
+        // Agents that are present at the start have the same state in both scenes.
         let start = World { scene: base.clone().into(), ..start };
         let windows = CallWindows { spans, base, start: Some(start), first: None, later: None };
         let mut ledger = Ledger::default();
@@ -248,11 +248,11 @@ impl<'g> Generation<'g> {
         Ok(answer)
     }
 
-    /// The futures of the draft that was told last. They are made here, since most drafts are gone before anybody
-    /// could look at them; it changes nothing of what follows. `score` is empty.
+    /// The futures of the last draft event. They are made only when requested, because most drafts are
+    /// superseded before anyone displays them. Later results do not depend on this call. `score` is empty.
     ///
     /// # Errors
-    /// No draft was told yet.
+    /// Before the first draft event.
     pub fn drafted(&mut self) -> Result<Sample, GenerateError> {
         Ok(self.windows.present_mut()?.drafted())
     }

@@ -1,5 +1,5 @@
-//! The way out of a goal that is reached only over what nobody drives over: the nearest place that the road leads to
-//! in the same time.
+//! The remedy for a goal that is reached only off the road or against the traffic: the nearest place that the
+//! road leads to in the same time.
 
 use super::targets::due;
 use crate::maps::KnownMap;
@@ -13,7 +13,8 @@ use scene::routes::{Route, routes_ahead};
 use scene::{AgentId, AgentType, STEP_S, Sample};
 use std::collections::BTreeMap;
 
-/// By road user whose shown future leaves the road or drives against the traffic to meet its goal.
+/// Remedies by road user, for each shown future that leaves the road or drives against the traffic to meet
+/// its goal.
 pub(super) fn by_road(
     request: &Request,
     world: &World<'_>,
@@ -53,7 +54,7 @@ pub(super) fn by_road(
     world.present.iter().filter(wants).filter_map(found).collect()
 }
 
-/// How far somebody gets along a route in a time, metres.
+/// Distance that a vehicle covers along a route in `seconds`, metres.
 fn gets_m(route: &Route, start_mps: f64, seconds: f64) -> f64 {
     let caps_mps = speed_caps(&route.path, &[], BENDS);
     let caps = Caps::new(route.path.arc_m(), &caps_mps);

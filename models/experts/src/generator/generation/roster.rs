@@ -1,4 +1,4 @@
-//! The roster of a call: one part for every road user of the scene, and who acts in each window.
+//! The roster of a call: one part for each road user of the scene, and the cast of each window.
 
 use super::base_scene::known_to_the_end;
 use super::ledger::Ledger;
@@ -15,16 +15,17 @@ use std::sync::Arc;
 /// The part of an agent in a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CallPart {
-    /// It was asked for.
+    /// The call regenerates it.
     Asked,
-    /// It was asked for, and a person picked its future: it is planned around in the first window, is background
-    /// after it, and plans on from its end.
+    /// The call regenerates it, and the user picked its future. It is fixed in the first window, background
+    /// after it, and plans on from the end of the picked future.
     Picked,
-    /// It may answer those that were asked for.
+    /// It may react to the regenerated agents.
     MayReact,
     /// It keeps a future which ends before the call does, and plans on from its end.
     Continues,
-    /// It comes in after the start of a call that is about everybody, and plans on where its log ends.
+    /// It enters after the start of a call that covers all agents or lets all react, and plans on where its
+    /// log ends.
     Arrives,
     /// It keeps the motion it has.
     Kept,
@@ -33,12 +34,12 @@ pub(super) enum CallPart {
 }
 
 impl CallPart {
-    /// It may get new futures without having been asked for.
+    /// It may get new futures although the call does not regenerate it.
     pub(super) fn answers(self) -> bool {
         matches!(self, Self::MayReact | Self::Continues | Self::Arrives)
     }
 
-    /// It was asked for.
+    /// The call regenerates it.
     pub(super) fn is_asked(self) -> bool {
         matches!(self, Self::Asked | Self::Picked)
     }
@@ -49,16 +50,16 @@ pub(super) struct Roster {
     /// The scene that windows are cut from.
     base: Arc<Scene>,
     parts: Vec<CallPart>,
-    /// From where on nothing is known of those that keep their motion, in calls of several windows.
+    /// In calls of several windows: the step from which a kept motion is extrapolated, by agent.
     guessed: Vec<Option<Guessed>>,
 }
 
 impl Roster {
-    /// The parts in a call, and the scene that its windows are cut from: the call's own, with what is
-    /// kept known to the last window's end.
+    /// The parts in a call, and the scene that its windows are cut from: the call's own, with kept motions
+    /// extended to the end of the last window.
     ///
     /// # Errors
-    /// Unknown ids, ids of those that cannot move, too many that were asked for.
+    /// Unknown ids, ids of agents that cannot move, or more regenerated agents than [`MOST_ACTORS`].
     pub(super) fn of(
         request: &Request,
         world: &World<'_>,
@@ -131,12 +132,12 @@ impl Roster {
         self.parts.iter().enumerate().filter(move |(_, part)| is(**part)).map(|(i, _)| i)
     }
 
-    /// From where on nothing is known of a road user that keeps its motion.
+    /// The step from which each kept motion is extrapolated.
     pub(super) fn guesses(&self) -> impl Iterator<Item = (usize, Guessed)> {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
-    /// Nothing is known of a road user that keeps its motion from scene step `step` on.
+    /// The kept motion of a road user is extrapolated from scene step `step` on.
     fn known_until(&self, agent: usize, step: usize) -> bool {
         self.guessed[agent].is_some_and(|g| g.step <= step)
     }
@@ -151,8 +152,9 @@ impl Roster {
         self.guessed[agent].filter(|_| self.part(agent) == CallPart::Picked).map(|g| g.step)
     }
 
-    /// The cast of window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
-    /// knows who got futures in earlier windows of the sample; `parked` is left to the caller.
+    /// The cast of window `number`, which begins at `world.step` and is executed up to scene step `end`.
+    /// `ledger` holds the agents that got futures in earlier windows of the sample. The caller fills
+    /// `parked`.
     pub(super) fn in_window(
         &self,
         number: usize,
@@ -181,7 +183,7 @@ impl Roster {
         let new = |part: CallPart| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
         let mut may_react: BTreeSet<usize> = new(CallPart::MayReact).collect();
         if !first {
-            // Nothing is left to keep for those whose log ends in what this window executes.
+            // An agent whose log ends within this window has no motion left to keep.
             let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
             let ended = new(CallPart::MayReact).chain(new(CallPart::Arrives)).filter(seen);
             let ended = ended.filter(|i| self.known_until(*i, end));
@@ -248,7 +250,7 @@ mod tests {
         use CallPart::*;
         assert_eq!(parts(React::Nobody, Some(&["a"]), 90), [Asked, Kept, Kept, Absent]);
         assert_eq!(parts(React::Everyone, Some(&["a"]), 90), [Asked, MayReact, Kept, MayReact]);
-        // Only in a call of several windows somebody may come in.
+        // Agents arrive only in a call of several windows.
         assert_eq!(parts(React::Nobody, None, 180), [Asked, Asked, Kept, Arrives]);
         assert_eq!(parts(React::Nobody, Some(&["a"]), 180), [Asked, Kept, Kept, Absent]);
     }

@@ -18,7 +18,7 @@ pub(super) struct Targets {
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
 }
 
-/// Steps after the call's start at which the goal of a road user is due; the end when nobody said.
+/// Steps after the call's start at which a road user's goal is due; the end of the call without a fixed time.
 pub(super) fn due(request: &Request, agent: usize) -> isize {
     let goal = &request.scene.agents[agent].conditions.goal;
     match goal.time_s {
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_goal_is_asked_where_it_is_due_and_dropped_after_it() {
-        // Asked as it was fixed.
+        // The window takes this goal as the user fixed it, without an override.
         let due = of(12.0, 0, 60);
         assert!(due.goals.is_empty() && due.subgoals.is_empty());
         assert!(of(6.0, 0, 60).goals[0].1.is_free());

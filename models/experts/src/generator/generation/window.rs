@@ -20,7 +20,7 @@ use scene::judge::{About, Trace};
 use scene::{AgentFutures, Future, Sample};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// With fewer actors every mode is shown while it is refined, else the likeliest alone.
+/// With fewer actors a draft shows every mode while it is refined, else only the likeliest.
 const SHOW_ALL_BELOW: usize = 5;
 
 /// One planning window of one call.
@@ -163,7 +163,7 @@ impl<'g> PlanningWindow<'g> {
 }
 
 impl WindowActors {
-    /// Plans the actors of a window: those that act in any case, then those that react by planning again.
+    /// Plans the actors of a window: first the acting agents, then those that react by replanning.
     fn of(setting: &WindowSetting<'_>, cast: &WindowCast) -> Result<Self, GenerateError> {
         let (world, workers, later) = (&setting.world, setting.workers(), setting.number > 0);
         let acting: Vec<_> = world.present.iter().filter(|p| cast.acting.contains(&p.index)).collect();

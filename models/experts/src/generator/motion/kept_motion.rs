@@ -3,8 +3,8 @@
 use crate::planning::world::{AgentAtStart, World};
 use scene::{Agent, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State};
 
-/// The chosen future of an agent, else its recording. An agent whose future has ended, or of which one state alone is
-/// known, goes straight on.
+/// The chosen future of an agent, else its recording. An agent whose future has ended, or that has only one
+/// known state, goes straight on.
 pub(in crate::generator) struct KeptMotion<'a> {
     agent: &'a Agent,
     future: Option<&'a Future>,

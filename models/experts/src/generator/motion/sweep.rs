@@ -14,8 +14,8 @@ const STRIDE: usize = 3;
 /// Box centre and heading at each instant; `None` at an instant at which the agent is absent.
 pub(in crate::generator) type Places = [Option<(Vec2, f64)>; INSTANTS];
 
-/// The states of an agent, one a step from the window's start on, and its box. Boxes, swept boxes and trace are
-/// worked out when they are first asked for.
+/// The states of an agent, one a step from the window's start on, and its box. Boxes, swept boxes and trace
+/// are computed on first use.
 #[derive(Clone, Debug)]
 pub(in crate::generator) struct Sweep {
     states: Vec<Option<State>>,

@@ -8,7 +8,7 @@ use scene::geometry::wrap_angle;
 use scene::routes::Pose;
 use scene::{HORIZON_STEPS, Size, Vec2};
 
-/// Places of a path are looked at this far apart, metres.
+/// Distance between the places at which a path is sampled, metres.
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;

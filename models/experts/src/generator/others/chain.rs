@@ -1,4 +1,5 @@
-//! The chain of reactions: from the agents that a call regenerates to those in whose way they are, and on from there.
+//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and on from
+//! there.
 
 use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
@@ -75,7 +76,7 @@ impl Others<'_> {
         reacted.collect()
     }
 
-    /// Every agent's motion by id: the new motion of those that react, the kept motion of the rest.
+    /// Every agent's motion by id: the new motion of agents that react, the kept motion of all others.
     pub(in crate::generator) fn with(&self, reacted: &[Reacted]) -> Vec<(&AgentId, Cow<'_, Sweep>)> {
         let changed = |other: &OtherAgent| {
             let Response::Reacts(own) = &other.response else { return None };
@@ -131,7 +132,8 @@ impl Others<'_> {
         asked.chain(reacting).chain(keeping).collect()
     }
 
-    /// The agent whose changed motion each kept motion meets; `None` for an agent without a cause or without a change.
+    /// For each agent, the changed motion that its kept motion meets; `None` without a cause or without a
+    /// change.
     fn causes(
         &self,
         reactors: &[ReactingAgent<'_>],

@@ -12,7 +12,7 @@ use crate::tuning::fixed::giving_way::{
 use scene::score::overlap;
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// Rounds in which the order of the agents is worked out again.
+/// Rounds in which the order of the agents is determined again.
 const MOST_TURNS: usize = 3;
 
 /// A motion that gives way, with its cost.

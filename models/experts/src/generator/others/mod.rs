@@ -1,9 +1,9 @@
 //! The agents that do not act in a window, and what they do about the agents that do.
 //!
-//! The motion that such an agent has is its first option. It keeps that motion unless it would meet a changed one: that
-//! of an agent that the call regenerates, or of one that changed because of it. An agent whose kept motion meets none of
-//! them stays as it is to the last byte. The others drive their own path at another pace ([`giving_way`]), one after
-//! the other ([`chain`]).
+//! Such an agent first tries the motion that it has. It keeps that motion unless it would meet a changed one:
+//! that of a regenerated agent, or of one that changed because of it. An agent whose kept motion meets
+//! neither keeps it unchanged to the last byte. The others keep their path and change their timing
+//! ([`giving_way`]), one after the other ([`chain`]).
 
 mod blocks;
 mod chain;

@@ -62,7 +62,7 @@ pub(super) struct Reactor {
     pub(super) path: PathProgress,
     /// It changed its motion in an earlier window and goes on with that.
     pub(super) resumed: bool,
-    /// Worked out when an agent is in its way: few are met.
+    /// Computed on first use, since few agents ever meet another.
     road: OnceLock<ReactorRoad>,
     /// Where and when each other agent is in its way by the motion that it keeps.
     pub(super) around: OnceLock<Vec<Vec<PathBlock>>>,

@@ -284,7 +284,7 @@ mod tests {
         let off_m = |along_m: f64| ((led.place(along_m).0 - centre).norm() - 20.0).abs();
         assert!([75.0, 80.0, 85.0, 90.0].into_iter().all(|along_m| off_m(along_m) < 0.8));
         assert!((led.place(92.0).1 - 1.0).abs() < 0.15);
-        // People on foot go straight on, as does everybody where there is no road.
+        // Pedestrians go straight on, and so does every agent without a road.
         let walks = path.clone().extended(&graph, AgentType::Pedestrian);
         let nowhere = path.clone().extended(&LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
         assert!([walks, nowhere].iter().all(|c| c.place(92.0).0.y.abs() < 1e-6));

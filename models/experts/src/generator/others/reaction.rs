@@ -73,7 +73,7 @@ pub(in crate::generator) fn reaction_of(
     let delay_s = (last as f64 - nearest(&end).0 as f64) * STEP_S;
     let beside: Vec<(usize, f64)> = states.iter().map(nearest).collect();
     let aside = beside.iter().map(|(_, apart)| *apart).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    // An agent that is due at a time is late or early on the way alone.
+    // An agent with a fixed arrival time can be late or early only before it.
     let late = beside.iter().enumerate().map(|(i, (place, _))| i as f64 - *place as f64);
     let (earliest, lead) = late
         .clone()

@@ -6,7 +6,7 @@ use super::path_progress::PathProgress;
 use crate::tuning::fixed::yielding::WORTH_GOING_M;
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
-/// How far ahead in time that is looked at, steps.
+/// Time ahead in which room to go is looked for, steps.
 const GOING_STEPS: usize = 15;
 /// Others are given this much time before and after, steps.
 const TIME_GAP: usize = 3;
@@ -57,7 +57,8 @@ impl ProgressBounds {
         Self { at_m, from_m, after }
     }
 
-    /// Braking from here on at this rate stays below them, and below those that go on though they brake as well.
+    /// Braking at this rate from here on stays below the bounds, also behind agents that move on beyond the
+    /// window and brake at the same rate.
     fn hold(&self, step: usize, along_m: f64, speed_mps: f64, brake_mps2: f64) -> bool {
         let stops_m = speed_mps * speed_mps / (2.0 * brake_mps2);
         let behind = |(bound, speed): &(f64, f64)| {
@@ -78,7 +79,7 @@ impl ProgressBounds {
     }
 }
 
-/// Where these blocks are when the window ends, for those that are there then, and how fast they move on.
+/// For blocks that are still there when the window ends: their bound, and the speed at which they move on.
 fn after(blocks: &[&PathBlock], gap_m: f64) -> Vec<(f64, f64)> {
     let there = blocks.iter().filter(|b| b.from + b.taken.len() > HORIZON_STEPS);
     let bound = |b: &&PathBlock| {
@@ -91,7 +92,7 @@ fn after(blocks: &[&PathBlock], gap_m: f64) -> Vec<(f64, f64)> {
     there.filter_map(bound).collect()
 }
 
-/// ProgressBounds that keep somebody behind these blocks.
+/// Bounds on progress that keep an agent behind these blocks.
 fn behind(blocks: &[&PathBlock], gap_m: f64) -> Vec<f64> {
     let mut at_m = vec![f64::INFINITY; HORIZON_STEPS + 1];
     for block in blocks {

@@ -1,4 +1,4 @@
-//! `x W + b`, with a rectifier when asked for.
+//! `x W + b`, optionally with a rectifier.
 
 use candle_core::backend::BackendStorage;
 use candle_core::{CpuStorage, CustomOp3, Layout, Result, Shape, Tensor};

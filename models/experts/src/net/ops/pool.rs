@@ -7,9 +7,9 @@ use super::raw::{floats, numbers, own_loops, tensor};
 /// Below this a token's mask says that it is padding.
 const PADDING: f32 = -1e3;
 
-/// Maximum over each segment of the tokens. `x` is [batch, tokens, n]; `mask` [batch, tokens] is 0 or,
-/// at padding, -1e4; `segments` are lengths that sum to `tokens`. Gives [batch, segments * n]; a
-/// segment of padding alone gives 0. Of tied tokens one gets the gradient, on the CPU the first.
+/// Maximum over each segment of the tokens. `x` is [batch, tokens, n]; `mask` [batch, tokens] is 0 or, at
+/// padding, -1e4; `segments` are lengths that sum to `tokens`. Gives [batch, segments * n]; a segment that is
+/// all padding gives 0. One of several tied tokens gets the gradient, on the CPU the first.
 ///
 /// # Errors
 /// When the shapes do not fit.

@@ -1,4 +1,4 @@
-//! Reads a network in one pass over its elements; nothing is kept of those that it does not know.
+//! Reads a network in one pass over its elements; unknown elements are dropped.
 
 use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
 use crate::problem::{FieldProblem, ReadError, code};
@@ -58,7 +58,7 @@ impl Net {
         Self::read_from(text.as_bytes())
     }
 
-    /// Reads a network from a stream, whose faults and bounds come back in [`SumoError::File`].
+    /// Reads a network from a stream; its faults and limits return as [`SumoError::File`].
     pub(in crate::sumo) fn read_from(input: impl BufRead) -> Result<Self, SumoError> {
         let mut scanner = Scanner::new(input, MAX_TAG);
         let mut reader = Reader::default();
@@ -198,7 +198,7 @@ fn edge(element: &Element) -> Result<Option<NetEdge>, SumoError> {
     }))
 }
 
-/// A lane; its place in the network is for the caller to say.
+/// A lane; the caller knows its position in the network.
 fn lane(element: &Element, function: EdgeFunction, heights: &mut bool) -> Result<NetLane, SumoError> {
     let has_width = element.get("width").is_some();
     Ok(NetLane {

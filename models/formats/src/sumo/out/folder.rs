@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::pack;
+use crate::sentences;
 use scene::{STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
@@ -35,8 +36,8 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
             files.push((format!("{name}{NET}"), map));
             files.push((format!("{name}{TRIPS}"), trips));
             losses.extend(net::losses(scene, &network));
-            let detail = format!("{without} road users on no lane of theirs are in the recording alone");
-            losses.extend((without > 0).then(|| Loss::new(code::NO_TRIPS, detail)));
+            let lost = sentences::loss_users_off_lanes(without);
+            losses.extend((without > 0).then(|| Loss::counted(code::NO_TRIPS, lost)));
         }
         None if !scene.signals.is_empty() => {
             losses.insert(Loss::new(code::NO_SIGNALS, "lights of a scene without lanes"));
@@ -53,7 +54,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     Ok(Exported { bytes: pack::zip(&files)?, losses: losses.into_iter().collect() })
 }
 
-/// What `sumo -c` runs: as long as the scene, in its steps.
+/// Configuration for `sumo -c`: length and step of the scene.
 fn configuration(name: &str, steps: usize) -> Vec<u8> {
     let mut out = Markup::new();
     out.open("configuration", &[]);

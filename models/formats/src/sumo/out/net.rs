@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::polyline::{distance_to, length, resample};
+use crate::sentences;
 use crate::sumo::map::{MAX_PIECES, SPACING_M};
 use scene::map::{Lane, LaneMap, LaneType};
 use scene::routes::assumed_speed_limit_mps;
@@ -95,7 +96,7 @@ fn shape(points: &[Vec2]) -> String {
     points.join(" ")
 }
 
-/// Who may use a lane.
+/// Permission attribute of a lane.
 fn permission(lane_type: LaneType) -> Option<(&'static str, &'static str)> {
     match lane_type {
         LaneType::BikeLane => Some(("allow", "bicycle")),
@@ -127,7 +128,7 @@ fn write_lane(network: &ExportedNetwork<'_>, lane: usize, id: &str, index: usize
 fn write_edge(network: &ExportedNetwork<'_>, edge: &Edge, out: &mut Markup) {
     let lanes = || edge.lanes.iter().map(|lane| &network.map.lanes[*lane]);
     let [from, to] = [edge.from, edge.to].map(|junction| network.junctions[junction].id.as_str());
-    // Who drives faster has the right of way where SUMO works it out anew.
+    // Faster roads get the higher priority, from which SUMO derives right of way.
     let priority = lanes().map(limit_mps).fold(1.0, f64::max).round().to_string();
     let mut attributes = vec![("id", edge.id.as_str()), ("from", from), ("to", to), ("priority", &priority)];
     if lanes().any(is_motorway) {
@@ -152,8 +153,8 @@ fn letter(state: SignalState) -> char {
     }
 }
 
-/// What the lights of a junction show, as a program that begins with the scene. It is as long as the motion, since it
-/// begins anew when it is over.
+/// Signal states of a junction, as a program that begins with the scene. It is as long as the motion, because
+/// SUMO repeats programs.
 fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
     let steps = steps.max(1);
     let program = [("id", &*junction.id), ("type", "static"), ("programID", "0"), ("offset", "0")];
@@ -206,7 +207,7 @@ fn write_junction(network: &ExportedNetwork<'_>, junction: &Junction, out: &mut 
     out.close();
 }
 
-/// Where the parts of a way meet, which is where SUMO lets traffic wait within a junction.
+/// Joints between the parts of a link, at which SUMO lets traffic wait within a junction.
 fn waiting(network: &ExportedNetwork<'_>, link: &Link, out: &mut Markup) {
     for pair in link.via.windows(2) {
         let [(_, before), (lane, id)] = pair else { continue };
@@ -268,20 +269,18 @@ fn connection(
     }
 }
 
-/// What the map loses; nothing of a map without lanes is written.
+/// Losses of the map; a map without lanes has none, because it is not written.
 pub(super) fn losses(scene: &Scene, network: &ExportedNetwork<'_>) -> Vec<Loss> {
     let map = network.map;
     let mut losses = Vec::new();
-    let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
     let off_m = network.lines.iter().map(|line| cut_off_m(line)).fold(0.0, f64::max);
-    let detail = format!(
-        "lanes are within {off_m:.3} m of their lines when their points are set anew; stop lines and stop signs are \
-         where lanes begin and end"
-    );
-    lose(true, code::GEOMETRY_APPROXIMATED, &detail);
-    lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
+    losses.push(Loss::counted(code::GEOMETRY_APPROXIMATED, sentences::loss_lane_points(1e3 * off_m)));
     let count = network.roles.iter().filter(|role| **role == LaneRole::Lost).count();
-    lose(count > 0, code::NO_MAP, &format!("{count} lanes of no length"));
+    if count > 0 {
+        losses.push(Loss::counted(code::NO_MAP, sentences::loss_lanes_without_length(count)));
+    }
+    let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
+    lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
     lose(lines, code::NO_LINES, "painted lines and road edges: they are drawn anew beside lanes");
     lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas: they are drawn anew round lanes");
@@ -330,7 +329,7 @@ fn is_mixed(map: &LaneMap, link: &Link) -> bool {
     link.via.iter().any(|(way, _)| lane(*way) != lane(link.from))
 }
 
-/// How far a line is off once its points are set at the distances in which lanes are read.
+/// Largest deviation of a line after resampling at the distances in which lanes are read.
 fn cut_off_m(line: &[Vec2]) -> f64 {
     let again =
         [SPACING_M.0, SPACING_M.1].map(|step_m| resample(line, step_m.max(length(line) / MAX_PIECES)));

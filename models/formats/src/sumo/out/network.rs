@@ -18,7 +18,7 @@ const APART_M: f64 = 1.5;
 /// Most links of a junction that SUMO has rules for.
 const MOST_RULED: usize = 256;
 
-/// How a lane of the map is written.
+/// Role of a lane in the network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LaneRole {
     /// A lane of an edge, counted from the right.
@@ -54,7 +54,7 @@ pub(super) struct Link {
     pub light: Option<usize>,
 }
 
-/// Where lanes meet.
+/// A junction of lanes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Junction {
     pub id: String,
@@ -62,7 +62,7 @@ pub(super) struct Junction {
     pub incoming: Vec<usize>,
     /// In the order of the lanes that lead here.
     pub links: Vec<Link>,
-    /// Who gives way to whom, one entry a link; none where there are too many.
+    /// Priorities, one per link; none if the junction has too many links.
     pub rules: Vec<LinkPriority>,
     /// Positions of its lights among the scene's.
     pub lights: Vec<usize>,
@@ -272,12 +272,12 @@ impl<'a> ExportedNetwork<'a> {
             };
             let lane = scene.map.lane_index(&signal.lane).filter(driven);
             let lane = lane.filter(|lane| match self.roles.get(*lane) {
-                // Behind the first part of a way nobody stops.
+                // Traffic never stops within a junction, after the first part of a link.
                 Some(LaneRole::Way) => {
                     let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
                     ins.iter().all(|lane| matches!(self.roles[*lane], LaneRole::On { .. }))
                 }
-                // What leads there through a junction is not ruled by a light behind it.
+                // A signal behind a junction does not control the links into it.
                 Some(LaneRole::On { .. }) => {
                     let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
                     !ins.is_empty() && ins.iter().all(|lane| matches!(self.roles[*lane], LaneRole::On { .. }))

@@ -24,7 +24,8 @@ pub(super) struct ExportedAgent<'a> {
 }
 
 impl ExportedAgent<'_> {
-    /// What SUMO says where somebody is by: the middle of the front bumper, of a person its centre.
+    /// Distance from the centre to SUMO's reference point, metres: the middle of the front bumper, for a
+    /// person the centre.
     pub fn ahead_m(&self) -> f64 {
         if self.kind.person { 0.0 } else { self.shown.size.length_m / 2.0 }
     }
@@ -55,7 +56,7 @@ pub(super) fn steps(scene: &Scene, written: &[ExportedAgent<'_>]) -> usize {
 /// Writes the motion of a scene.
 ///
 /// # Errors
-/// `InvalidInput` for a scene in which nobody is seen.
+/// `InvalidInput` for a scene without any seen road user.
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let written = road_users(scene, options);
     if written.is_empty() {
@@ -109,7 +110,7 @@ fn row(user: &ExportedAgent<'_>, state: &State, out: &mut Markup) {
     );
 }
 
-/// What motion loses.
+/// Losses of the motion.
 pub(super) fn losses(scene: &Scene, options: &ExportOptions, written: &[ExportedAgent<'_>]) -> Vec<Loss> {
     let mut losses = Vec::new();
     losses.extend(unwritten::conditions(scene, options.motion));

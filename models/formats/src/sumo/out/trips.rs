@@ -1,4 +1,5 @@
-//! Where road users go in a network (`rou.xml`), for SUMO to drive them its own way: types, departures, edges.
+//! Routes of road users in a network (`rou.xml`), for SUMO to drive with its own models: types, departures,
+//! edges.
 
 use super::net::limit_mps;
 use super::network::{ExportedNetwork, LaneRole};
@@ -13,14 +14,14 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 const NEAR_M: f64 = 4.0;
 /// Lanes that lead elsewhere are not its own, radians.
 const ALONG_RAD: f64 = 1.0;
-/// What a lane beside that of the step before counts as farther away, and one elsewhere, metres.
+/// Extra distance of a lane adjacent to the previous step's lane, and of any other lane, metres.
 const CHANGED_M: (f64, f64) = (0.7, 2.0);
-/// Most edges between two on which somebody is seen.
+/// Most edges between two edges on which the road user is seen.
 const MOST_BETWEEN: usize = 6;
-/// Fastest that a type is said to be unless somebody is seen faster, m/s: motor vehicles, others.
+/// Default maximum speed of a type, m/s; raised if the road user is seen faster: motor vehicles, others.
 const FASTEST_MPS: (f64, f64) = (50.0, 14.0);
 
-/// Where somebody enters the network and goes.
+/// A road user's departure and route.
 struct Trip<'a> {
     user: &'a ExportedAgent<'a>,
     depart: usize,
@@ -89,7 +90,7 @@ fn write_trip(network: &ExportedNetwork<'_>, trip: &Trip<'_>, out: &mut Markup) 
     }
     let speed_mps = trip.state.speed_mps();
     let (lane, speed) = (index.to_string(), decimal(speed_mps));
-    // Nobody is put in faster than its factor allows.
+    // SUMO refuses a departure speed above the limit times the speed factor.
     let factor = (speed_mps / limit_mps(&network.map.lanes[trip.lane]).max(0.1) * 1.01).max(1.0);
     let factor = decimal(factor);
     out.open(
@@ -132,7 +133,7 @@ fn trip<'a>(
         }
         match edges.last() {
             None => edges.push(*edge),
-            // People on foot have the first pavement alone: how they get to another is SUMO's.
+            // Pedestrians get only their first sidewalk: SUMO chooses the way to the next.
             Some(_) if user.kind.person => break,
             Some(last) => match ways.between(*last, *edge) {
                 Some(more) => edges.extend(more),

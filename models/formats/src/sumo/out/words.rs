@@ -9,7 +9,7 @@ use scene::{AgentType, Size, Subtype};
 pub(super) struct VehicleType {
     /// Such as `car_4.5x1.8x1.5m`: length, width and height.
     pub id: String,
-    /// Whom SUMO lets where.
+    /// SUMO's vehicle class, which decides the lanes it may use.
     pub class: &'static str,
     /// Listed among persons.
     pub person: bool,

@@ -1,4 +1,4 @@
-//! Who gives way to whom at a junction.
+//! Right of way at a junction.
 
 use super::network::Link;
 use crate::joints::Crossings;
@@ -8,7 +8,7 @@ use scene::geometry::cross;
 /// Turning by this much more than another gives way to it, radians.
 const TURNS_MORE_RAD: f64 = 0.3;
 
-/// Links that cross a link, and those that go first.
+/// Links that cross a link, and which of them have priority.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LinkPriority {
     /// Links that cross or join it.
@@ -28,7 +28,8 @@ pub(super) fn letters(list: &[bool]) -> String {
     list.iter().rev().map(|set| if *set { '1' } else { '0' }).collect()
 }
 
-/// Of two links that meet one goes first: who has no stop sign, turns less, or comes from the right.
+/// Of two crossing links one has priority: the one without stop sign, with the smaller turn, or from the
+/// right.
 pub(super) fn rules(links: &[Link], lines: &[Vec<Vec2>]) -> Vec<LinkPriority> {
     let none = || vec![false; links.len()];
     let mut rules: Vec<LinkPriority> =
@@ -67,6 +68,6 @@ fn goes_first(a: &Link, b: &Link, lines: &[Vec<Vec2>]) -> bool {
         return more < 0.0;
     }
     let way = |lane: usize| lines[lane].last_chunk::<2>().map_or(Vec2::zeros(), |[p, q]| q - p);
-    // Whoever comes from the right drives to the left of the other.
+    // A road user from the right approaches towards the left of the other.
     cross(way(b.from), way(a.from)) >= 0.0
 }

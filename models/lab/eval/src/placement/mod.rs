@@ -21,16 +21,16 @@ use std::sync::Arc;
 
 /// Types that are judged.
 const TYPES: [AgentType; 3] = [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist];
-/// Farthest lane or neighbour that is told apart, metres.
+/// Distances to lanes and neighbours are capped at this, metres.
 const FAR_M: f64 = 50.0;
 /// Draws of scenes for the intervals.
 const RESAMPLES: u64 = 400;
-/// Who is slower than this counts among those that stand, m/s.
+/// Road users slower than this count as standing, m/s.
 const SLOW_MPS: f64 = 0.5;
 /// Corners farther off the road than this count as off it, metres.
 const OFF_ROAD_M: f64 = 0.3;
 
-/// How to judge.
+/// Options of the evaluation.
 #[derive(Clone, Copy, Debug)]
 pub struct EvalPlaceOptions {
     /// Region: a circle of this radius about the ego, metres.
@@ -45,7 +45,7 @@ impl Default for EvalPlaceOptions {
     }
 }
 
-/// What is measured of each road user.
+/// Measures of each road user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -91,7 +91,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// How far one distribution is from the log's.
+/// Distance of one distribution from the log's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DistributionDistance {
     /// Wasserstein-1, in the measure's unit.
@@ -220,7 +220,7 @@ fn of_scene(
     three[0].asked = logged.len();
     let mut request = PlaceRequest::new(Arc::new(Scene { agents: Vec::new(), ..scene.clone() }));
     (request.step, request.region, request.amount) = (step, region, Amount::Each(each));
-    // Some recorded cars stand nearer than two metres; what is asked of placement must not keep it from that.
+    // Some recorded cars stand closer than 2 m; the request must allow placement the same.
     request.min_gap_m = 1.0;
     for seed in 0..options.seeds {
         request.seed = seed;

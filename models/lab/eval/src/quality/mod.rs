@@ -1,5 +1,5 @@
-//! Table 1: how far futures are from what really happened, one road user at a time, nothing known of
-//! anybody's future but the goal that is stated.
+//! Table 1: distance of futures from the recorded motion, one road user at a time. The only known future is
+//! the stated goal.
 
 mod sheets;
 
@@ -81,7 +81,7 @@ impl AnswerSource {
 /// Below this speed recorded headings are noise, m/s.
 const TURNING_MPS: f64 = 0.5;
 
-/// What kind of motion the log shows.
+/// Manner of a logged motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Manner {
     turn_deg: f64,
@@ -162,7 +162,7 @@ pub struct Outcome {
     pub agent_type: AgentType,
     /// Condition.
     pub subset: Subset,
-    /// Who answered.
+    /// Method that answered.
     pub method: AnswerSource,
     /// Errors.
     pub measured: Measured,
@@ -187,7 +187,7 @@ pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Reque
     let mut request = Request::new(Arc::new(scene));
     request.agents = Some(BTreeSet::from([id.to_owned()]));
     request.seed = seed;
-    // What the others do is withheld; a guess at it must not be kept out of.
+    // The others' logs are withheld, so the answer must not avoid a guess at them.
     request.stages.background_in_the_way = false;
     if !refined {
         (request.steps, request.diversity) = (0, 0.0);
@@ -215,7 +215,7 @@ pub fn alone(
     Ok(sample.and_then(|mut s| s.agents.remove(id)).map(|futures| (futures, reported)))
 }
 
-/// Answers of everybody to all cases, in order of scenes, cases, conditions, methods.
+/// Answers of all methods to all cases, in order of scenes, cases, conditions, methods.
 ///
 /// # Errors
 /// When a generator fails.

@@ -134,7 +134,7 @@ impl<'a> Quality<'a> {
         self.boot.estimate(paired)
     }
 
-    /// The rival with the least mean, of those that answered every case.
+    /// The rival with the least mean, among rivals that answered every case.
     fn best_rival(&self, agent_type: AgentType, subset: Subset, value: ErrorOf) -> Option<AnswerSource> {
         let rivals = AnswerSource::rivals(self.entrants);
         let most = rivals.iter().map(|rival| self.of(agent_type, subset, *rival).count()).max()?;

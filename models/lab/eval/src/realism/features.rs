@@ -1,4 +1,4 @@
-//! What is looked at in a rollout: kinematics, others, road edges.
+//! Features of a rollout: kinematics, distances to others, road edges.
 
 use super::super::Site;
 use super::super::together::{Motions, STRIDE};
@@ -7,7 +7,7 @@ use scene::geometry::obb::{OrientedBox, circle_gap, signed_gap};
 use scene::geometry::ttc::time_to_collision;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, wrap_angle};
 
-/// Who is faster than this feels accelerations, m/s.
+/// Accelerations count only above this speed, m/s.
 const MOVING_MPS: f64 = 0.5;
 
 /// One histogram.
@@ -53,7 +53,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Least time to collision; `None` where it was not looked at.
+    /// Least time to collision; `None` if it was not evaluated.
     pub(super) fn time_to_collision_s(&self) -> Option<f64> {
         self.values[TIME_TO_COLLISION].iter().copied().reduce(f64::min)
     }

@@ -26,7 +26,7 @@ use scene::{Goal, HORIZON_STEPS};
 /// Rollouts of each scene.
 const ROLLOUTS: usize = 32;
 
-/// Who rolls out.
+/// Source of rollouts.
 #[derive(Clone, Copy)]
 enum Roller<'a> {
     Log,
@@ -68,7 +68,7 @@ impl Roller<'_> {
     }
 }
 
-/// Variations of the prior, everybody for itself; the first rollout of each is a variation too.
+/// Variations of the prior, independent for each road user; the first rollout of each is a variation too.
 fn noisy(site: &Site<'_>, goals: bool, seed: u64) -> Vec<Motions> {
     let mut out: Vec<Motions> = vec![vec![None; site.scene.agents.len()]; ROLLOUTS];
     for i in generated(site) {
@@ -88,7 +88,7 @@ fn noisy(site: &Site<'_>, goals: bool, seed: u64) -> Vec<Motions> {
     out
 }
 
-/// What one roller does in one scene.
+/// Measures of one source of rollouts in one scene.
 struct RolloutMeasures {
     site: usize,
     likelihoods: Likelihoods,
@@ -103,7 +103,7 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasur
     let rollouts = roller.rollouts(site, seed)?;
     let seen: Vec<Vec<Motion>> = rollouts.iter().map(|m| observe(site, &edges, m, &cases)).collect();
     let mut motions: [Vec<f64>; 3] = Default::default();
-    // A few rollouts say enough about distributions.
+    // A few rollouts suffice to compare distributions.
     for (case, motion) in seen.iter().take(4).flat_map(|rollout| site.cases.iter().zip(rollout)) {
         if case.agent_type == scene::AgentType::Vehicle {
             for (all, values) in motions.iter_mut().zip(motion.felt()) {
@@ -114,7 +114,7 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasur
     Ok(RolloutMeasures { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
 }
 
-/// How far the log is from rollouts of a scene: the composite likelihood, and the share of moving road users
+/// Distance of the log from rollouts of a scene: the composite likelihood, and the share of moving road users
 /// that come within `soon_s` of a collision, summed over rollouts with their count.
 pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (Option<f64>, (f64, f64)) {
     let edges = RoadEdges::new(&site.scene.map);

@@ -19,8 +19,8 @@ impl Hermite {
     }
 
     /// The curve to a target's position, met at its step. The velocity there follows the target's speed and
-    /// heading where they are fixed; a free end has no acceleration, and its direction alone is taken where
-    /// only the speed is fixed. `None` for a target without a position.
+    /// heading where they are fixed; a free end has no acceleration. If only the speed is fixed, it takes the
+    /// direction of such an end. `None` for a target without a position.
     pub fn to_target(from: (Vec2, Vec2), target: &Target) -> Option<Self> {
         let ((p0, v0), p1) = (from, target.position?);
         let seconds = target.step.max(1) as f64 * STEP_S;

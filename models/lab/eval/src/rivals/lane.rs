@@ -15,12 +15,12 @@ const BRAKING: f64 = 2.0;
 const TIME_GAP_S: f64 = 1.5;
 /// Wanted gap when standing, metres.
 const STANDING_GAP_M: f64 = 2.0;
-/// Nobody brakes harder, m/s2.
+/// Hardest braking, m/s2.
 const HARDEST: f64 = 8.0;
-/// A light that asks for more braking is driven through, m/s2.
+/// A light that requires more braking than this is driven through, m/s2.
 const TOO_LATE: f64 = 5.0;
 
-/// What is ahead: its bumper now, metres from the own front, and its speed, m/s.
+/// Obstacle ahead: gap from the own front to its bumper now, metres, and its speed, m/s.
 #[derive(Clone, Copy, Debug)]
 struct Ahead {
     gap_m: f64,
@@ -32,7 +32,7 @@ pub fn intelligent_driver(world: &World<'_>, agent: usize) -> Option<Vec<State>>
     let who = world.present.iter().find(|p| p.index == agent)?;
     let v0 = world.model(who).start_speed_mps();
     let graph = &world.graph;
-    // Someone who speeds up to the limit gets farther than the present speed says.
+    // The present speed underestimates the distance of a driver who accelerates to the limit.
     let length = route_length_m(v0.max(15.0));
     let route = best_route_ahead(graph, who.pose(), who.agent_type, length)?;
     let path = base_path(&route.path, who.pose(), v0, who.agent_type, None);

@@ -1,4 +1,4 @@
-//! Trained rivals: [`Baseline`]s asked as the experts are.
+//! Trained rivals: [`Baseline`]s with the same requests as the experts.
 
 use super::least_effort;
 use crate::together::{Motions, asked, generated, joint_goal};
@@ -24,9 +24,9 @@ pub fn learned(baseline: &Baseline, site: &Site<'_>, case: &Case, subset: Subset
     Ok(found.into_iter().next().unwrap_or_default())
 }
 
-/// Everybody in a whole scene by its most probable future, planned anew after every so many steps (1..=90) from the
-/// states reached by then, as the product is. A goal is left once its time has passed; who is of a type that the
-/// baseline does not know goes the way of least effort.
+/// Whole scene from each road user's most probable future, replanned every so many steps (1..=90) from the
+/// reached states, as the product is. A goal is dropped once its time has passed. Road users of a type that
+/// the baseline does not know take the path of least effort.
 ///
 /// # Errors
 /// When the tensor library fails.
@@ -54,7 +54,7 @@ pub fn replanned(baseline: &Baseline, site: &Site<'_>, goals: bool, every: usize
             };
             out[i].get_or_insert_default().extend(states.into_iter().take(steps));
         }
-        // Who is not generated stays where it was seen.
+        // Road users that are not generated stay where they were seen.
         for (agent, own) in scene.agents.iter_mut().zip(&out) {
             let reached = own.as_ref().and_then(|own| own.last().copied()).or(agent.state_at(from));
             agent.track = Track {
@@ -68,15 +68,15 @@ pub fn replanned(baseline: &Baseline, site: &Site<'_>, goals: bool, every: usize
     Ok(out)
 }
 
-/// Everybody's futures in a whole scene.
+/// Futures of all road users in a whole scene.
 pub struct Together<'a> {
     site: &'a Site<'a>,
     futures: Vec<(usize, Vec<Future>)>,
 }
 
 impl<'a> Together<'a> {
-    /// Asks for them, with or without the log's goals. Who is of a type that the baseline does not know goes
-    /// the way of least effort.
+    /// Generates them, with or without the log's goals. Road users of a type that the baseline does not know
+    /// take the path of least effort.
     ///
     /// # Errors
     /// When the tensor library fails.
@@ -95,12 +95,12 @@ impl<'a> Together<'a> {
         Ok(Self { site, futures: whom.into_iter().zip(futures).collect() })
     }
 
-    /// Everybody by its most probable future.
+    /// The most probable future of each road user.
     pub fn likeliest(&self) -> Motions {
         self.motions(|_, modes| modes.first())
     }
 
-    /// Everybody by a future drawn by its probability, each for itself.
+    /// A future of each road user, drawn independently by its probability.
     pub fn drawn(&self, seed: u64, rollout: usize) -> Motions {
         self.motions(|i, modes| {
             let id = &self.site.blind.agents[i].id;

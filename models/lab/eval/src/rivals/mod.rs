@@ -1,5 +1,4 @@
-//! Whom the experts are judged against: formulas, which are what can be had without any learning, and
-//! networks of others ([`learned`]).
+//! Rivals of the experts: formulas, the baseline without learning, and networks of others ([`learned`]).
 
 mod hermite;
 mod lane;

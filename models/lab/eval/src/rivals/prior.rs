@@ -20,8 +20,8 @@ pub fn least_effort(agent: &Agent, start: &State, goal: &Goal, goal_step: usize)
     projected(&model, &model.coasting(), goal, goal_step)
 }
 
-/// The prior, then `count` random variations: smooth noise on its knots, projected again. The stream of
-/// noise depends on the seed, the scene's name and the road user alone.
+/// The prior, then `count` random variations: smooth noise on its knots, projected again. The stream of noise
+/// depends only on the seed, the scene's name and the road user.
 pub fn varied(
     agent: &Agent,
     start: &State,

@@ -30,7 +30,7 @@ pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
     (1..=HORIZON_STEPS).map(state_at).collect()
 }
 
-/// Straight on, to a speed where one is asked for.
+/// Straight on, to the given speed if there is one.
 fn straight(start: &State, speed_mps: Option<f64>, goal_step: usize) -> Hermite {
     let (p0, v0) = (start.position(), start.velocity());
     let seconds = goal_step.max(1) as f64 * STEP_S;

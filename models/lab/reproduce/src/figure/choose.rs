@@ -4,20 +4,20 @@ use lab_eval::Site;
 use lab_eval::measure::{can_be_followed, following, mean_distance_m};
 use scene::{Agent, AgentType, HORIZON_STEPS, STANDING_MPS, Vec2, wrap_angle};
 
-/// What a panel shows.
+/// Subject of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Road users placed on an empty map.
     Creating,
     /// One end moved, the others answer.
     Editing,
-    /// A recording that nobody can have driven.
+    /// A recording with motion that is physically impossible.
     Correcting,
     /// Case (a): a left turn at an intersection.
     Left,
     /// Case (b): a right turn.
     Right,
-    /// Cases (c) and (d): somebody waits among pedestrians, and is told to go.
+    /// Cases (c) and (d): a vehicle waits among pedestrians, and then gets a goal that makes it go.
     Waiting,
 }
 
@@ -31,7 +31,7 @@ impl Role {
         self as usize
     }
 
-    /// How the ids of its panels begin.
+    /// Prefix of its panels' ids.
     pub fn id(self) -> &'static str {
         match self {
             Self::Creating => "creating",
@@ -43,7 +43,7 @@ impl Role {
         }
     }
 
-    /// What no scene may show.
+    /// Name of the role, for messages about missing scenes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Creating => "creating",
@@ -59,13 +59,13 @@ impl Role {
 /// A road user of a scene that shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// What.
+    /// Role of the panel.
     pub role: Role,
     /// Place of the scene in the list.
     pub case: usize,
     /// The more the better.
     pub score: f64,
-    /// Who; nobody for [`Role::Creating`].
+    /// Index of the road user; `None` for [`Role::Creating`].
     pub who: Option<usize>,
 }
 
@@ -73,11 +73,11 @@ pub struct Found {
 const TURN_DEG: std::ops::Range<f64> = 50.0..130.0;
 /// Below this speed a recorded heading is noise, m/s.
 const TURNING_MPS: f64 = 0.5;
-/// Whoever comes nearer than this to somebody's way within 3 s takes part in it, metres.
+/// Road users within this distance of another's path within 3 s take part in it, metres.
 const NEAR_M: f64 = 4.0;
-/// Pedestrians within this distance matter to who waits, metres.
+/// Pedestrians within this distance count for a waiting vehicle, metres.
 const AROUND_M: f64 = 30.0;
-/// Who leaves its place by less waits, metres.
+/// A vehicle that moves by less than this waits, metres.
 const WAITS_M: f64 = 1.0;
 
 /// All that a scene can show.
@@ -140,7 +140,7 @@ fn turn_deg(log: &Agent) -> f64 {
     moving.windows(2).map(|w| wrap_angle(w[1].heading_rad - w[0].heading_rad)).sum::<f64>().to_degrees()
 }
 
-/// How many on foot or on bicycles move around a vehicle that waits on a lane for all of the 9 s.
+/// Number of pedestrians and cyclists that move around a vehicle that waits on a lane for all of the 9 s.
 fn waits(site: &Site<'_>, agent: &Agent) -> Option<usize> {
     let start = agent.state_at(0)?;
     agent.state_at(HORIZON_STEPS)?;

@@ -1,4 +1,4 @@
-//! One panel: a scene, what is asked in it, and what is generated.
+//! One panel: a scene, its conditions, and the generated motion.
 
 use super::choose::{Found, Role};
 use anyhow::Result;
@@ -17,7 +17,7 @@ const CREATED: (usize, f64) = (28, 60.0);
 /// The paper's condition of case (d): metres ahead, and velocity along and across the heading.
 const AHEAD_M: f64 = 100.0;
 const VELOCITY_MPS: [f64; 2] = [20.0, -2.0];
-/// A picture's middle is at most so far from the start of whom it is about, metres.
+/// A picture's centre is at most this far from the start of its road user, metres.
 const MIDDLE_M: f64 = 45.0;
 /// An edited vehicle is to be where it was at this step only at the end.
 const EDITED_STEP: usize = 50;
@@ -29,18 +29,18 @@ pub struct Panel {
     pub id: String,
     /// Heading.
     pub title: String,
-    /// What was asked and what came of it.
+    /// Conditions and result, in words.
     pub words: String,
     /// Picture.
     pub svg: String,
 }
 
-/// What stands beside a picture before it is drawn.
+/// Caption of a picture that is not yet drawn.
 struct Caption<'a> {
     /// Name in the page.
     id: &'a str,
     title: &'a str,
-    /// What is asked.
+    /// Conditions, in words.
     words: &'a str,
 }
 
@@ -107,7 +107,7 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
     })
 }
 
-/// A map without anybody, then road users on it, then their motion.
+/// A map without road users, then placed road users, then their motion.
 fn creating(site: &Site<'_>, engine: &Engine, seed: u64) -> Result<Panel> {
     let mut scene = site.blind.clone();
     let middle = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego")).or(scene.agents.first());
@@ -138,7 +138,7 @@ fn creating(site: &Site<'_>, engine: &Engine, seed: u64) -> Result<Panel> {
     })
 }
 
-/// Everybody generated together without sight of the log.
+/// All road users generated together, without their logs.
 fn panel(
     caption: Caption<'_>,
     scene: &Scene,
@@ -154,7 +154,7 @@ fn panel(
     let reached = done.resolved.get(who).map(|r| outcome(r, scene, &sample, who)).unwrap_or_default();
     let mut drawn = log.clone();
     for (own, asked) in drawn.agents.iter_mut().zip(&scene.agents) {
-        // Rings for those who go somewhere; who stays would hide its box.
+        // Rings only for moving goals; the ring of a goal at the start would hide the box.
         let goal = asked.conditions.goal;
         let moves = |p: Vec2| own.state_at(0).is_some_and(|s| (p - s.position()).norm() > 2.0);
         if goal.position.is_some_and(moves) {
@@ -197,7 +197,7 @@ fn edited(
     })
 }
 
-/// Somewhat on the way to the end that is asked for, so that both can be seen.
+/// A point between the start and the requested end, so that both are visible.
 fn middle(scene: &Scene, who: &str) -> Vec2 {
     let agent = scene.agent(who);
     let start = agent.and_then(|a| a.state_at(0)).map_or(Vec2::zeros(), |s| s.position());
@@ -206,7 +206,7 @@ fn middle(scene: &Scene, who: &str) -> Vec2 {
     start + way * (0.5_f64).min(MIDDLE_M / way.norm().max(1e-6))
 }
 
-/// Shown futures alone.
+/// Only the shown futures.
 fn shown(sample: &Sample) -> BTreeMap<String, AgentFutures> {
     let one = |futures: &AgentFutures| {
         let mode = futures.modes.get(futures.chosen).cloned();
@@ -215,7 +215,7 @@ fn shown(sample: &Sample) -> BTreeMap<String, AgentFutures> {
     sample.agents.iter().map(|(id, futures)| (id.clone(), one(futures))).collect()
 }
 
-/// What came of the condition of the one whom the panel is about.
+/// Result of the condition on the panel's road user.
 fn outcome(resolved: &Resolved, scene: &Scene, sample: &Sample, who: &str) -> String {
     let end = sample.agents.get(who).and_then(|f| f.modes.get(f.chosen)).and_then(|m| m.states.last());
     let start = scene.agent(who).and_then(|a| a.state_at(0));
@@ -240,7 +240,7 @@ fn outcome(resolved: &Resolved, scene: &Scene, sample: &Sample, who: &str) -> St
     }
 }
 
-/// How many of the shown futures have a fault of a kind.
+/// Number of shown futures with each kind of fault.
 fn faults(sample: &Sample) -> String {
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
     for futures in sample.agents.values() {

@@ -4,7 +4,7 @@ use super::{Centre, SetCounts, SetOptions};
 use lab_train::scenes::{Crop, Cropped, stretch};
 use scene::{Agent, HORIZON_STEPS, Scene};
 
-/// A judged road user goes farther than this from its start, metres: who stands tells nothing.
+/// A judged road user moves farther than this from its start, metres: a standing one gives no information.
 const MOVES_M: f64 = 2.0;
 
 /// A square of one interval, with up to 9 s of the recording from its start.
@@ -14,11 +14,11 @@ pub struct Cut {
     pub scene: Scene,
     /// First step in the recording.
     pub start: usize,
-    /// Who is in the middle, where it is not the ego.
+    /// Id of the road user in the middle, unless it is the ego.
     pub middle: Option<String>,
     /// Road users that are learned from or judged, places in the scene.
     pub judged: Vec<usize>,
-    /// Others of their type who stand: some are learned from, nobody is judged.
+    /// Standing road users of the same type: some are learned from, none is judged.
     pub standing: Vec<usize>,
 }
 
@@ -28,7 +28,7 @@ impl Cut {
         self.scene.time.steps > HORIZON_STEPS
     }
 
-    /// The interval alone: what Table I is measured on.
+    /// Only the interval: Table I is measured on it.
     pub fn interval(&self, steps: usize) -> Scene {
         stretch(&self.scene, 0, steps)
     }
@@ -49,7 +49,7 @@ pub(super) fn cases(scene: &Scene, centre: Centre, options: &SetOptions, counts:
     out
 }
 
-/// The squares of one interval, or that about one road user alone.
+/// The squares of one interval, or only the square about one road user.
 pub(super) fn cases_at(
     scene: &Scene,
     centre: Centre,
@@ -131,7 +131,7 @@ mod tests {
         // 20 s: three whole intervals of 6 s, and 2 s are left.
         assert_eq!(cut.iter().map(|c| c.start).collect::<Vec<_>>(), [0, 60, 120]);
         assert_eq!((counts.squares, counts.too_few, counts.nobody), (3, 0, 0));
-        // Who is 90 m ahead is outside, who is not there at the end is not judged, nor is who stands.
+        // The road user 90 m ahead is outside; one missing at the end is not judged, nor is a standing one.
         let judged = |cut: &Cut| -> Vec<String> {
             cut.judged.iter().map(|i| cut.scene.agents[*i].id.clone()).collect()
         };

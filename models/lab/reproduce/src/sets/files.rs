@@ -17,22 +17,22 @@ use std::path::{Path, PathBuf};
 
 /// Files worked on at a time.
 const CHUNK: usize = 16;
-/// Of those who move, so many who stand are learned from beside them.
+/// Standing road users learned from, as a share of the moving ones.
 const STANDING_SHARE: f64 = 0.25;
-/// Ends that nothing is asked of are drawn apart from the others.
+/// Name of the set without conditions; its road users are drawn separately.
 const FREE: &str = "vehicle-free";
 
-/// Where the records of a set lie below a folder.
+/// Path of a set's records below a folder.
 pub fn records_path(folder: &Path, centre: Centre) -> PathBuf {
     folder.join(format!("records/{}.records", centre.expert()))
 }
 
-/// Where those of vehicles without conditions lie.
+/// Path of the records of vehicles without conditions.
 pub fn free_records_path(folder: &Path) -> PathBuf {
     folder.join(format!("records/{FREE}.records"))
 }
 
-/// What one file came to.
+/// Counts of one file.
 #[derive(Default)]
 struct OfFile {
     scenes: usize,
@@ -47,7 +47,7 @@ struct OfFile {
     free: Vec<CaseRecords>,
 }
 
-/// Reads all files; writes the records and says what there is. Places of `test` are never learned from.
+/// Reads all files; writes the records and returns the sets. Places of `test` are never learned from.
 ///
 /// # Errors
 /// When nothing can be read, records cannot be written, or the run is stopped.
@@ -113,7 +113,7 @@ pub fn make(
     Ok(out)
 }
 
-/// What the place of a scene is for; `None` where it may not be learned from.
+/// Share of a scene's place; `None` if it may not be learned from.
 fn share(scene: &Scene, part: Part, data: &Data, tests: &BTreeSet<u64>) -> (u64, Option<Share>) {
     let key = place_key(scene);
     let share = match part {
@@ -178,8 +178,8 @@ fn test_case(cut: &Cut, centre: Centre, file: (Part, usize), scene: usize) -> Te
     }
 }
 
-/// Whom a case teaches: at most so many who move, drawn, and a quarter as many who stand, so that whole scenes can be
-/// generated too.
+/// Road users of a case to learn from: a bounded, random number of moving ones and a quarter as many standing
+/// ones, so that whole scenes can be generated too.
 fn chosen(cut: &Cut, options: &SetOptions) -> Vec<usize> {
     let middle = cut.middle.as_deref().unwrap_or_default();
     let key = Key::default().number(options.seed).words(&["chosen", &cut.scene.name, middle]);
@@ -263,8 +263,8 @@ fn again(scene: &Scene, case: &TestCase, options: &SetOptions) -> Result<Cut> {
     })
 }
 
-/// The most interactive scenes of a set, at most so many: one of each interval, each known for the whole 9 s, with
-/// somebody of another type who comes near the same place in time.
+/// The most interactive scenes of a set, at most so many: one of each interval, each known for the whole 9 s,
+/// with a road user of another type near the same place at the same time.
 pub fn interactive(sets: &Sets, centre: Centre, most: usize) -> Vec<TestCase> {
     let mut best: BTreeMap<_, (Interest, &TestCase)> = BTreeMap::new();
     for case in sets.tests.iter().filter(|case| case.centre == centre) {

@@ -7,11 +7,11 @@ use scene::{Agent, AgentType, HORIZON_STEPS, Scene, Vec2};
 const PLACE_M: f64 = 2.5;
 /// Within this many steps of each other.
 const APART_STEPS: usize = 30;
-/// A scene where nobody comes nearer than this is not interactive, metres.
+/// A scene is interactive only if a pair comes closer than this, metres.
 pub(super) const INTERACTIVE_M: f64 = 10.0;
-/// Who goes no farther than this takes part in nothing, metres.
+/// A road user that moves no farther than this counts in no encounter, metres.
 const MOVES_M: f64 = 2.0;
-/// Every other step is looked at.
+/// Every other step is checked.
 const STRIDE: usize = 2;
 
 /// Of pairs of a road user of this type and one of another type that both move, in the first 9 s of the log: how many

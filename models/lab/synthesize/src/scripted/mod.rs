@@ -1,6 +1,7 @@
-//! What SUMO's drivers and walkers never do: pulling out of parking places and driveways, parking, turning
-//! back in mid-block, and crossing the road away from crosswalks. Each is driven along a path of its own, cleaned like the rest,
-//! and kept only where it comes near nobody, since the simulated ones do not know of it.
+//! Manoeuvres that SUMO's drivers and pedestrians never do: pulling out of parking places and driveways,
+//! parking, turning back in mid-block, and crossing away from crosswalks. Each follows its own path, is
+//! cleaned like the rest, and is kept only if it stays clear of all others, because the simulated ones do not
+//! react to it.
 
 mod turning;
 
@@ -19,13 +20,13 @@ use scene::random::Stream;
 use scene::{AgentType, State, Vec2, wrap_angle};
 use std::ops::Range;
 
-/// Share of parked cars that try to leave, and of free places that somebody tries to take.
+/// Share of parked cars that try to leave, and of free places that a car tries to take.
 const LEAVING: f64 = 0.10;
 /// Expected number of cars that try to turn back.
 const TURNING_BACK: f64 = 6.0;
-/// Distance that scripted cars keep from everybody, metres.
+/// Distance that scripted cars keep from all others, metres.
 const CLEAR_M: f64 = 0.8;
-/// The same for people who cross.
+/// The same for crossing pedestrians.
 const WALK_CLEAR_M: f64 = 1.5;
 /// Sharpest bend of a manoeuvre, 1/m.
 const SHARPEST: f64 = 0.20;
@@ -77,7 +78,7 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<SimulatedAgent>, draw: &mu
     }
 }
 
-/// Whether a track keeps its distance from all others, but `own`, for as long as it moves.
+/// Whether a track keeps its distance from all others except `own`, for as long as it moves.
 fn free(
     track: &Cleaned,
     own: Option<usize>,
@@ -159,7 +160,7 @@ impl<'a> Lanes<'a> {
 
     /// The traffic lane beside a parked car: its index and the arc length of the foot.
     fn beside(&self, place: Vec2, heading_rad: f64) -> Option<(usize, f64)> {
-        // Only those that face the lane's way, more or less.
+        // Only places that roughly face the lane's direction.
         let fits = |p: &&LanePlace| {
             (p.position - place).norm() < 11.0 && wrap_angle(p.heading_rad - heading_rad).abs() < 1.75
         };
@@ -189,7 +190,7 @@ impl<'a> Lanes<'a> {
         line
     }
 
-    /// The centre line that leads to a lane's arc length, on this lane alone.
+    /// The centre line that leads to a lane's arc length, only on this lane.
     fn towards(&self, lane: usize, to: f64) -> Vec<Vec2> {
         part(&self.net.lanes[lane].shape, (to - ALONG_M).max(0.0), to)
     }
@@ -220,7 +221,7 @@ impl<'a> Lanes<'a> {
         Some(record(&path, state.heading_rad, start, &speeds, 0.0))
     }
 
-    /// Along the lane, then into the place where the car is parked (parallel to the road alone).
+    /// Along the lane, then into the parking place; only for places parallel to the road.
     fn arriving(&self, car: &SimulatedAgent, draw: &mut Stream) -> Option<FcdTrack> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
@@ -339,7 +340,7 @@ fn progress(path: &[Vec2], next: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     out
 }
 
-/// A recording of somebody who comes from elsewhere: nothing is known of it before `start_s`.
+/// A recording of a road user that enters: its states before `start_s` are removed.
 fn entering(record: &FcdTrack, start_s: f64) -> Option<FcdTrack> {
     let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start_s)?;
     Some(cut(record, first..record.times_s.len()))

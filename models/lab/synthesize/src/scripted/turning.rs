@@ -27,7 +27,7 @@ impl Lanes<'_> {
         let to = self.opposite(from, draw)?;
         let before = self.towards(from.lane, from.s_m);
         let approach = length(&before);
-        // A cubic whose handles are the width long is nearly half a circle.
+        // A cubic with handles as long as the width is nearly a semicircle.
         let reach = 2.0 * (to.position - from.position).norm();
         let turn = cubic(from.position, from.heading_rad, to.position, to.heading_rad, reach);
         if approach < 20.0 || sharpest(&turn) > SHARPEST {

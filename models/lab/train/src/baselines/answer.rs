@@ -142,7 +142,8 @@ impl Baseline {
         Ok(out)
     }
 
-    /// Noise of all refinement steps, each road user's its own: who is asked beside it changes nothing.
+    /// Noise of all refinement steps, independent for each road user: other road users in the request do not
+    /// change it.
     fn fresh<'a>(
         &self,
         ids: impl Iterator<Item = &'a str>,

@@ -6,7 +6,7 @@ use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State, Vec2};
 
 use super::sight::Points;
 
-/// Below this speed the curve's direction says nothing about the heading, m/s.
+/// Below this speed the curve's direction does not determine the heading, m/s.
 const SLOW_MPS: f64 = 0.5;
 const KEPT_M: f64 = 1.0;
 

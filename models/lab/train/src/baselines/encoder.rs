@@ -1,5 +1,5 @@
-//! What a road user sees, by multi-context gating (Varadarajan et al., "MultiPath++", 2021). The regressor has one such
-//! encoder, and the paper's denoiser another of its own.
+//! Encoder of a road user's surroundings, by multi-context gating (Varadarajan et al., "MultiPath++", 2021).
+//! The regressor has one such encoder, and the paper's denoiser has its own.
 
 use candle_core::{Device, Result, Tensor};
 use experts::features::{AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, OWN_CONDITION, OWN_GOAL_VALUES};
@@ -23,7 +23,7 @@ pub(super) struct Sight {
     inputs: InputTensors,
     /// Of pieces and neighbours, [batch, PIECES + NEIGHBOURS].
     mask: Tensor,
-    /// [batch, CONDITION]; `None` for who is not shown any.
+    /// [batch, CONDITION]; `None` for networks without a condition.
     condition: Option<Tensor>,
 }
 
@@ -65,7 +65,7 @@ fn condition(agent: &AgentFeatures) -> [f32; CONDITION] {
     [ahead, left, speed * way, speed * sin, cos, sin, length, width]
 }
 
-/// What a batch of road users sees.
+/// Encoding of a batch of road users.
 pub(super) struct EncodedBatch {
     /// [batch, width]
     pub(super) vector: Tensor,
@@ -112,7 +112,7 @@ pub(super) struct Encoder {
     own: Mlp,
     piece: Mlp,
     neighbour: Mlp,
-    /// The paper's MLP of the condition, whose output stands beside those of state and lanes.
+    /// The paper's MLP of the condition; its output joins those of state and lanes.
     condition: Option<Mlp>,
     gating: Gating,
     mix: Mlp,

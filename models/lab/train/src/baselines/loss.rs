@@ -12,7 +12,7 @@ const LOSERS: f32 = 0.01;
 /// Mean square above which a losing mode is not pulled, units squared.
 const FAR: f32 = 100.0;
 
-/// How six futures fare.
+/// Errors of six futures.
 pub(super) struct Fared {
     /// Mean distances, metres.
     pub(super) ade: [f32; MODES],

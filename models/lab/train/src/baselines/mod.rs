@@ -1,14 +1,15 @@
-//! Learned rivals of the experts, trained on the same records with the same machinery and as many steps:
-//! what others' networks bring where the experts have lanes, control space and projection.
+//! Learned rivals of the experts, trained on the same records with the same machinery and as many steps. They
+//! show what other networks achieve without the experts' lanes, control space and projection.
 //!
-//! * [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road users to
-//!   six futures as points, squared error of the best one and likelihood of its index. Vehicles alone,
-//!   nothing is asked of them.
+//! * [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road
+//!   users to six futures as points, squared error of the best one and likelihood of its index. Vehicles
+//!   only, without conditions.
 //! * [`BaselineKind::TrafficGenConditional`]: one such network for all types, which sees the condition.
-//! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type, and a
-//!   conditional diffusion model that refines its futures: a context encoder of its own and a one-dimensional U-Net over
-//!   the points, five leapfrog steps from the fifth level of noise of a hundred. It is trained as there: the denoiser
-//!   alone, then the initializer with the denoiser and its encoder frozen, then both.
+//! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type,
+//!   and a conditional diffusion model that refines its futures: a context encoder of its own and a
+//!   one-dimensional U-Net over the points, five leapfrog steps from the fifth level of noise of a hundred.
+//!   It is trained as in the paper: only the denoiser, then the initializer with the denoiser and its encoder
+//!   frozen, then both.
 //!
 //! All see the road user itself, map pieces and neighbours as the experts do, but no routes. The condition (position,
 //! velocity and heading at the end, and the box) goes through an MLP of its own. A future is 18
@@ -44,7 +45,7 @@ use unet::Unet;
 /// The one member of a file's metadata.
 const HEADER: &str = "dragtraffic-baseline";
 
-/// Whose method.
+/// Method of a baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -67,7 +68,7 @@ impl BaselineKind {
         self != Self::TrafficGen
     }
 
-    /// Whose records it learns from, where the method says so.
+    /// Expert of the records that it learns from, if the method names one.
     pub fn expert(self) -> Option<&'static str> {
         match self {
             Self::TrafficGen => Some("vehicle"),
@@ -77,11 +78,11 @@ impl BaselineKind {
     }
 }
 
-/// What a baseline's networks are.
+/// Shape of a baseline's networks.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Whose method.
+    /// Method.
     pub kind: BaselineKind,
     /// Widths and counts, as the experts have them.
     pub sizes: Architecture,
@@ -173,7 +174,7 @@ impl Networks {
             .map_err(|error| NetError::Format(error.to_string()))
     }
 
-    /// Where its tensors are.
+    /// Device of its tensors.
     fn device(&self) -> &Device {
         self.tensors.values().next().map_or(&Device::Cpu, Tensor::device)
     }

@@ -12,7 +12,7 @@ use super::encoder::{EncodedBatch, Encoder, Sight};
 pub(super) const NUMBERS: usize = 2 * INSTANTS;
 /// Gating blocks over the six queries.
 const QUERY_BLOCKS: usize = 3;
-/// A coordinate grows with time by this when the last layer says 1, m/s.
+/// Growth of a coordinate per second when the last layer outputs 1, m/s.
 const SPREAD_MPS: f64 = 8.0;
 
 /// Six futures of a batch.

@@ -1,4 +1,4 @@
-//! What a baseline may see, and where the recording went.
+//! Inputs of a baseline, and the recorded future.
 
 use experts::features::AgentFeatures;
 use experts::features::{NEIGHBOUR_GOAL, OWN_GOAL, OWN_GOAL_POSITION};
@@ -15,12 +15,12 @@ pub(super) fn forget_goals(features: &mut AgentFeatures) {
     features.neighbours.iter_mut().for_each(|other| other[NEIGHBOUR_GOAL].fill(0.0));
 }
 
-/// Whether a goal's position is fixed, so that map pieces near it are seen.
+/// Whether a goal's position is fixed, in which case map pieces near it are seen.
 pub(super) fn asks_for_a_place(features: &AgentFeatures) -> bool {
     features.own[OWN_GOAL_POSITION] > 0.0
 }
 
-/// Where the road user really was.
+/// The recorded future.
 pub(super) struct Truth {
     pub(super) points: Points,
     /// 1 where the recording is valid, else 0.

@@ -165,7 +165,7 @@ fn pulled(
     seeded(&futures.points, flat(&pulls))? + seeded(&futures.score, nudges.as_flattened().to_vec())?
 }
 
-/// Least mean distance of six futures, as a figure alone.
+/// Least mean distance of six futures, only as a figure.
 fn nearest(futures: &Regressed, truths: &[Truth], name: &'static str, metrics: &mut Metrics) -> Result<()> {
     for (truth, futures) in truths.iter().zip(points(&futures.points)?) {
         metrics.add(name, loss::squared(truth, &futures).ade.into_iter().fold(f32::INFINITY, f32::min));
@@ -187,8 +187,8 @@ pub(super) fn fresh(rng: &mut Stream, batch: usize, device: &Device) -> Result<V
     (0..STEPS).map(|_| draw()).collect()
 }
 
-/// The paper's L_NE: the noise in the recording is to be told. All modes are the recording, each with noise of its
-/// own.
+/// The paper's L_NE: the network predicts the noise in the recording. All modes are the recording, each with
+/// its own noise.
 fn estimation(
     refiner: &Unet,
     seen: &Context,

@@ -125,7 +125,7 @@ fn recordings_are_where_they_were() {
     }
 }
 
-/// Seeded scenes whose road users all have a condition.
+/// Seeded scenes with a condition for every road user.
 fn asked_scenes(count: usize) -> Vec<toy::ToyScene> {
     let mut scenes = toy::scenes(count, 8, 7);
     for record in scenes.iter_mut().flat_map(|(.., records)| records) {

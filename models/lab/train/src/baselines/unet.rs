@@ -66,7 +66,7 @@ impl ResidualBlock {
     }
 }
 
-/// What the denoiser's own encoder says of a batch.
+/// Encoding of a batch by the denoiser's own encoder.
 pub(super) struct Context {
     /// [batch, width]
     pub(super) vector: Tensor,
@@ -188,7 +188,7 @@ impl Unet {
     }
 }
 
-/// What one step multiplies: `(x - noise * e) * scale + fresh * z`.
+/// Factors of one step: `(x - noise * e) * scale + fresh * z`.
 #[derive(Clone, Copy, Debug)]
 struct Update {
     scale: f64,

@@ -72,7 +72,7 @@ impl CaseRecords {
         out
     }
 
-    /// How many.
+    /// Number of records.
     pub fn count(&self) -> usize {
         self.records.len()
     }
@@ -90,7 +90,7 @@ impl CaseRecords {
     }
 }
 
-/// The whole state at a step of the recording as a goal; free for who is not known long enough.
+/// The whole state at a step of the recording as a goal; free if the track is too short.
 fn end(draw: &mut Stream, agent: &Agent, step: usize) -> Goal {
     let known: Vec<usize> =
         agent.track.valid_steps().filter(|s| (EARLIEST..=HORIZON_STEPS).contains(s)).collect();

@@ -23,12 +23,12 @@ impl Draws {
         Self(Key::default().number(seed).text(name).stream())
     }
 
-    /// Who of these is looked at first.
+    /// Order in which the agents are considered.
     pub(super) fn shuffle(&mut self, agents: &mut [usize]) {
         self.0.shuffle(agents);
     }
 
-    /// Whether somebody who stands is taken.
+    /// Whether a standing road user is taken.
     pub(super) fn takes(&mut self, share: f64) -> bool {
         self.0.chance(share)
     }

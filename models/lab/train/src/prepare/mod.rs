@@ -25,14 +25,14 @@ use scene::{AgentType, HORIZON_STEPS, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What to prepare.
+/// Options of a preparation.
 #[derive(Clone, Debug)]
 pub struct PrepareOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
     /// File of records to write.
     pub out: PathBuf,
-    /// Whose expert.
+    /// Agent type of the expert.
     pub agent_type: AgentType,
     /// Draws conditions and road users.
     pub seed: u64,
@@ -130,7 +130,7 @@ fn file_records(path: &Path, options: &PrepareOptions) -> Vec<SceneRecords> {
     scenes.into_iter().flat_map(images).map(|scene| cropped_records(scene, options)).collect()
 }
 
-/// Records of the part of a scene that is asked for.
+/// Records of a scene after the crop.
 fn cropped_records(scene: Scene, options: &PrepareOptions) -> SceneRecords {
     let mut out = SceneRecords::new(&scene);
     match options.crop.apply(scene) {

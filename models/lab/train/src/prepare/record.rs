@@ -1,4 +1,4 @@
-//! One road user's record: features from the start alone, targets from the recording.
+//! One road user's record: features only from the start, targets from the recording.
 
 use crate::polylines::Polylines;
 use crate::training::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
@@ -77,7 +77,7 @@ fn path(anchor: &Anchor, who: &AgentAtStart) -> AnchorPath {
     AnchorPath { start: 0.0, points: (0..count).map(local).collect() }
 }
 
-/// Recorded boxes of those who come nearest.
+/// Recorded boxes of the road users that come nearest.
 fn boxes(world: &World<'_>, who: &AgentAtStart, agent: &Agent) -> Vec<LoggedBox> {
     let instants = || (1..=INSTANTS).map(|i| world.step + i * PER_INSTANT);
     let mut order: Vec<(f64, &AgentAtStart)> = world

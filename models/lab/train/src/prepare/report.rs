@@ -1,14 +1,15 @@
-//! What was prepared: counts, what was left out and why, the split, and how well residuals follow recordings.
+//! Report of a preparation: counts, exclusions with reasons, the split, and the fit of residuals to
+//! recordings.
 
 use crate::quantile;
 use crate::training::is_held_out;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// What was prepared and what was left out.
+/// Counts of records and of exclusions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PrepareReport {
-    /// Files looked at.
+    /// Files read.
     pub files: usize,
     /// Scenes read from them.
     pub scenes: usize,
@@ -18,27 +19,27 @@ pub struct PrepareReport {
     pub used: usize,
     /// Records written.
     pub records: u64,
-    /// What was left out and why.
+    /// Exclusions by reason.
     pub left_out: LeftOut,
-    /// What training holds out of what was written.
+    /// Share of the records that training holds out.
     pub split: PlaceSplit,
-    /// How far recordings are from the nearest residual.
+    /// Distance of recordings from the nearest residual.
     pub fit: Fit,
     /// BLAKE3 of the whole file of records, in hex; empty while it is being written.
     pub blake3: String,
 }
 
-/// What was left out and why. Of every scene, [`PrepareReport::used`] and the counts of road users here add up to
+/// Exclusions by reason. Of every scene, [`PrepareReport::used`] and the counts of road users here add up to
 /// [`PrepareReport::road_users`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Files that cannot be opened, that no format reads, or that hold no scene.
     pub unreadable_files: usize,
-    /// Scenes with fewer road users than asked for.
+    /// Scenes with too few road users.
     pub scenes_with_too_few: usize,
     /// Road users of those scenes.
     pub in_scenes_with_too_few: usize,
-    /// Road users outside the square, or not there at the first step when a square was asked for.
+    /// Road users outside the square, or absent at the first step if a square is set.
     pub outside_the_crop: usize,
     /// Road users of another type than the expert's.
     pub wrong_type: usize,
@@ -46,11 +47,11 @@ pub struct LeftOut {
     pub absent_at_the_start: usize,
     /// Those known at fewer than 30 of the 90 steps after the first.
     pub too_short: usize,
-    /// Those that stand and were not drawn to stand for others.
+    /// Standing road users that were not drawn.
     pub standing: usize,
-    /// Those not looked at because the scene has its share.
+    /// Road users skipped because the scene has its share.
     pub over_the_scenes_limit: usize,
-    /// Those whose records were more than were asked for in all.
+    /// Road users beyond the limit of records in all.
     pub over_the_files_limit: usize,
 }
 
@@ -70,8 +71,8 @@ impl LeftOut {
     }
 }
 
-/// How what was written is split by place: scenes of one place go to one side. Training may look at fewer of
-/// those held out, never at others.
+/// Split of the records by place: all scenes of a place go to one side. Training may use fewer of the
+/// held-out ones, never others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct PlaceSplit {
     /// Places with records.

@@ -4,8 +4,8 @@ use scene::geometry::rotate;
 use scene::{AgentType, Scene};
 use serde::Serialize;
 
-/// Which road users of a scene count. The map stays whole, so that who drives out of the square still has
-/// lanes to drive on.
+/// Selection of a scene's road users. The map stays whole, so that a road user that leaves the square still
+/// has lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Crop {
     /// Side of the square, metres: its middle is the ego, its sides lie along and across the ego's heading
@@ -20,7 +20,7 @@ pub struct Crop {
 pub enum Cropped {
     /// The scene with the road users that count, and how many were taken out.
     Kept(Box<Scene>, usize),
-    /// Fewer road users than asked for: this many would have been left.
+    /// Too few road users; this many would remain.
     TooFew(usize),
 }
 
@@ -28,7 +28,7 @@ impl Crop {
     /// The paper's: 120 m square, at least 32 road users.
     pub const PAPER: Self = Self { side_m: Some(120.0), least_agents: 32 };
 
-    /// Takes out who is not in the square at the first step.
+    /// Removes road users outside the square at the first step.
     pub fn apply(&self, scene: Scene) -> Cropped {
         self.about(scene, None)
     }

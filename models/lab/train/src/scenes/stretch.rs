@@ -2,8 +2,8 @@
 
 use scene::{Conditions, Scene, SignalState, Track};
 
-/// The steps `first ..= first + steps` of a scene, as far as it has them, counted anew from 0. Nothing of what was
-/// fixed or generated stays; who is never seen in the stretch is left out.
+/// The steps `first ..= first + steps` of a scene, as far as it has them, renumbered from 0. Conditions and
+/// generated futures are dropped, and so are road users that are never seen in the stretch.
 pub fn stretch(scene: &Scene, first: usize, steps: usize) -> Scene {
     let last = (first + steps).min(scene.time.steps.saturating_sub(1)).max(first);
     let mut out = scene.clone();
@@ -24,7 +24,7 @@ pub fn stretch(scene: &Scene, first: usize, steps: usize) -> Scene {
         let at_first = signal.at(first);
         let later = signal.runs.iter().filter(|(step, _)| (first + 1..=last).contains(step));
         let later: Vec<(usize, SignalState)> = later.map(|(step, state)| (step - first, *state)).collect();
-        // What shows at the first step began earlier; how long ago is not told in a stretch.
+        // The state at the first step began earlier; a stretch does not store when.
         signal.runs = std::iter::once((0, at_first)).chain(later).collect();
     }
     out

@@ -77,7 +77,7 @@ pub(super) struct Resumed<T: Trainee> {
     pub(super) adam: AdamW,
 }
 
-/// Reads a run; its networks come to be where `device` says, wherever they were before.
+/// Reads a run; its networks go to `device`, wherever they were before.
 pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T>, TrainError> {
     let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
     let damaged = |reason: String| TrainError::damaged(path, reason);

@@ -1,4 +1,4 @@
-//! What can go wrong in training.
+//! Errors of training.
 
 use std::path::{Path, PathBuf};
 
@@ -18,13 +18,13 @@ pub enum TrainError {
     Damaged {
         /// File.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// Value found and value expected.
         reason: String,
     },
     /// TrainOptions or data that do not make sense together.
     #[error("{0}")]
     Invalid(String),
-    /// Somebody asked the run to end; its checkpoint is kept.
+    /// A stop was requested; the run's checkpoint is kept.
     #[error("stopped after step {step}; --resume goes on from there")]
     Stopped {
         /// Steps done.

@@ -40,7 +40,7 @@ pub(super) fn recorded(
     residual
 }
 
-/// How far recordings are from their best residual: what no training can mend.
+/// Distance of recordings from their best residual: the error that no training can remove.
 pub struct FitError(ResidualBasis);
 
 impl FitError {

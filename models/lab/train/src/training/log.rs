@@ -1,4 +1,4 @@
-//! What a run reported, as a file of JSON lines and as curves.
+//! Log of a run, as a file of JSON lines and as curves.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -45,7 +45,7 @@ impl Log {
                 .map_err(|e| TrainError::damaged(&path, format!("line {}: {e}", number + 1)))?;
             log.lines.push(line);
         }
-        // What came after the checkpoint is done again.
+        // Steps after the checkpoint are repeated.
         log.lines.retain(|line| line.step <= step);
         Ok(log)
     }
@@ -56,7 +56,7 @@ impl Log {
         path.into()
     }
 
-    /// Keeps a line; after a validation both files are written anew.
+    /// Keeps a line; after a validation both files are rewritten.
     pub(super) fn add(&mut self, progress: &TrainProgress) -> Result<(), TrainError> {
         let means = |metrics: &super::Metrics| metrics.means().map(|(n, v)| (n.to_owned(), v)).collect();
         let line = match progress {
@@ -84,7 +84,7 @@ impl Log {
         metrics.mean(name).is_some_and(|now| now < before)
     }
 
-    /// Both files anew, with all lines so far.
+    /// Rewrites both files with all lines so far.
     pub(super) fn write(&self) -> Result<(), TrainError> {
         let path = self.beside(".jsonl");
         let mut text = String::new();

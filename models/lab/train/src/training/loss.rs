@@ -10,13 +10,13 @@ use super::route::ResidualBasis;
 
 /// Added under the root of a distance, square metres.
 const ROUND: f32 = 0.01;
-/// How much the first mode is pulled to the recording, won or lost, where a goal's position is fixed: there it is
-/// the middle of what may happen, and the answer to be shown.
+/// Weight of the first mode's pull to the recording, won or lost, if a goal's position is fixed. With such a
+/// goal the first mode is the mean future and the default answer.
 const MIDDLE: f32 = 0.3;
 /// Mean distance above which a losing mode is not pulled, metres.
 const FAR: f32 = 60.0;
 
-/// What the initializer gives for one road user.
+/// Output of the initializer for one road user.
 #[derive(Clone, Debug)]
 pub(super) struct AgentOutput {
     pub(super) residual: [[f32; RESIDUAL]; MODES],
@@ -142,8 +142,8 @@ pub(super) fn initial(
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
 }
 
-/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores say how
-/// often each mode comes nearest. Which answer to show is another question: the choice asks for the least
+/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores
+/// estimate how often each mode comes nearest. The choice of the shown answer is separate: it takes the least
 /// expected distance.
 pub(crate) fn index(score: &[f32; MODES], best: usize) -> (f32, [f32; MODES]) {
     let given = softmax(score);

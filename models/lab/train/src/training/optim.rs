@@ -1,4 +1,4 @@
-//! AdamW (Loshchilov and Hutter, 2019) whose moments can be saved, with a running mean of the weights.
+//! AdamW (Loshchilov and Hutter, 2019) with moments that can be saved, and a running mean of the weights.
 
 use std::collections::BTreeMap;
 
@@ -35,7 +35,7 @@ pub(super) struct AdamW {
 }
 
 impl AdamW {
-    /// At rest; `share` says with which share of the rate a parameter learns.
+    /// At rest; `share` is the share of the rate with which a parameter learns.
     pub(super) fn new(vars: &BTreeMap<String, Var>, share: impl Fn(&str) -> f64) -> Result<Self, TrainError> {
         let mut moments = BTreeMap::new();
         for (name, var) in vars {

@@ -1,10 +1,10 @@
-//! What computes the networks of a training run.
+//! Device that computes the networks of a training run.
 
 use candle_core::{DType, Device, Result, Tensor};
 
 use super::TrainError;
 
-/// What computes the networks. Records, losses and the optimiser stay on the CPU.
+/// Device that computes the networks. Records, losses and the optimiser stay on the CPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Processor {
@@ -28,7 +28,7 @@ impl Processor {
     }
 }
 
-/// The first graphics card. It is tried, so that a driver too old for our kernels is told of at once.
+/// The first graphics card. One test operation reports a driver that is too old for the kernels at once.
 fn first_card() -> Result<Device> {
     let device = Device::new_cuda(0)?;
     (Tensor::zeros(1, DType::F32, &device)? + 1.0)?.to_vec1::<f32>()?;

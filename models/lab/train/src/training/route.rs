@@ -28,7 +28,7 @@ impl ResidualBasis {
         if half == 0 { &self.along } else { &self.across }
     }
 
-    /// Where a residual of a mode is at the instants.
+    /// Coordinates of a mode's residual at the instants.
     pub(super) fn coordinates(
         &self,
         base_along: &[f32; INSTANTS],

@@ -30,15 +30,15 @@ const REPORT: u64 = 100;
 /// Records held out that are used at most.
 const HELD_OUT: usize = 2048;
 
-/// What to train on, how, and where to put the result.
+/// Options of a training.
 #[derive(Clone, Debug)]
 pub struct TrainOptions<A = Architecture> {
     /// Files of records.
     pub records: Vec<PathBuf>,
     /// Name of the expert: vehicle, pedestrian or cyclist.
     pub expert: String,
-    /// What the records were made from, for the header, in place of what they say themselves. Their licence goes
-    /// there whatever is said here.
+    /// Description of the records' sources for the header; replaces that of the records. Their licences are
+    /// kept in any case.
     pub trained_on: Option<String>,
     /// Which part is trained.
     pub stage: Stage,
@@ -52,14 +52,14 @@ pub struct TrainOptions<A = Architecture> {
     pub rate: f64,
     /// Rate at the end; a hundredth of the top one without.
     pub rate_end: Option<f64>,
-    /// What computes the networks; only on the CPU does a run repeat bit for bit.
+    /// Device that computes the networks; a run is repeatable bit for bit only on the CPU.
     pub processor: Processor,
     /// Threads on the CPU; the result does not depend on it.
     pub threads: usize,
-    /// Where the weights go (their running mean). Beside it go the checkpoint and the log, as JSON lines and
-    /// as curves: `.checkpoint`, `.jsonl` and `.svg` are added to its name.
+    /// Path of the weights (their running mean). Beside it are the checkpoint and the log, as JSON lines and
+    /// as curves: `.checkpoint`, `.jsonl` and `.svg` are appended to its name.
     pub out: PathBuf,
-    /// Whether to go on from the checkpoint when there is one.
+    /// Whether to resume from an existing checkpoint.
     pub resume: bool,
     /// Seed of the weights, the batches and the noise.
     pub seed: u64,
@@ -74,7 +74,7 @@ pub struct TrainOptions<A = Architecture> {
     pub stop: Arc<AtomicBool>,
     /// Sizes of new networks.
     pub architecture: A,
-    /// What the refiner is given: parts are left out to see what they bring.
+    /// Inputs of the refiner; ablations remove some.
     pub refining: Refining,
 }
 
@@ -113,7 +113,7 @@ impl<A> TrainOptions<A> {
     }
 }
 
-/// Where the checkpoint of a run lies.
+/// Path of a run's checkpoint.
 pub fn checkpoint_path(out: &Path) -> PathBuf {
     let mut path = out.as_os_str().to_owned();
     path.push(".checkpoint");
@@ -130,7 +130,7 @@ pub fn steps_of(records: &[PathBuf], epochs: f64, batch: usize) -> Result<u64, T
     Ok((epochs * known as f64 / batch.max(1) as f64).ceil().max(1.0) as u64)
 }
 
-/// Where the weights with the least held-out loss of a run lie.
+/// Path of a run's weights with the least held-out loss.
 pub fn best_path(out: &Path) -> PathBuf {
     let mut path = out.as_os_str().to_owned();
     path.push(".best");
@@ -275,10 +275,10 @@ impl RunReporter<'_> {
     }
 }
 
-/// Where all records come from.
+/// Provenance of all records.
 ///
 /// # Errors
-/// When some are another expert's.
+/// If some belong to another expert.
 fn provenance<A>(options: &TrainOptions<A>, records: &Records) -> Result<Provenance, TrainError> {
     let mut all = Provenance::default();
     for (path, own) in options.records.iter().zip(records.provenances()) {
@@ -291,7 +291,7 @@ fn provenance<A>(options: &TrainOptions<A>, records: &Records) -> Result<Provena
     Ok(all)
 }
 
-/// What was measured since the last line.
+/// Measurements since the last line.
 struct Since {
     metrics: Metrics,
     lengths: f64,
@@ -402,7 +402,7 @@ impl<'a, T: Trainee> Run<'a, T> {
         self.keep()
     }
 
-    /// A checkpoint alone.
+    /// Writes only a checkpoint.
     fn keep(&self) -> Result<(), TrainError> {
         let options = self.options;
         let state = CheckpointState {

@@ -13,14 +13,14 @@ use crate::polylines::PIECE;
 /// One scene in this many is held out.
 const HELD_OUT: u64 = 10;
 
-/// Whether scenes of this key are for validation alone, whatever file they are in.
+/// Whether scenes of this key are only for validation, whatever file they are in.
 pub fn is_held_out(key: u64) -> bool {
     let hash = blake3::hash(&key.to_le_bytes());
     u64::from(hash.as_bytes()[0]) * HELD_OUT < 256
 }
 
-/// Whether scenes of this key are for tests alone where a tenth of the places is kept for them; none of those is held
-/// out for validation.
+/// Whether scenes of this key are only for tests, if a tenth of the places is reserved for them. None of
+/// these is held out for validation.
 pub fn is_for_tests(key: u64) -> bool {
     let hash = blake3::hash(&key.to_le_bytes());
     u64::from(hash.as_bytes()[0]) * HELD_OUT / 256 == 1
@@ -35,8 +35,8 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Splits those that `takes` wants by the hash of the scenes' keys; `most_held_out` bounds the cost of a
-    /// validation. With `even` each file has the same chance to be drawn from.
+    /// Splits the records that `takes` accepts by the hash of the scenes' keys; `most_held_out` bounds the
+    /// cost of a validation. With `even` each file has the same chance to be drawn from.
     pub(super) fn new(
         records: &Records,
         most_held_out: usize,
@@ -83,7 +83,7 @@ impl Split {
         let total = self.sums.last().copied().unwrap_or(0.0);
         (0..size)
             .map(|_| {
-                // One number for the whole search: drawn anew at each comparison, the middle would be favoured.
+                // One number for the whole search: a new draw at each comparison would favour the middle.
                 let ticket = rng.unit() * total;
                 let place = self.sums.partition_point(|&sum| sum <= ticket);
                 self.train[place.min(self.train.len() - 1)]

@@ -30,12 +30,12 @@ const STAY: f32 = 0.5;
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Stage {
-    /// The refiner learns to take noise off recorded residuals.
+    /// The refiner learns to remove noise from recorded residuals.
     Denoiser,
     /// The initializer learns six futures and their probabilities.
     Initializer,
-    /// The refiner learns on the initializer's own drafts, with the overlap penalty; the rest follows at
-    /// a lower rate.
+    /// The refiner learns on drafts of the initializer, with the overlap penalty; the rest follows at a lower
+    /// rate.
     Joint,
 }
 
@@ -43,7 +43,7 @@ pub enum Stage {
 pub(crate) struct Tools {
     pub(super) route: ResidualBasis,
     pullback: Pullback,
-    /// What the refiner is given.
+    /// Inputs of the refiner.
     refining: Refining,
 }
 
@@ -53,7 +53,7 @@ impl Tools {
     }
 }
 
-/// Which recorded neighbours count for a record: not those that overlap the road user in the recording.
+/// Recorded neighbours that count for a record: all but those that overlap the road user in the recording.
 fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
     let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
     let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
@@ -132,8 +132,8 @@ fn noise(rng: &mut Stream, count: usize, scale: f32) -> Vec<Modes> {
         .collect()
 }
 
-/// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what was
-/// measured.
+/// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and the
+/// measurements.
 pub(super) fn train(
     expert: &Expert,
     tools: &Tools,
@@ -212,7 +212,7 @@ fn denoiser(
 ) -> std::result::Result<Tensor, TrainError> {
     let prepared = expert.refiner.prepare(context)?;
     let count = shard.records.len();
-    // Half of the levels are those that refinement walks through.
+    // Half of the levels are levels that refinement visits.
     let levels: Vec<usize> = (0..count)
         .map(|_| {
             let top = if rng.chance(0.5) { schedule::START } else { schedule::LEVELS };
@@ -247,8 +247,8 @@ fn denoiser(
     Ok(seeded_modes(&denoised, &grads)?)
 }
 
-/// How much each mode's recorded residual counts: an anchor far from the recording needs residuals that
-/// no draft will have. Sums to 1.
+/// Weight of each mode's recorded residual: an anchor far from the recording needs residuals that no draft
+/// will have. Sums to 1.
 fn shares(recorded: &Modes) -> [f32; MODES] {
     let size = recorded.map(|r| (r.iter().map(|x| x * x).sum::<f32>() / RESIDUAL as f32).sqrt());
     let least = size[loss::least(&size)];
@@ -380,8 +380,8 @@ impl Walk<'_> {
     }
 }
 
-/// What is reported on records held out: the initializer's figures, and unless only it is trained those
-/// of five refinement steps from its drafts with full noise.
+/// Figures on held-out records: the initializer's, and unless only it is trained those of five refinement
+/// steps from its drafts with full noise.
 pub(super) fn validate(
     expert: &Expert,
     tools: &Tools,

@@ -1,4 +1,4 @@
-//! What a training run asks of whatever it trains.
+//! Interface of trainable networks.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +13,9 @@ use super::sample::Shard;
 use super::stages::{self, Stage, Tools};
 use super::{Record, TrainError};
 
-/// Networks with their losses. Which parameters a stage trains is told by their names: see [`Trainee::share`].
+/// Networks with their losses. Parameter names decide which stage trains them: see [`Trainee::share`].
 pub(crate) trait Trainee: Sized + Sync {
-    /// What decides the shapes of the tensors and what they mean.
+    /// Configuration that decides the shapes and the meaning of the tensors.
     type Architecture: Clone + PartialEq + Serialize + DeserializeOwned;
 
     /// Random weights from a seed.
@@ -29,9 +29,9 @@ pub(crate) trait Trainee: Sized + Sync {
     fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError>;
     /// The bytes of a weights file.
     fn write(&self) -> Result<Vec<u8>, NetError>;
-    /// What the networks are.
+    /// Configuration of the networks.
     fn architecture(&self) -> &Self::Architecture;
-    /// What the file says about the weights.
+    /// Card of the weights in the file.
     fn card(&self) -> &Card;
     /// The same, to be changed.
     fn card_mut(&mut self) -> &mut Card;
@@ -58,8 +58,8 @@ pub(crate) trait Trainee: Sized + Sync {
         }
     }
 
-    /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what
-    /// was measured.
+    /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and the
+    /// measurements.
     fn loss(
         &self,
         tools: &Tools,
@@ -67,7 +67,7 @@ pub(crate) trait Trainee: Sized + Sync {
         stage: Stage,
         rng: &mut Stream,
     ) -> Result<(Tensor, Metrics), TrainError>;
-    /// What is reported on records held out.
+    /// Figures on held-out records.
     fn validate(
         &self,
         tools: &Tools,

@@ -14,7 +14,7 @@ use super::{Records, TrainError};
 /// Records in a shard on the CPU.
 pub(super) const SHARD: usize = 32;
 
-/// What every shard needs.
+/// Data shared by all shards.
 pub(super) struct Workers<'a> {
     pub(super) records: &'a Records,
     pub(super) tools: Tools,
@@ -70,7 +70,7 @@ impl Workers<'_> {
         Ok((gradients.collect::<Result<_, TrainError>>()?, metrics))
     }
 
-    /// What is measured on records held out; the same draws every time.
+    /// Figures on held-out records; the draws are the same every time.
     pub(super) fn validate(&self, trained: &impl Trainee, indices: &[usize]) -> Result<Metrics, TrainError> {
         let results = self.each_shard(indices, |number, indices| {
             let shard = Shard::new(self.records, indices, &self.tools.route)?;
@@ -105,7 +105,7 @@ impl Workers<'_> {
         std::thread::scope(|scope| {
             for number in 1..self.threads.min(shards.len()) {
                 let thread = std::thread::Builder::new().name(format!("train-{number}"));
-                // Where the system gives no further thread, those that are there do the work.
+                // If the system refuses another thread, the existing ones do the work.
                 if thread.spawn_scoped(scope, run).is_err() {
                     break;
                 }

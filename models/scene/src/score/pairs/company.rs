@@ -1,5 +1,5 @@
-//! Pairs that belong together: people who walk in company, a truck and its trailer. That they touch says
-//! nothing, because their boxes are larger than they are or because they are made fast to each other.
+//! Pairs that belong together: pedestrians in company, a truck and its trailer. Their contact is no fault,
+//! because their boxes are larger than they are or because they are coupled.
 
 use super::mover::Mover;
 use crate::geometry::obb::signed_gap;

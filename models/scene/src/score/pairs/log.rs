@@ -1,4 +1,4 @@
-//! Whether the log itself shows an event of a pair.
+//! Whether the recording shows an event of a pair.
 
 use super::mover::Mover;
 use super::{Pair, PairBounds, Touch, look_at};

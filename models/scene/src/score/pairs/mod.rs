@@ -1,4 +1,4 @@
-//! What happens between two road users: collisions, near misses, least gap, least time to collision.
+//! Interactions of two road users: collisions, near misses, least gap, least time to collision.
 
 mod company;
 mod log;
@@ -17,7 +17,7 @@ pub(crate) use mover::{Mover, MoverState};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
 pub(super) use tally::PairTally;
 
-/// Moments looked at between two steps, the step itself counted.
+/// Moments checked from one step to the next, the step itself counted.
 pub const SUBSTEPS: usize = 4;
 
 /// What the pairs of one road user come to.
@@ -65,7 +65,7 @@ struct Pair {
     near: Option<Nearest>,
 }
 
-/// Boxes that overlap at a step, however little, of two for whom that says something.
+/// Any overlap of the boxes of a pair whose contact counts, at one or more steps.
 #[derive(Debug)]
 struct Touch {
     /// First step, from the first scored one.
@@ -137,14 +137,14 @@ impl Meeting {
         Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
     }
 
-    /// Of two motions by themselves, whoever made them, but for what the log shows too. `input` gives thresholds
-    /// and what to leave out.
+    /// The interaction of two motions regardless of who generated them, without events that the log shows.
+    /// `input` gives thresholds and exclusions.
     pub(crate) fn between(
         input: &ScoreInput<'_>,
         (a, mover_a): (&Actor<'_>, &Mover),
         (b, mover_b): (&Actor<'_>, &Mover),
     ) -> Option<Self> {
-        // Nothing but collisions and near misses is asked for: no least gap or time is still to be found.
+        // Only collisions and near misses are needed, so the bounds skip the search for least gap and time.
         let known = PairBounds { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
         if stay_apart(mover_a, mover_b, known.gap_m) {
             return None;

@@ -7,7 +7,7 @@ use crate::score::input::Actor;
 use crate::{AgentType, STEP_S};
 use std::ops::Range;
 
-/// Steps to either side from which a turn is told.
+/// Steps to each side over which a turn is measured.
 const TURN_STEPS: usize = 2;
 
 /// One road user made ready for many pairs: its boxes and velocities over the scored steps.
@@ -72,8 +72,8 @@ impl Mover {
         Self { moments, travel_m, max_displacement_m, top_mps, places, reach, agent_type, generated }
     }
 
-    /// How fast it turns about a step, rad/s: by its headings 0.2 s before and after. None for walkers, who
-    /// turn on the spot, and at the ends of what is seen.
+    /// Turn rate at a step, rad/s, from the headings 0.2 s before and after. Zero for pedestrians, which turn
+    /// on the spot, and at the ends of the known motion.
     pub(super) fn turn_rate_radps(&self, step: usize) -> f64 {
         let heading = |i: usize| Some(self.moments.get(i)?.as_ref()?.outline.heading_rad());
         let (before, after) = (step.saturating_sub(TURN_STEPS), step + TURN_STEPS);

@@ -1,4 +1,4 @@
-//! What makes a moment of two road users a near miss.
+//! Conditions under which a moment of two road users is a near miss.
 
 use super::mover::{Mover, MoverState};
 use crate::geometry::obb::{OrientedBox, circle_gap, overlaps};
@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_6;
 
 /// A road user that stays within this of its first place all the time is parked, metres.
 pub(super) const PARKED_M: f64 = 1.0;
-/// Beside people, wheels slower than this crawl: who walks there keeps clear of them without haste, m/s.
+/// Beside pedestrians, slower vehicles crawl, m/s: a pedestrian keeps clear of them without haste.
 const CRAWL_MPS: f64 = 1.5;
 
 /// Made motion that passes another nearer than this, at this speed relative to it, all but brushes it, metres and m/s.
@@ -17,8 +17,7 @@ const CRAWL_MPS: f64 = 1.5;
 const BRUSH_M: f64 = 0.15;
 const BRUSH_MPS: f64 = 3.0;
 
-/// A course towards each other that lasts less than this many steps is that of one who just begins to
-/// turn away.
+/// A collision course of fewer steps ends by a turn that just begins, and is no near miss.
 const LEAST_COURSE: usize = 3;
 
 /// What makes a moment a near miss.
@@ -54,7 +53,7 @@ impl Nearest {
         }
     }
 
-    /// It is more than a moment of somebody's turn.
+    /// Whether the near miss is more than a moment of a turn.
     pub(super) fn lasts(&self) -> bool {
         self.crosses || self.steps >= LEAST_COURSE
     }
@@ -133,7 +132,7 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(NearMissKind::Course)
 }
 
-/// The two touch within this time if both keep their speeds and turns, looked at a step apart.
+/// The two touch within this time if both keep their speeds and turn rates, checked step by step.
 pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
     let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
     let both_m = (a.moment.speed_mps + b.moment.speed_mps) * STEP_S;

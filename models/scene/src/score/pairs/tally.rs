@@ -1,4 +1,4 @@
-//! What is found while pairs are gone through: the least of each road user, and what happens.
+//! Results of the pairs so far: the least values of each road user, and the events.
 
 use super::{Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at, stay_apart};
 use crate::geometry::ttc::LOOK_AHEAD_S;
@@ -6,7 +6,7 @@ use crate::score::input::{PairChoice, ScoreInput};
 use crate::score::pet::post_encroachment_s;
 use crate::score::report::{BoxOverlap, Collision, NearMiss};
 
-/// A least value of one road user, and in the pair with whom it was found.
+/// A least value of one road user, and the other road user of that pair.
 #[derive(Clone, Copy, Debug)]
 struct Least {
     value: f64,
@@ -74,7 +74,7 @@ impl PairTally {
         let stays = |event: &PairEvent| Some((now[event.pair.0]?, now[event.pair.1]?));
         let kept = self.events.iter().filter_map(|e| Some(PairEvent { pair: stays(e)?, ..e.clone() }));
         tally.events.extend(kept);
-        // Who was nearest to one that is as it was may have changed: then all its pairs are asked again.
+        // A road user that lost its nearest partner to a change needs all its pairs again.
         let mut orphans = Vec::new();
         for (new, old) in was.iter().enumerate() {
             let Some(old) = *old else { continue };

@@ -133,13 +133,13 @@ fn a_made_near_miss_is_in_the_log_only_where_the_recording_shows_it_too() {
 fn people_who_walk_in_company_do_not_collide() {
     let walk = |id, x, y, h, v| straight(id, Pedestrian, (x, y), h, v);
     let hits = |actors| plain(actors).collisions.len();
-    // Side by side, behind each other, a group of three, two who stand and talk: their boxes touch.
+    // Side by side, behind each other, a group of three, two that stand and talk: their boxes touch.
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4)]), 0);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", -1.0, 0.0, 0.0, 1.45)]), 0);
     let third = walk("c", -0.5, 0.4, 0.0, 1.4);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4), third]), 0);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 0.0), walk("b", 0.0, 0.6, PI, 0.0)]), 0);
-    // Two who walk into each other, and one who walks into another's back.
+    // Two pedestrians that walk into each other, and one that walks into another's back.
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 8.0, 0.0, PI, 1.4)]), 1);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 2.4), walk("b", 5.0, 0.0, 0.0, 1.0)]), 1);
 }
@@ -267,7 +267,7 @@ fn a_light_touch_is_a_collision_and_never_a_near_miss() {
     let light = (0..40).map(y).find(|y| !crossing(*y, 0.02).overlaps.is_empty()).unwrap();
     let found = crossing(light, 0.0);
     assert!(found.collisions.len() == 1 && found.overlaps.is_empty() && found.near_misses.is_empty());
-    // Above the paper's threshold alone it is an overlap, and a near miss neither.
+    // Above only the paper's threshold it is an overlap and no near miss.
     let paper = crossing(light, 0.02);
     assert!(paper.collisions.is_empty() && paper.near_misses.is_empty(), "{paper:?}");
     let depth_m = paper.overlaps[0].depth_m;
@@ -323,7 +323,7 @@ fn no_near_miss_for_ordinary_neighbours() {
     none(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 0.0, 2.5, 0.0, 10.0)]);
     // Oncoming one lane over.
     none(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 80.0, 3.5, PI, 10.0)]);
-    // Walkers who pass each other.
+    // Pedestrians that pass each other.
     let walk = |id, x, y, h| straight(id, Pedestrian, (x, y), h, 1.4);
     none(vec![walk("a", 0.0, 0.0, 0.0), walk("b", 10.0, 1.0, PI)]);
     // Stopping behind a queue at 2 m/s2 with half a metre left: time to collision falls below 1.5 s.

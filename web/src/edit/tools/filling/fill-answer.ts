@@ -36,7 +36,7 @@ export class Answers {
     const pins = wish.pinned.map((n, i) => wholeAgentJson(settle(n, `pinned-${i + 1}`)));
     const gone = new Set(replaced);
     const there = castJson(scene).filter((a) => !gone.has(a.id));
-    const map = file.mapRef ? { ref: file.mapRef } : file.map!;
+    const map = file.sentMap();
     const [min_mps, max_mps] = wish.speeds;
     const where = {
       scene: { ...file.raw!, agents: [...there, ...pins], map, generated: null },

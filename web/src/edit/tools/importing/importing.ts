@@ -2,8 +2,6 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../../../model/document/scene-json';
 import { Refused, type Beside, type Client } from '../../../net/client';
-import { faultOf } from '../../../net/problem';
-import { inWords } from '../../../net/refusal';
 import type { ImportReply, ImportWarning, Problem } from '../../../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from '../../session/editor';
@@ -78,12 +76,18 @@ export class Importing {
       READING_MS,
     );
     for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
-    await this.list.refresh().catch(() => undefined);
-    notices.hide();
     const good = verdicts.flatMap((v) => v.scenes);
-    if (good.length) await this.library.open(good[0].id);
+    await this.#openFirst(good);
+    notices.hide();
     if (good.length === 1 && verdicts.every((v) => v.ok)) this.#sayImported(verdicts[0], '', verdicts);
     else this.#verdicts.value = verdicts;
+  }
+
+  /** Opens the first of them while the list of scenes loads. */
+  async #openFirst(scenes: readonly ImportedScene[]): Promise<void> {
+    const listed = this.list.refresh().catch(() => undefined);
+    if (scenes.length) await this.library.open(scenes[0].id);
+    await listed;
   }
 
   /** One imported scene is shown: a toast is enough, with a link to the assumptions. */
@@ -118,9 +122,8 @@ export class Importing {
 
   async #replace(v: FileVerdict, make: () => Promise<FileVerdict>): Promise<void> {
     const now = await make();
-    await this.list.refresh().catch(() => undefined);
     const rest = (this.#verdicts.peek() ?? []).map((o) => (o === v ? now : o));
-    if (now.scenes.length) await this.library.open(now.scenes[0].id);
+    await this.#openFirst(now.scenes);
     if (now.ok && rest.every((o) => o.ok)) {
       this.close();
       const without = v.without ? TEXTS.without(v.without.join(', ')) : '';
@@ -136,7 +139,7 @@ export class Importing {
 
   async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
     try {
-      const v = verdictOf(name, await this.client.importFile(name, file, beside));
+      const v = await verdictOf(name, await this.client.importFile(name, file, beside));
       return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
@@ -148,6 +151,7 @@ export class Importing {
   async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
     const foreign = p.code === 'format-unknown' ? await foreignKind(file) : null;
     if (foreign) return foreignVerdict(name, foreign.kind);
+    const { columnsIn, explain } = await import('./refused-file');
     const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
     const columns = columnsIn(p);
     if (columns) {
@@ -166,14 +170,6 @@ export class Importing {
     this.#rests.set(verdict, mended.scene);
     return verdict;
   }
-}
-
-/** Column names of a table, where the server requests their meaning; else null. */
-function columnsIn(problem: Problem): readonly string[] | null {
-  if (problem.code !== 'cannot-represent') return null;
-  const said = problem.errors?.[0]?.detail ?? problem.detail ?? '';
-  const names = /^no column .+?; there are (.+)\. A file of columns can name them/s.exec(said)?.[1];
-  return names ? names.split(', ').filter((n) => n !== '...') : null;
 }
 
 /** A recording and, in the same drop, its map: each pattern pairs with the one beside it. */
@@ -196,8 +192,6 @@ export function inPairs(files: readonly File[]): { readonly file: File; readonly
 
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
-const READABLE = TEXTS.scenarioRecords;
-
 function foreignVerdict(file: string, kind: string): FileVerdict {
   const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
   const wrong = ending ? TEXTS.namedButItIs(ending, kind) : TEXTS.isNotASceneIt(file, kind);
@@ -207,7 +201,7 @@ function foreignVerdict(file: string, kind: string): FileVerdict {
     ok: false,
     scenes: [],
     wrong,
-    todo: TEXTS.chooseAnotherFile(READABLE),
+    todo: TEXTS.chooseAnotherFile(TEXTS.scenarioRecords),
   };
 }
 
@@ -221,7 +215,7 @@ const awayVerdict = (file: string, again: Blob): FileVerdict => ({
   again: again instanceof File ? again : undefined,
 });
 
-function verdictOf(file: string, reply: ImportReply): FileVerdict {
+async function verdictOf(file: string, reply: ImportReply): Promise<FileVerdict> {
   const kind = kindByName(file);
   const scenes = reply.scenes.map(({ id = '', name, counts }) => ({
     id,
@@ -231,50 +225,9 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
   const { skipped } = reply;
   const warnings = reply.scenes.flatMap((s) => s.warnings);
   const notes = [...new Map(warnings.map((w) => [w.detail, w])).values()];
+  if (scenes.length && !skipped.length) return { file, kind, ok: true, scenes, notes };
+  const { explain, faultIn } = await import('./refused-file');
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
-  if (!skipped.length) return { file, kind, ok: true, scenes, notes };
   const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);
-  return { file, kind, ok: true, scenes, wrong: `${share}: ${inWords(skipped[0].problem)}` };
-}
-
-type Explanation = Pick<FileVerdict, 'wrong' | 'where' | 'todo' | 'details'>;
-
-function explain(file: string, p: Problem | undefined): Explanation {
-  if (!p) return { wrong: TEXTS.thereIsNoScene, todo: READABLE };
-  const first = p.errors?.[0];
-  const where = [file, first?.pointer, p.offset !== undefined ? TEXTS.byte(p.offset) : ''].filter(Boolean).join(', ');
-  return { wrong: wrongWith(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
-}
-
-/** JSON errors in the words of the parser. */
-const JSON_FAULTS: readonly (readonly [RegExp, keyof typeof TEXTS.jsonFaults])[] = [
-  [/: EOF while parsing/, 'end'],
-  [/: expected (value|ident)/, 'value'],
-  [/: trailing comma/, 'comma'],
-  [/: trailing characters/, 'after'],
-  [/: key must be a string/, 'name'],
-  [/: expected /, 'between'],
-  [/: (invalid number|number out of range)/, 'number'],
-  [/: (control character|invalid escape|invalid unicode|lone leading surrogate|unexpected end of hex)/, 'text'],
-];
-
-/** The server's message in plain words. */
-function wrongWith(file: string, p: Problem): string {
-  const said = faultOf(p);
-  // A file of a known kind is called by it.
-  if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return TEXTS.isNotAScene(file);
-  const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
-  if (points) return points[1] === '1' ? TEXTS.onlyOnePoint(points[2]) : TEXTS.tooFewPoints(points[1], points[2]);
-  const many = /^\d+ agents; at most (\d+)$/.exec(said);
-  if (many) return TEXTS.tooManyRoadUsers(many[1]);
-  const fault = p.code === 'malformed-json' && JSON_FAULTS.find(([sentence]) => sentence.test(said));
-  if (fault) return TEXTS.notValidJson(TEXTS.jsonFaults[fault[1]]);
-  return inWords(p);
-}
-
-function whatToDo(code: Problem['code']): string {
-  if (code === 'format-unknown') return TEXTS.chooseAnotherFile(READABLE);
-  if (code.includes('too-large')) return TEXTS.fileTooLarge;
-  if (code === 'unsupported-version') return TEXTS.updateThisProgram;
-  return TEXTS.fixTheFile;
+  return { file, kind, ok: true, scenes, wrong: `${share}: ${faultIn(file, skipped[0].problem)}` };
 }

@@ -3,6 +3,9 @@ import { num } from '../../../model/base/units';
 import type { Scene } from '../../../model/document/scene';
 import { TEXTS } from '../../../texts/files/losses';
 import { countWords } from '../../../model/base/kinds';
+import type { Message } from '../../../model/document/message';
+import { messageText } from '../../../model/words/message-text';
+import { SENTENCES } from '../../../texts/messages/file-messages';
 
 export interface Loss {
   /** `Goals` */
@@ -80,19 +83,23 @@ const ORDER = Object.keys(WORDS);
 /** Unknown codes come last. */
 const rank = (code: string): number => (ORDER.indexOf(code) + ORDER.length + 1) % (ORDER.length + 1);
 
-/** From the server's comma-separated list of codes. */
-export function lossesOf(codes: string | null, scene: Scene): readonly Loss[] {
-  return (codes ?? '')
-    .split(',')
-    .map((s) => s.trim())
-    .filter(Boolean)
-    .sort((a, b) => rank(a) - rank(b))
-    .map((code) => {
-      const words = WORDS[code];
-      if (!words) return { what: plainly(code), how: TEXTS.notInTheFile };
-      const [what, how] = words;
-      return { what, how: typeof how === 'string' ? how : how(scene) };
-    });
+/** A loss from the server; with numbers it has a message. */
+interface SentLoss {
+  readonly code: string;
+  readonly detail: string;
+  readonly message?: Message;
+}
+
+/** The server's losses, a list in JSON: one for each code, preferably with numbers. */
+export function lossesOf(sent: string | null, scene: Scene): readonly Loss[] {
+  const all = JSON.parse(sent ?? '[]') as readonly SentLoss[];
+  const codes = [...new Set(all.map(({ code }) => code))].sort((a, b) => rank(a) - rank(b));
+  return codes.map((code) => {
+    const [what, how] = WORDS[code] ?? [plainly(code), TEXTS.notInTheFile];
+    const counted = all.find((loss) => loss.code === code && loss.message);
+    if (counted?.message) return { what, how: messageText(counted.message, counted.detail, SENTENCES) };
+    return { what, how: typeof how === 'string' ? how : how(scene) };
+  });
 }
 
 /** `no-lane-width`: `Lane width` */

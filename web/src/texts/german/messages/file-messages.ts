@@ -1,89 +1,286 @@
 import type { SENTENCES } from '../../messages/file-messages';
 import type { Said, Values } from '../../table';
+import { plural } from '../plural';
 
 export const german: Said<typeof SENTENCES> = {
   lists: {
+    fault: {
+      'cut-off': 'die Datei bricht ab',
+      'no-value': 'es fehlt ein Wert',
+      'no-sign': 'es fehlt ein Komma, ein Doppelpunkt oder eine Klammer',
+      comma: 'ein Komma zu viel',
+      'text-after': 'nach dem Ende folgt weiterer Text',
+      'no-quotes': 'ein Name steht ohne Anführungszeichen',
+      number: 'eine Zahl ist ungültig',
+      text: 'ein Text ist ungültig',
+    },
     subject: { 'road-users': 'Verkehrsteilnehmer', 'map-features': 'Kartenelemente', tracks: 'Trajektorien' },
   },
   sentences: {
     'agents-near-ego': (v: Values) => `${v.found} Verkehrsteilnehmer; die ${v.kept} nächsten am Ego-Fahrzeug bleiben`,
     'agents-near-centre': (v: Values) =>
       `${v.found} Verkehrsteilnehmer; die ${v.kept} nächsten an ihrer Mitte bleiben, bis ${v.within_m} um den Ursprung`,
-    'agents-with-used-id': (v: Values) => `${v.count} Hindernisse mit der Kennung eines anderen entfallen`,
+    'agents-over-limit': (v: Values) => `Die Szene hat ${v.agents} Verkehrsteilnehmer; höchstens ${v.most}.`,
+    'agents-with-used-id': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis mit der Kennung eines anderen entfällt`,
+        other: `${v.count} Hindernisse mit der Kennung eines anderen entfallen`,
+      }),
     'agents-outside-network': (v: Values) =>
-      `${v.count} von ${v.found} Verkehrsteilnehmern liegen außerhalb des Netzes: Es gehört zu einer anderen Aufzeichnung, oder die Orte stehen in Grad (fcd-output.geo) statt in Metern`,
+      plural(Number(v.count), {
+        one: `${v.count} von ${v.found} Verkehrsteilnehmern liegt außerhalb des Netzes: Es gehört zu einer anderen Aufzeichnung, oder die Orte stehen in Grad (fcd-output.geo) statt in Metern`,
+        other: `${v.count} von ${v.found} Verkehrsteilnehmern liegen außerhalb des Netzes: Es gehört zu einer anderen Aufzeichnung, oder die Orte stehen in Grad (fcd-output.geo) statt in Metern`,
+      }),
     'areas-too-far': (v: Values) =>
-      `${v.count} befahrbare Flächen reichen weiter als ${v.within_m} von der Mitte und entfallen`,
-    'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Straßenränder zu bestimmen',
-    'crossing-lanelets': 'Lanelets überlappen sich zu oft, um die Straßenränder zu bestimmen',
+      plural(Number(v.count), {
+        one: `${v.count} befahrbare Fläche reicht weiter als ${v.within_m} von der Mitte und entfällt`,
+        other: `${v.count} befahrbare Flächen reichen weiter als ${v.within_m} von der Mitte und entfallen`,
+      }),
+    'columns-missing': (v: Values) =>
+      `Keine Spalte ${v.missing}; vorhanden sind ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
+    'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
+    'crossing-lanelets': 'Lanelets überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-roads': 'Straßen überlappen sich zu oft, um ihre Ränder zu bestimmen',
     'cut-in-scenes': (v: Values) =>
       `Die Aufzeichnung ist länger als eine Szene: Sie wird in Szenen von ${v.each_s} geteilt`,
-    'elements-unread': (v: Values) => `${v.count} Elemente haben in einer Szene keinen Platz und entfallen`,
-    'features-unread': (v: Values) => `${v.count} Kartenelemente unbekannter Art oder mit zu wenigen Punkten entfallen`,
+    'elements-unread': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Element hat in einer Szene keinen Platz und entfällt`,
+        other: `${v.count} Elemente haben in einer Szene keinen Platz und entfallen`,
+      }),
+    'features-unread': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Kartenelement unbekannter Art oder mit zu wenigen Punkten entfällt`,
+        other: `${v.count} Kartenelemente unbekannter Art oder mit zu wenigen Punkten entfallen`,
+      }),
     'futures-unread': (v: Values) =>
-      `${v.count} mögliche Bewegungen sind leer, unmöglich oder über der Grenze und entfallen`,
-    'goals-beyond-first': (v: Values) => `${v.count} weitere Ziele derselben Verkehrsteilnehmer entfallen`,
-    'goals-are-regions': (v: Values) => `${v.count} Ziele sind Flächen; verwendet wird ihre Mitte`,
+      plural(Number(v.count), {
+        one: `${v.count} mögliche Bewegung ist leer, unmöglich oder über der Grenze und entfällt`,
+        other: `${v.count} mögliche Bewegungen sind leer, unmöglich oder über der Grenze und entfallen`,
+      }),
+    'goals-beyond-first': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} weiteres Ziel desselben Verkehrsteilnehmers entfällt`,
+        other: `${v.count} weitere Ziele derselben Verkehrsteilnehmer entfallen`,
+      }),
+    'goals-are-regions': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Ziel ist eine Fläche; verwendet wird ihre Mitte`,
+        other: `${v.count} Ziele sind Flächen; verwendet wird ihre Mitte`,
+      }),
     'headings-derived': 'Richtungen sind aus der Bewegung bestimmt; im Stand bleibt die letzte Richtung',
     'headings-in-degrees': 'Richtungen stehen in Grad und wurden in Radiant umgerechnet',
     'ids-renumbered': 'Spuren und Kreuzungen haben Nummern statt der Kennungen von SUMO',
     'ids-replaced': (v: Values) =>
-      `${v.count} ${v.subject} erhielten andere Kennungen: Eine Kennung kommt nur einmal vor und besteht aus Buchstaben, Ziffern und _ . : -`,
-    'ids-respelled': (v: Values) => `${v.count} Kennungen wurden anders geschrieben oder ergänzt`,
-    'ids-suffixed': (v: Values) => `${v.count} ${v.subject} mit wiederholter Kennung erhielten einen Zusatz`,
+      plural(Number(v.count), {
+        one: `${v.count} Kennung (${v.subject}) wurde ersetzt: Eine Kennung kommt nur einmal vor und besteht aus Buchstaben, Ziffern und _ . : -`,
+        other: `${v.count} Kennungen (${v.subject}) wurden ersetzt: Eine Kennung kommt nur einmal vor und besteht aus Buchstaben, Ziffern und _ . : -`,
+      }),
+    'ids-respelled': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Kennung wurde anders geschrieben oder ergänzt`,
+        other: `${v.count} Kennungen wurden anders geschrieben oder ergänzt`,
+      }),
+    'ids-suffixed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} wiederholte Kennung (${v.subject}) erhielt einen Zusatz`,
+        other: `${v.count} wiederholte Kennungen (${v.subject}) erhielten einen Zusatz`,
+      }),
     'identities-joined': (v: Values) =>
-      `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs} (und ${v.more} weitere)`,
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und ist vereint: ${v.pairs} (und ${v.more} weitere)`,
+        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs} (und ${v.more} weitere)`,
+      }),
     'identities-joined-all': (v: Values) =>
-      `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs}`,
-    jumps: (v: Values) => `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücken bleiben`,
-    'lanelets-unusable': (v: Values) => `${v.count} Lanelets ohne zwei Seiten oder nicht für Verkehr entfallen`,
-    'lanelets-with-used-id': (v: Values) => `${v.count} Lanelets mit der Kennung eines anderen entfallen`,
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und ist vereint: ${v.pairs}`,
+        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs}`,
+      }),
+    jumps: (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücke bleibt`,
+        other: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücken bleiben`,
+      }),
+    'lanelets-unusable': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Lanelet ohne zwei Seiten oder nicht für Verkehr entfällt`,
+        other: `${v.count} Lanelets ohne zwei Seiten oder nicht für Verkehr entfallen`,
+      }),
+    'lanelets-with-used-id': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Lanelet mit der Kennung eines anderen entfällt`,
+        other: `${v.count} Lanelets mit der Kennung eines anderen entfallen`,
+      }),
     'lanes-closed': (v: Values) =>
-      `${v.count} Spuren, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfallen`,
+      plural(Number(v.count), {
+        one: `${v.count} Spur, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfällt`,
+        other: `${v.count} Spuren, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfallen`,
+      }),
+    'json-syntax': (v: Values) => `Kein gültiges JSON: ${v.fault}.`,
     'lane-links-derived':
       'Die Datei verbindet ihre Spuren nicht: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden',
-    'lane-segments-unusable': (v: Values) => `${v.count} Spurabschnitte ohne zwei Seiten entfallen`,
+    'lane-segments-unusable': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Spurabschnitt ohne zwei Seiten entfällt`,
+        other: `${v.count} Spurabschnitte ohne zwei Seiten entfallen`,
+      }),
     'left-hand': 'Es herrscht Linksverkehr, wie in dieser Gegend üblich',
     'left-hand-as-right': 'Es herrscht Linksverkehr; Bordsteine und Mittellinien sind wie bei Rechtsverkehr gezeichnet',
     'lines-approximated': (v: Values) =>
-      `${v.count} Markierungen haben eine Art oder Farbe, die eine Szene nicht kennt`,
+      plural(Number(v.count), {
+        one: `${v.count} Markierung hat eine Art oder Farbe, die eine Szene nicht kennt`,
+        other: `${v.count} Markierungen haben eine Art oder Farbe, die eine Szene nicht kennt`,
+      }),
+    'loss-lane-lines': (v: Values) =>
+      plural(Number(v.count), {
+        one: `Spuren sind Linien auf ${v.off_mm} mm genau, und ${v.count} beginnt mit einem Weg hinein`,
+        other: `Spuren sind Linien auf ${v.off_mm} mm genau, und ${v.count} beginnen mit einem Weg hinein`,
+      }),
+    'loss-lane-points': (v: Values) =>
+      `Spuren liegen auf ${v.off_mm} mm genau an ihren Linien, wenn ihre Punkte neu gesetzt werden; Haltlinien und Stoppschilder stehen am Anfang und Ende von Spuren`,
+    'loss-lanes-without-length': (v: Values) =>
+      plural(Number(v.count), { one: `${v.count} Spur ohne Länge`, other: `${v.count} Spuren ohne Länge` }),
+    'loss-lights-over-room': (v: Values) => `ein Datensatz fasst ${v.most} Ampeln je Schritt`,
+    'loss-lines-sampled': (v: Values) =>
+      `Linien als Punkte im Abstand von ${v.apart_m}, ohne Spurgraph und Tempolimits`,
+    'loss-longer': (v: Values) => `nichts ist gekürzt: ${v.steps} Schritte, wo die Szene ${v.known} hat`,
+    'loss-motion-extrapolated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Bewegung endet früher und geht geradeaus weiter`,
+        other: `${v.count} Bewegungen enden früher und gehen geradeaus weiter`,
+      }),
+    'loss-points-over-room': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Kartenpunkt; ein Datensatz fasst ${v.most}`,
+        other: `${v.count} Kartenpunkte; ein Datensatz fasst ${v.most}`,
+      }),
+    'loss-rollouts': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} von ${v.most} Verläufen der Challenge: erst so viele Varianten erzeugen`,
+        other: `${v.count} von ${v.most} Verläufen der Challenge: erst so viele Varianten erzeugen`,
+      }),
+    'loss-single-precision': (v: Values) => `Zahlen sind einfach genau: bis ${v.off_um} µm daneben`,
+    'loss-steps-over-room': (v: Values) =>
+      `Zustände mehr als ${v.past} Schritte vor dem aktuellen oder ${v.future} danach`,
+    'loss-users-off-lanes': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer auf keiner eigenen Spur steht nur in der Aufzeichnung`,
+        other: `${v.count} Verkehrsteilnehmer auf keiner eigenen Spur stehen nur in der Aufzeichnung`,
+      }),
+    'loss-users-over-room': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer; ein Datensatz fasst ${v.most}`,
+        other: `${v.count} Verkehrsteilnehmer; ein Datensatz fasst ${v.most}`,
+      }),
     'map-fault': (v: Values) => `${v.first}`,
     'map-faults': (v: Values) => `${v.first} (und ${v.more} weitere)`,
     'map-heights-dropped': 'Das Netz hat Höhen; die Karte ist eben',
     'map-lacks-lanelets': 'Die Datei hat keine Lanelets: Die Szene hat keine Karte',
-    'map-missing': 'Zum Szenario fehlt die Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
+    'map-missing': 'Zum Szenario kam keine Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
     'moved-by-metadrive': 'MetaDrive hat die Datei verschoben und gedreht; der Ort der Aufzeichnung ist unbekannt',
-    'network-missing': 'Zur Aufzeichnung fehlt das Netz: Die Szene hat weder Spuren noch Ampeln',
-    'now-step-moved': (v: Values) => `Der aktuelle Schritt ist ${v.now} von ${v.steps}: Verwendet wird der letzte`,
-    'obstacles-absent': (v: Values) => `${v.count} Hindernisse kommen in keinem behaltenen Schritt vor`,
+    'network-missing': 'Zur Aufzeichnung kam kein Netz: Die Szene hat weder Spuren noch Ampeln',
+    'not-a-known-format': (v: Values) => `Keine Datei eines bekannten Formats (${v.formats}).`,
+    'now-step-moved': (v: Values) => `Der aktuelle Schritt ist ${v.now} von ${v.steps}: Genommen wird der letzte`,
+    'obstacles-absent': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis ist in keinem behaltenen Schritt da`,
+        other: `${v.count} Hindernisse sind in keinem behaltenen Schritt da`,
+      }),
     'obstacles-are-sets': (v: Values) =>
-      `${v.count} Hindernisse haben mögliche Flächen statt einer Bewegung: Ihr erster Zustand bleibt`,
-    'obstacles-uncertain': (v: Values) => `${v.count} Hindernisse haben unsichere Zustände; verwendet wird die Mitte`,
-    'obstacles-unplaced': (v: Values) => `${v.count} Hindernisse ohne Ort oder ohne Größe bis 60 m entfallen`,
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis hat mögliche Flächen statt einer Bewegung: Sein erster Zustand bleibt`,
+        other: `${v.count} Hindernisse haben mögliche Flächen statt einer Bewegung: Ihr erster Zustand bleibt`,
+      }),
+    'obstacles-uncertain': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis hat unsichere Zustände; verwendet wird die Mitte`,
+        other: `${v.count} Hindernisse haben unsichere Zustände; verwendet wird die Mitte`,
+      }),
+    'obstacles-unplaced': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis ohne Ort oder ohne Größe bis 60 m entfällt`,
+        other: `${v.count} Hindernisse ohne Ort oder ohne Größe bis 60 m entfallen`,
+      }),
     'parts-left-out': (v: Values) => `Entfallen: ${v.parts}`,
-    'passengers-left-out': (v: Values) => `${v.count} Container und Fahrgäste entfallen`,
-    'programs-beyond-last': 'Eine Ampel hat mehrere Signalprogramme; gezeigt wird das letzte',
+    'passengers-left-out': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Container oder Fahrgast entfällt bisher`,
+        other: `${v.count} Container und Fahrgäste entfallen bisher`,
+      }),
+    'points-out-of-range': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Punkt; ${v.least} bis ${v.most} erwartet`,
+        other: `${v.count} Punkte; ${v.least} bis ${v.most} erwartet`,
+      }),
+    'programs-beyond-last': 'Eine Ampel hat mehrere Programme; gezeigt wird das letzte',
     'projection-dropped': 'Orte bleiben im Bezugssystem des Netzes; seine Projektion geht verloren',
     'recording-heights-dropped': 'Die Aufzeichnung hat Höhen; die Szene ist eben',
     'shapes-boxed': (v: Values) =>
-      `${v.count} Hindernisse sind keine Rechtecke: Verwendet werden umschließende Rechtecke`,
-    'signal-links-unprogrammed': (v: Values) => `${v.count} Signalverbindungen ohne Programm entfallen`,
-    'signals-empty': (v: Values) => `${v.count} Ampeln ohne Spur oder ohne Zustände entfallen`,
-    'signals-held': (v: Values) => `${v.count} Ampeln sind verkehrsabhängig; sie behalten die Zeiten ihres Signalplans`,
+      plural(Number(v.count), {
+        one: `${v.count} Hindernis ist kein Rechteck: Genommen wird ein Rechteck um es`,
+        other: `${v.count} Hindernisse sind keine Rechtecke: Genommen werden Rechtecke um sie`,
+      }),
+    'signal-links-unprogrammed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Signalverbindung ohne Programm entfällt`,
+        other: `${v.count} Signalverbindungen ohne Programm entfallen`,
+      }),
+    'signals-empty': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Ampel ohne Spur oder ohne Zustände entfällt`,
+        other: `${v.count} Ampeln ohne Spur oder ohne Zustände entfallen`,
+      }),
+    'signals-held': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Ampel ist verkehrsabhängig; sie behält die Zeiten ihres Plans`,
+        other: `${v.count} Ampeln sind verkehrsabhängig; sie behalten die Zeiten ihres Plans`,
+      }),
     'signals-made': (v: Values) =>
-      `${v.count} Signalgeber an ${v.junctions} Kreuzungen haben kein Programm; sie erhielten eine Festzeitsteuerung`,
+      plural(Number(v.junctions), {
+        one: `Die Signalgeber an ${v.junctions} Kreuzung (${v.count}) haben kein Programm; sie erhielten Festzeiten`,
+        other: `Die Signalgeber an ${v.junctions} Kreuzungen (${v.count}) haben kein Programm; sie erhielten Festzeiten`,
+      }),
     'signals-made-near': (v: Values) =>
-      `${v.count} Signalgeber an ${v.junctions} Kreuzungen haben kein Programm; sie erhielten eine Festzeitsteuerung, und die ${v.kept} nächsten an der Mitte bleiben`,
+      plural(Number(v.junctions), {
+        one: `Die Signalgeber an ${v.junctions} Kreuzung (${v.count}) haben kein Programm; sie erhielten Festzeiten, und die ${v.kept} nächsten an der Mitte bleiben`,
+        other: `Die Signalgeber an ${v.junctions} Kreuzungen (${v.count}) haben kein Programm; sie erhielten Festzeiten, und die ${v.kept} nächsten an der Mitte bleiben`,
+      }),
     'signals-near-centre': (v: Values) => `${v.found} Ampeln; die ${v.kept} nächsten an der Mitte bleiben`,
-    'signals-over-limit': (v: Values) => `${v.count} Ampeln über der Grenze von ${v.kept} entfallen`,
-    'signals-without-lane': (v: Values) => `${v.count} Ampeln regeln keine Spur der Karte und entfallen`,
-    'sizes-assumed': (v: Values) => `${v.count} Verkehrsteilnehmer haben die übliche Größe ihrer Art`,
-    'sizes-assumed-by-name': (v: Values) => `${v.count} Verkehrsteilnehmer haben die übliche Größe zum Namen ihrer Art`,
-    'sizes-assumed-car': (v: Values) => `${v.count} Planungsaufgaben nennen keine Größe: Verwendet wird die eines Pkw`,
-    'sizes-vary-median': (v: Values) => `${v.count} Verkehrsteilnehmer ändern ihre Größe; der Median bleibt`,
+    'signals-over-limit': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Ampel über der Grenze von ${v.kept} entfällt`,
+        other: `${v.count} Ampeln über der Grenze von ${v.kept} entfallen`,
+      }),
+    'signals-without-lane': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Ampel regelt keine Spur der Karte und entfällt`,
+        other: `${v.count} Ampeln regeln keine Spur der Karte und entfallen`,
+      }),
+    'sizes-assumed': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer hat die übliche Größe seiner Art`,
+        other: `${v.count} Verkehrsteilnehmer haben die übliche Größe ihrer Art`,
+      }),
+    'sizes-assumed-by-name': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer hat die übliche Größe zum Namen seiner Art`,
+        other: `${v.count} Verkehrsteilnehmer haben die übliche Größe zum Namen ihrer Art`,
+      }),
+    'sizes-assumed-car': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Planungsaufgabe nennt keine Größe: Genommen wird die eines Pkw`,
+        other: `${v.count} Planungsaufgaben nennen keine Größe: Genommen wird die eines Pkw`,
+      }),
+    'sizes-vary-median': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer ändert seine Größe; der Median bleibt`,
+        other: `${v.count} Verkehrsteilnehmer ändern ihre Größe; der Median bleibt`,
+      }),
     'sizes-vary-now': (v: Values) =>
-      `${v.count} Verkehrsteilnehmer ändern ihre Größe; die des aktuellen Schritts bleibt`,
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer ändert seine Größe; die des aktuellen Schritts bleibt`,
+        other: `${v.count} Verkehrsteilnehmer ändern ihre Größe; die des aktuellen Schritts bleibt`,
+      }),
     'steps-beyond-limit': (v: Values) =>
       `Die Datei dauert ${v.length_s}; die ersten ${v.kept} Schritte von 0,1 s bleiben`,
     'steps-coarse': (v: Values) =>
@@ -99,7 +296,10 @@ export const german: Said<typeof SENTENCES> = {
     'times-irregular': 'Die Schritte liegen nicht 0,1 s auseinander; sie werden so gelesen',
     'types-assumed': 'Die Tabelle nennt keine Arten; alle Verkehrsteilnehmer gelten als Fahrzeuge',
     'types-unknown': (v: Values) =>
-      `${v.count} Verkehrsteilnehmer sind von unbekannter Art; sie werden gezeigt, aber nicht erzeugt`,
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer ist von unbekannter Art; er wird gezeigt und nie erzeugt`,
+        other: `${v.count} Verkehrsteilnehmer sind von unbekannter Art; sie werden gezeigt und nie erzeugt`,
+      }),
     'velocities-derived': 'Geschwindigkeiten sind aus Orten und Zeiten bestimmt',
   },
 };

@@ -1,5 +1,6 @@
 import type { SENTENCES } from '../../messages/problem-messages';
 import type { Said, Values } from '../../table';
+import { plural } from '../plural';
 
 export const german: Said<typeof SENTENCES> = {
   lists: {},
@@ -7,13 +8,21 @@ export const german: Said<typeof SENTENCES> = {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
     'no-agents-named':
       '„all“ oder mindestens eine Kennung wird erwartet, oder mindestens ein Verkehrsteilnehmer, der reagiert',
-    'too-many-regenerated': (v: Values) => `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
+    'too-many-regenerated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
+        other: `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
+      }),
     'too-many-points': (v: Values) => `Die Antwort hätte ${v.points} Punkte; höchstens ${v.most}`,
     'no-future-kept': 'Die Szene hat ab dem Start keine Zukunft dieses Verkehrsteilnehmers',
     'replan-interval': (v: Values) => `${v.got} s; erwartet wird null, 3, 6 oder 9`,
     'more-than-a-turn': (v: Values) => `${v.got} rad ist mehr als eine Umdrehung; ${v.got} Grad sind ${v.radians} rad`,
     'unknown-edge': 'Erwartet wird die Kennung eines Straßenrands der Karte',
-    'unequal-columns': (v: Values) => `${v.count} Werte, erwartet werden so viele wie x_m (${v.expected})`,
+    'unequal-columns': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Wert, erwartet werden so viele wie x_m (${v.expected})`,
+        other: `${v.count} Werte, erwartet werden so viele wie x_m (${v.expected})`,
+      }),
     'one-scene': 'Nötig ist genau eines von scene und scene_id',
     'changed-scene': 'Die gespeicherte Szene wurde seit dem Lesen geändert.',
     'no-network': (v: Values) => `Eine Datei im Format ${v.format} kommt ohne Netz`,

@@ -20,13 +20,13 @@ use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 
-/// Most neighbours whose recorded boxes are kept for the overlap energy.
+/// Most neighbours with recorded boxes for the overlap energy.
 pub const BOXES: usize = 8;
 /// Most points of an anchor's path, one a metre.
 pub const PATH_POINTS: usize = 160;
 
 const MAGIC: &[u8; 8] = b"DTRECS3\n";
-/// How files of earlier programs begin: they do not say whose records they are.
+/// First bytes of files from earlier versions, which do not name their expert.
 const MAGIC_BEFORE: &[u8; 8] = b"DTRECS2\n";
 const DIMENSIONS: [usize; 10] =
     [MODES, INSTANTS, RESIDUAL, OWN, PIECES, PIECE, PIECE_POSE, NEIGHBOURS, NEIGHBOUR, ANCHOR];
@@ -53,11 +53,11 @@ pub struct AnchorPath {
 /// One road user under one choice of conditions.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// What the expert sees.
+    /// Inputs of the expert.
     pub agent: AgentFeatures,
-    /// What a baseline sees of the map. Indices are those of the scene's pieces.
+    /// Map pieces that a baseline sees. Indices are those of the scene's pieces.
     pub pieces: Vec<SeenPiece>,
-    /// What happened.
+    /// Recorded future.
     pub target: GroundTruth,
     /// Recorded neighbours, at most [`BOXES`], nearest first.
     pub boxes: Vec<LoggedBox>,
@@ -71,7 +71,7 @@ pub struct Record {
     pub weight: f32,
 }
 
-/// Whether a record keeps within the limits of its struct.
+/// Checks a record against the limits of its struct.
 fn check(record: &Record, pieces: usize) -> Result<(), String> {
     let agent = &record.agent;
     if record.pieces.len() > PIECES || agent.neighbours.len() > NEIGHBOURS || record.boxes.len() > BOXES {

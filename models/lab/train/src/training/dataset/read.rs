@@ -73,12 +73,12 @@ struct RecordEntry {
 struct SceneEntry {
     key: u64,
     file: usize,
-    /// Where the pieces' numbers lie, and how many pieces there are.
+    /// Offset of the pieces' numbers, and number of pieces.
     at: usize,
     pieces: usize,
 }
 
-/// Records in memory, as compact as on disk; one is decoded when it is asked for.
+/// Records in memory, as compact as on disk; each is decoded on demand.
 pub struct Records {
     files: Vec<Vec<u8>>,
     scenes: Vec<SceneEntry>,
@@ -184,7 +184,7 @@ impl Records {
         }
     }
 
-    /// Where the records of each file come from.
+    /// Provenance of the records of each file.
     pub fn provenances(&self) -> &[Provenance] {
         &self.provenances
     }
@@ -194,7 +194,7 @@ impl Records {
         self.entries.len()
     }
 
-    /// Whether there are none.
+    /// Whether it has no records.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }

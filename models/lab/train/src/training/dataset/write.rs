@@ -43,13 +43,13 @@ impl RecordWriter {
         Ok(writer)
     }
 
-    /// Counts the scenes of other records among those that the file comes from.
+    /// Adds the scenes of other records to the file's provenance.
     pub fn comes_from(&mut self, more: &Provenance) {
         self.provenance.merge(more);
     }
 
-    /// Adds a scene. `key` decides, by its hash, whether the scene is held out for validation: scenes
-    /// that must stay together (cut from one place) share a key. Pieces nobody sees are dropped.
+    /// Adds a scene. `key` decides, by its hash, whether the scene is held out for validation: scenes that
+    /// must stay together (cut from one place) share a key. Pieces that no road user sees are dropped.
     ///
     /// # Errors
     /// When a record breaks the limits of its struct, or the file cannot be written.
