@@ -18,7 +18,7 @@ export interface TurnEvents {
   leaving(scene: string): Promise<void>;
   /** Another tab holds it now. */
   lost(scene: string): void;
-  /** The holder has changed the scene. */
+  /** Another tab holds the scene, shown here or not, and has changed it. */
   changed(scene: string): void;
 }
 
@@ -137,12 +137,12 @@ export class SceneTurns {
   }
 
   async #heard({ kind, scene }: Word): Promise<void> {
-    if (scene !== this.#scene) return;
+    const mine = scene === this.#scene ? this.#holds : this.#before.has(scene);
     if (kind === 'changed') {
-      if (!this.#holds) this.on.changed(scene);
+      if (!mine) this.on.changed(scene);
       return;
     }
-    if (!this.#holds) return;
+    if (scene !== this.#scene || !mine) return;
     const letGo = this.#letGo;
     await this.on.leaving(scene);
     if (this.#scene !== scene) return;

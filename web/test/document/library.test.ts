@@ -127,6 +127,24 @@ describe('two tabs at one scene', () => {
     expect(shown(second).seed).toBe(crossingJson().x_editor?.seed ?? 0);
   });
 
+  it('a change that waits in the tab that left does not replace a later version of the other tab', async () => {
+    const [first, second] = [await newTab(), await newTab()];
+    await open(first, 'mine');
+    await open(second, 'mine');
+    // Both versions reach the server, and their replies are lost.
+    server.fate = (method) => (method === 'PUT' ? { fails: 'reply' } : {});
+    first.editor.commits.run(rename('A'));
+    await pass(400);
+    first.editor.commits.run(rename('B'));
+    void first.library.open('other');
+    await pass(1000);
+    server.fate = () => ({});
+    expect(shown(second).name).toBe('B');
+    second.editor.commits.undo();
+    await pass(60_000);
+    expect([shown(second).name, second.saving.state.peek(), nameOf('mine')]).toEqual(['A', 'saved', 'A']);
+  });
+
   it('the second has the stored steps while the server is unreachable', async () => {
     const first = await newTab();
     const second = await newTab();

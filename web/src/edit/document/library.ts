@@ -63,7 +63,8 @@ export class Library {
       got: (id) => void (this.#isOpen(id) && this.again()),
       leaving: (id) => (this.#isOpen(id) ? this.#handOver() : Promise.resolve()),
       lost: (id) => this.#isOpen(id) && this.#elsewhere(),
-      changed: (id) => void (this.#isOpen(id) && this.again()),
+      // A scene left here may wait to be saved: the tab that has it now saves it, with the stored steps.
+      changed: (id) => (this.#isOpen(id) ? void this.again() : this.saving.letGo(id)),
     });
     journal.onKept = () => this.#turns.tellChanged();
   }

@@ -118,9 +118,10 @@ export class Saving {
     await Promise.all([this.#open.peek()?.flush(), about?.flush()]);
   }
 
-  /** Another tab saves the open scene from now on, with its stored steps. */
-  letGo(): void {
-    if (this.journal.keeping.peek() === 'kept') this.#open.peek()?.stop();
+  /** Another tab saves a scene from now on, the open one or one left here, with its stored steps. */
+  letGo(id?: string): void {
+    const queue = id === undefined ? this.#open.peek() : this.#queues.get(id);
+    if (this.journal.keeping.peek() === 'kept') queue?.stop();
   }
 
   /** Conflict: this version replaces the other one, or creates the scene again where it was deleted. */
