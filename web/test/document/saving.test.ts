@@ -169,6 +169,16 @@ describe('a conflict', () => {
     expect([nameOf('mine'), seedOf('mine'), tab.saving.state.peek()]).toEqual(['Mine', 9, 'saved']);
   });
 
+  it('stays ended where the scene is opened again during the request', async () => {
+    await conflict();
+    server.fate = (method) => (method === 'PUT' ? { there: 400, back: 200 } : { back: 200 });
+    void tab.library.open('mine');
+    await pass(100);
+    void tab.saving.keepMine();
+    await pass(5000);
+    expect([nameOf('mine'), tab.saving.state.peek(), tab.editor.scene.peek()!.name]).toEqual(['Mine', 'saved', 'Mine']);
+  });
+
   it('does not occur where only the reply to our own save was lost', async () => {
     server.fate = (method) => (method === 'PUT' ? { fails: 'reply' } : {});
     tab.editor.commits.run(rename('Mine'));

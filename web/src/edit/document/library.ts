@@ -156,11 +156,13 @@ export class Library {
       if (turn !== this.#reached) return;
       const { committed, etag } = this.#known(id);
       const synced = kept?.place.synced?.etag;
-      const moved = this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
+      const sending = this.saving.isSending(id);
+      const moved = sending || this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
       if (!moved && (asked || !synced || synced === fetched.etag)) {
         const left = this.#adopt(fetched, kept, again);
         return void Promise.all([left, this.journal.flush()]).then(() => this.#turns.left());
       }
+      if (sending) await this.saving.flush(id);
       [known, mine] = [this.#known(id), this.#turns.holds];
       const older = fetched;
       fetched = await fetch().catch((): Fetched => ({ ...older, away: true }));

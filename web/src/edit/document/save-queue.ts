@@ -60,6 +60,10 @@ export class SaveQueue {
     return this.#newest;
   }
 
+  get isSending(): boolean {
+    return this.#running !== null;
+  }
+
   /** The scene was opened, and its start was compared with the server. */
   opened(etag: string | null, state: QueueState): void {
     this.stop();

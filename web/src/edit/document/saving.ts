@@ -106,6 +106,11 @@ export class Saving {
     else this.journal.keepAnswers(this.file.answers());
   }
 
+  /** Is a request to save this scene under way? */
+  isSending(id: string): boolean {
+    return this.#queues.get(id)?.isSending ?? false;
+  }
+
   /** The server is back: sends all unsaved versions. */
   retry(): void {
     for (const queue of this.#queues.values()) queue.retry();
