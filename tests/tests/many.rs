@@ -129,7 +129,7 @@ fn values_are_told_in_words_of_the_command_line() {
         (&["--replan", "6"], "--replan is --replan-interval now"),
         (&["--forget"], "--forget is --kept-futures forgotten now"),
         (&["--kept-futures", "gone"], "answered, omitted or forgotten expected"),
-        (&["--agents", "@none"], "--agents: \"all\" or at least one id expected"),
+        (&["--agents", "@none"], "--agents: expected \"all\", at least one id"),
         (&["--where", "violations > 0"], "violations is kinematic.violations now"),
         (&["--goal", "6=2,27,5,90"], "heading: 90 rad is more than a turn; 90 degrees are 1.5708 rad"),
         (&["--seed", "-1"], "a whole number from 0 to 9007199254740991 expected"),

@@ -45,6 +45,18 @@ describe('two tabs at one scene', () => {
     expect(a.said).toEqual([]);
   });
 
+  it('the first keeps it while it still shows it, on its way to another scene', async () => {
+    const [a, b] = tabs();
+    await a.turns.goTo('s');
+    await b.turns.goTo('s');
+    await a.turns.goTo('other');
+    a.turns.left('s');
+    expect(await a.turns.goTo('s')).toBe(true);
+    await a.turns.goTo('other');
+    a.turns.left('other');
+    await vi.waitFor(() => expect(b.said).toEqual(['got']));
+  });
+
   it('the first still has it when it returns before leaving', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
@@ -55,7 +67,7 @@ describe('two tabs at one scene', () => {
     expect([a.said, b.said, a.turns.holds, b.turns.holds]).toEqual([[], [], true, false]);
   });
 
-  it('only tabs that show it are notified of changes', async () => {
+  it('the holder notifies the other tabs of its changes', async () => {
     const [a, b] = tabs();
     await a.turns.goTo('s');
     await b.turns.goTo('s');

@@ -92,7 +92,7 @@ pub struct FieldProblem {
     pub got: Option<f64>,
     /// The fault as data, where it has a sentence of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub message: Option<Message>,
+    pub message: Option<Box<Message>>,
 }
 
 impl FieldProblem {
@@ -112,7 +112,7 @@ impl FieldProblem {
     /// A fault with its sentence as data.
     pub fn of(pointer: impl Into<String>, code: &'static str, message: Message) -> Self {
         let detail = message.to_string();
-        Self { message: Some(message), ..Self::new(pointer, code, detail) }
+        Self { message: Some(Box::new(message)), ..Self::new(pointer, code, detail) }
     }
 
     /// A number outside `min..=max`.
@@ -140,7 +140,7 @@ impl fmt::Display for FieldProblem {
 
 impl From<SceneError> for FieldProblem {
     fn from(error: SceneError) -> Self {
-        Self { message: error.message, ..Self::new(error.at, error.code, error.reason) }
+        Self { message: error.message.map(Box::new), ..Self::new(error.at, error.code, error.reason) }
     }
 }
 
@@ -196,8 +196,9 @@ impl ReadError {
     /// Text that is not JSON, as the parser found it.
     pub fn malformed_json(error: &serde_json::Error, detail: impl Into<String>) -> Self {
         let message = sentences::json_syntax(sentences::json_fault::of(error));
-        let problem =
-            FieldProblem { message: Some(message), ..FieldProblem::new("", code::MALFORMED_JSON, detail) };
+        let mut problem = FieldProblem::of("", code::MALFORMED_JSON, message);
+        // The parser's words say more than the sentence.
+        problem.detail = detail.into();
         Self {
             kind: RefusalKind::MalformedJson { line: error.line(), column: error.column() },
             problems: vec![problem],

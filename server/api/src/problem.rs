@@ -185,7 +185,7 @@ impl From<ReadError> for Problem {
         if error.problems.len() > 1 {
             detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
         }
-        let message = first.and_then(|p| p.message.clone());
+        let message = first.and_then(|p| p.message.as_deref().cloned());
         let problem = Self::new(code, detail).with(|m| m.message = message);
         match error.kind {
             RefusalKind::MalformedJson { line, column } => {

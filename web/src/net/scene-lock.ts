@@ -65,10 +65,13 @@ export class SceneTurns {
     return free;
   }
 
-  /** Releases the locks of all former scenes for other tabs. */
-  left(): void {
-    for (const letGo of this.#before.values()) letGo();
-    this.#before.clear();
+  /** Releases the locks of former scenes for other tabs, except of the one still shown while the next one comes. */
+  left(shown?: string): void {
+    for (const [scene, letGo] of this.#before) {
+      if (scene === shown) continue;
+      letGo();
+      this.#before.delete(scene);
+    }
   }
 
   leave(): void {

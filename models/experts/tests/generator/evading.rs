@@ -65,7 +65,7 @@ fn where_there_is_no_room_one_halts_before_it_and_says_so() {
         panic!("{:?}", answer.resolved["1"].reach);
     };
     assert_eq!(*limiting, Limiting::Traffic);
-    assert!(words.contains("in the way"), "{words}");
+    assert!(words.contains("blocks this vehicle"), "{words}");
     assert!(!meets(&scene, shown(&answer)));
     let last = shown(&answer).states.last().unwrap();
     let gap_m = -5.0 - last.x_m - 0.5 * (scene.agents[0].size.length_m + scene.agents[1].size.length_m);

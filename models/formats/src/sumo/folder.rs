@@ -76,7 +76,7 @@ impl Format for SumoFolder {
             export: true,
             many: true,
             takes_net: false,
-            notes: "ExportedNetwork, trips and recording with their configuration: `sumo -c` drives the trips, the \
+            notes: "Network, trips and recording with their configuration: `sumo -c` drives the trips, the \
                  recording is the motion itself. Read from the network and the recording.",
             loses: &[
                 loss::code::NO_CONDITIONS,

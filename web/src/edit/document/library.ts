@@ -160,7 +160,9 @@ export class Library {
       const moved = sending || this.#turns.holds !== mine || committed !== known.committed || etag !== known.etag;
       if (!moved && (asked || !synced || synced === fetched.etag)) {
         const left = this.#adopt(fetched, kept, again);
-        return void Promise.all([left, this.journal.flush()]).then(() => this.#turns.left());
+        return void Promise.all([left, this.journal.flush()]).then(() =>
+          this.#turns.left(this.session.document.scene.peek()?.id),
+        );
       }
       if (sending) await this.saving.flush(id);
       [known, mine] = [this.#known(id), this.#turns.holds];

@@ -59,8 +59,8 @@ impl<'a> Quality<'a> {
                  last frame, with a goal position at the frame before. Heading and speed are those of the future \
                  closest at its end, as in the paper, whose ADE stands under \"closest\". Log loss of the best \
                  future given that the road user moves, as all of these do; six even ones give 1.79.",
-                "The others' motion is withheld, so nobody is kept out of the way of: a guess at it would be an \
-                 obstacle that is not there. TableSpec 2 has everybody generated together.",
+                "The motion of other road users is withheld, so no future avoids them: a guessed motion would be an \
+                 obstacle that does not exist. In Table 2 all road users are generated together.",
             ],
             &["type", "condition", "method"],
             &[
