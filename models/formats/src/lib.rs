@@ -20,6 +20,9 @@
 //! println!("lost: {}", registry::loss_header(&file.losses));
 //!
 //! // The content identifies the format.
+//! let scenes = registry::import(&file.bytes, "a file", "auto", &ImportOptions::default())?;
+//! let (again, _warnings) = scenes[0].as_ref().unwrap();
+//! assert_eq!(again.agents[0].track.states.len(), 91);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -17,7 +17,7 @@ const preview = (e) =>
         x,
         y,
         pinned: b.getAttribute('aria-pressed') === 'true',
-        later: b.textContent.includes('comes in'),
+        later: b.textContent.includes('arrives at'),
       };
     }),
   );

@@ -265,7 +265,7 @@ journeys('fingers', (stage) => {
     async () => {
       const { e, f } = await open(stage, 'tablet on its side');
       await e.page.locator('[data-action="tool-place-car"]').tap();
-      const length = e.page.getByLabel('Own length in metres', { exact: true });
+      const length = e.page.getByLabel('Custom length in metres', { exact: true });
       await length.tap();
       await e.page.keyboard.type('6.2');
       await e.key('Enter');

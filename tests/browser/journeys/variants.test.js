@@ -302,7 +302,7 @@ journeys('variants', (stage) => {
       const here = await e.page.locator('.vcard.arrived').allInnerTexts();
       assert.equal(here.length, Number((await e.text('.strip [role="status"]')).split(' ')[0]));
       for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule broken|Goal missed/);
-      await e.page.getByRole('button', { name: 'Go on' }).click();
+      await e.page.getByRole('button', { name: 'Resume' }).click();
       await allMade(e);
       // All of it is one step.
       await e.key('Control+z');

@@ -8,10 +8,11 @@
 //! ```
 //! use lab_eval::stats::{Bootstrap, Value};
 //!
-//! // Errors of three road users in two scenes, metres: the interval comes from resampled scenes. let errors
-//! = [(0, 1.0), (0, 3.0), (1, 5.0)].map(|(scene, metres)| Value::new(scene, metres)); let mean =
-//! Bootstrap::new(2, 0).estimate(errors).unwrap(); assert_eq!((mean.mean, mean.samples, mean.scenes), (3.0,
-//! 3, 2)); assert!(mean.low <= mean.mean && mean.mean <= mean.high);
+//! // Errors of three road users in two scenes, metres: the interval comes from resampled scenes.
+//! let errors = [(0, 1.0), (0, 3.0), (1, 5.0)].map(|(scene, metres)| Value::new(scene, metres));
+//! let mean = Bootstrap::new(2, 0).estimate(errors).unwrap();
+//! assert_eq!((mean.mean, mean.samples, mean.scenes), (3.0, 3, 2));
+//! assert!(mean.low <= mean.mean && mean.mean <= mean.high);
 //! ```
 
 mod ablation;
