@@ -489,7 +489,7 @@ export const STATES = [
     'layers',
     async (e) => {
       const car = await selected(e);
-      for (const key of ['Shift+T', 'Shift+H', 'Shift+C']) await e.key(key);
+      for (const key of ['Shift+M', 'Shift+H', 'Shift+C']) await e.key(key);
       await e.page.locator('[data-menu="layers"]').click();
       await e.page.waitForSelector('.menu');
       return car;
