@@ -1,5 +1,6 @@
 // Sentences of the server: each code has its English and its German, and each contains all of its values.
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
+import ts from 'typescript';
 import { describe, expect, it } from 'vitest';
 import { toldIn } from '../src/model/base/units';
 import { messageText } from '../src/model/words/message-text';
@@ -34,6 +35,21 @@ function asked(sentence: string | ((values: Record<string, string>) => string)):
 }
 
 describe('sentences of the server', () => {
+  it('are never matched by their words', () => {
+    const files = readdirSync('src', { recursive: true, encoding: 'utf8' }).filter((name) => /\.tsx?$/.test(name));
+    const patterns = files.flatMap((name) => {
+      const found: string[] = [];
+      const visit = (node: ts.Node): void => {
+        if (ts.isRegularExpressionLiteral(node)) found.push(`${name}: ${node.text}`);
+        ts.forEachChild(node, visit);
+      };
+      visit(ts.createSourceFile(name, readFileSync(`src/${name}`, 'utf8'), ts.ScriptTarget.Latest));
+      return found;
+    });
+    expect(patterns.length).toBeGreaterThan(40);
+    expect(patterns.filter((pattern) => /[a-z]{2,} [a-z]{2,}/i.test(pattern))).toEqual([]);
+  });
+
   it.each(Object.keys(LANGUAGES))('all stand in %s, with all of their values', (language) => {
     const sentences = LANGUAGES[language];
     expect(Object.keys(sentences).sort()).toEqual(kinds.map((kind) => kind.code).sort());
