@@ -4,10 +4,8 @@
 use crate::{Outcome, WHOLE, cargo_command, run, tools};
 use std::process::Command;
 
-/// The package whose features the build of all others uses.
-const PROGRAM: &str = "dragtraffic";
 /// Packages without a library.
-const WITHOUT_LIBRARY: &[&str] = &[PROGRAM, "xtask"];
+const WITHOUT_LIBRARY: &[&str] = &["dragtraffic", "xtask"];
 
 /// Runs all tests, and the documentation's examples.
 pub fn check() -> anyhow::Result<Outcome> {
@@ -22,13 +20,17 @@ pub fn check() -> anyhow::Result<Outcome> {
     Ok(if failed.is_empty() { Outcome::Passed } else { Outcome::Failed(failed.join(", ")) })
 }
 
-/// Unit tests of some crates, built with the features that the full run gives them.
+/// Unit tests of some crates, from the build of the full run: another choice of packages would have other features,
+/// and compile all dependencies again. Without nextest the unit tests of all crates run.
 pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
     let mut tests = runner()?;
-    tests.args(["--locked", "--package", PROGRAM, "--features", "dragtraffic/lab", "--lib"]);
-    tests.args(crates.iter().flat_map(|name| ["--package", name]));
+    tests.args(WHOLE).arg("--lib");
     if crates.iter().any(|name| WITHOUT_LIBRARY.contains(&name.as_str())) {
         tests.arg("--bins");
+    }
+    if tools::command("nextest")?.is_ok() {
+        let packages: Vec<String> = crates.iter().map(|name| format!("package({name})")).collect();
+        tests.args(["-E", &packages.join(" + ")]);
     }
     run(&mut tests)
 }
