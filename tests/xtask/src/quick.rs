@@ -27,13 +27,14 @@ pub fn run() -> ExitCode {
     println!("crates: {}; page: {}", changed.crates.join(", "), if changed.page { "yes" } else { "no" });
     let format = || cargo(&["fmt", "--all", "--check"]);
     let test = || suites::units(&changed.crates);
-    let page = |script: &'static str| {
+    let page = |script: &'static [&'static str]| {
         move || match web_packages()? {
-            Outcome::Passed => npm("web", &["run", script]),
+            Outcome::Passed => npm("web", &[&["run"], script].concat()),
             failed => Ok(failed),
         }
     };
-    let (page_lint, page_types, page_test) = (page("lint"), page("check"), page("test"));
+    let (page_lint, page_types) = (page(&["lint"]), page(&["check"]));
+    let page_test = page(&["test", "--", "--exclude", "test/browser/**"]);
     let mut checks: Vec<(&str, report::Work<'_>)> = vec![("fmt", &format)];
     if changed.page {
         checks.extend([
