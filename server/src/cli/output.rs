@@ -65,7 +65,7 @@ pub fn write(path: Option<&Path>, bytes: &[u8], force: bool) -> Result<(), Failu
     }
 }
 
-/// Standard output would be a terminal: nobody reads a scene there.
+/// Would the output go to a terminal, where a scene is unreadable?
 pub fn is_terminal(path: Option<&Path>) -> bool {
     path.is_none() && std::io::stdout().is_terminal()
 }
@@ -78,8 +78,16 @@ pub fn write_scene(path: Option<&Path>, bytes: &[u8], force: bool, json: bool) -
     if json || !is_terminal(path) {
         return write(path, bytes, force);
     }
-    let size = bytes.len().div_ceil(1000);
-    print(format!("{size} kB of JSON: --output FILE writes them, --json prints them\n").as_bytes())
+    print_size(bytes.len(), " of JSON", "--json")
+}
+
+/// Prints the size of a document that a terminal does not show, and the flags that write it.
+///
+/// # Errors
+/// Those of [`print`].
+pub fn print_size(bytes: usize, of: &str, flag: &str) -> Result<(), Failure> {
+    let size = bytes.div_ceil(1000);
+    print(format!("{size} kB{of}: --output FILE writes them, {flag} prints them\n").as_bytes())
 }
 
 /// A folder that results go to, each under a name of its own.

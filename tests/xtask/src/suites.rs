@@ -9,7 +9,7 @@ const WITHOUT_LIBRARY: &[&str] = &["dragtraffic", "xtask"];
 
 /// Runs all tests, and the documentation's examples.
 pub fn check() -> anyhow::Result<Outcome> {
-    let mut tests = runner()?;
+    let (mut tests, _) = runner()?;
     let mut examples = cargo_command();
     examples.arg("test").args(WHOLE).arg("--doc");
     let outcomes = [run(tests.args(WHOLE))?, run(&mut examples)?];
@@ -23,29 +23,29 @@ pub fn check() -> anyhow::Result<Outcome> {
 /// Unit tests of some crates, from the build of the full run: another choice of packages would have other features,
 /// and compile all dependencies again. Without nextest the unit tests of all crates run.
 pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
-    let mut tests = runner()?;
+    let (mut tests, filters) = runner()?;
     tests.args(WHOLE).arg("--lib");
     if crates.iter().any(|name| WITHOUT_LIBRARY.contains(&name.as_str())) {
         tests.arg("--bins");
     }
-    if tools::command("nextest")?.is_ok() {
+    if filters {
         let packages: Vec<String> = crates.iter().map(|name| format!("package({name})")).collect();
         tests.args(["-E", &packages.join(" + ")]);
     }
     run(&mut tests)
 }
 
-/// `cargo nextest run`, else `cargo test`.
-fn runner() -> anyhow::Result<Command> {
+/// `cargo nextest run`, which takes filters, else `cargo test`.
+fn runner() -> anyhow::Result<(Command, bool)> {
     Ok(match tools::command("nextest")? {
         Ok(mut nextest) => {
             nextest.args(["run", "--no-tests", "pass"]);
-            nextest
+            (nextest, true)
         }
         Err(_) => {
             let mut cargo = cargo_command();
             cargo.args(["test", "--no-fail-fast"]);
-            cargo
+            (cargo, false)
         }
     })
 }

@@ -29,7 +29,7 @@ impl One {
         let format = registry::by_id(args.to);
         let many = format.is_some_and(|format| format.info().many);
         let heading = format.and_then(|format| format.export(&[], &formats::ExportOptions::default()).ok());
-        // One that is written as a whole alone takes one scene here.
+        // A format that is only written as a whole takes one scene here.
         let many = many && heading.is_some();
         let heading = heading.filter(|_| many).map_or_else(Vec::new, |exported| exported.bytes);
         let path = args.output.as_deref().filter(|path| *path != Path::new("-"));
@@ -83,9 +83,7 @@ impl One {
             self.put(&only)?;
         }
         if let Some(unprinted) = self.unprinted {
-            let size = unprinted.div_ceil(1000);
-            let hint = format!("{size} kB: --output FILE writes them, --output - prints them\n");
-            return output::print(hint.as_bytes());
+            return output::print_size(unprinted, "", "--output -");
         }
         let Some((path, file)) = self.file else { return Ok(()) };
         match file.finish() {
