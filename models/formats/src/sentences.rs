@@ -97,9 +97,8 @@ scene::messages! {
     ids_renumbered() = "ids-renumbered", "Lanes and junctions have numbers instead of SUMO's ids";
     ids_replaced(count: usize, subject: Word) =
         "ids-replaced",
-        [count] "{count} id of {subject} was replaced: an id occurs once and has letters, digits and _ . : \
-         - alone",
-        "{count} ids of {subject} were replaced: an id occurs once and has letters, digits and _ . : - alone";
+        [count] "{count} id of {subject} was replaced: an id occurs once and has letters, digits and _ . : -",
+        "{count} ids of {subject} were replaced: an id occurs once and has letters, digits and _ . : -";
     ids_respelled(count: usize) =
         "ids-respelled",
         [count] "{count} id was respelled or got a suffix",
@@ -153,7 +152,7 @@ scene::messages! {
         "lanes are lines within {off_mm:.0} mm, and {count} begin with a way into them";
     loss_lane_points(off_mm: f64) =
         "loss-lane-points",
-        "lanes are within {off_mm:.0} mm of their lines when their points are set anew; stop lines and stop \
+        "lanes are within {off_mm:.0} mm of their lines when their points are set again; stop lines and stop \
          signs are where lanes begin and end";
     loss_lanes_without_length(count: usize) =
         "loss-lanes-without-length",
@@ -188,8 +187,8 @@ scene::messages! {
         "states more than {past} steps before the current one or {future} after it";
     loss_users_off_lanes(count: usize) =
         "loss-users-off-lanes",
-        [count] "{count} road user on no lane of its own is in the recording alone",
-        "{count} road users on no lane of their own are in the recording alone";
+        [count] "{count} road user without a lane of its own is only in the recording",
+        "{count} road users without a lane of their own are only in the recording";
     loss_users_over_room(count: usize, most: usize) =
         "loss-users-over-room",
         [count] "{count} road user; a record has room for {most}",

@@ -1,5 +1,5 @@
-//! Futures in few bytes: whole numbers of the last digit that futures are rounded to, each told by how the
-//! change from one step to the next changes. No digit is lost.
+//! Futures in few bytes: integers in units of the last rounded digit, as second differences over the steps. No digit
+//! is lost.
 
 use formats::native::{AgentFuturesDoc, FutureDoc};
 use scene::judge::{Fault, Manoeuvre, Reaction, Relation};
@@ -18,7 +18,7 @@ pub enum FuturesForm {
     Compact,
 }
 
-/// The futures of one road user in a reply, as `futures` of the request says.
+/// The futures of one road user in a reply, in the form that `futures` of the request names.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FuturesDoc {
@@ -74,7 +74,7 @@ pub struct CompactFuture {
 }
 
 impl FuturesDoc {
-    /// Of one road user: all its futures, or the chosen one alone.
+    /// Of one road user: all its futures, or only the chosen one.
     pub fn new(futures: &AgentFutures, all_modes: bool, form: FuturesForm) -> Self {
         let modes = if all_modes {
             futures.modes.as_slice()

@@ -24,7 +24,7 @@ pub struct DraftBody {
     step: Option<usize>,
     /// Refinement steps of a window.
     steps: usize,
-    /// Futures by road user; the chosen ones alone, or all as `stream_modes` says.
+    /// Futures by road user; only the chosen ones, or all by `stream_modes`.
     agents: BTreeMap<String, FuturesDoc>,
 }
 
@@ -34,7 +34,7 @@ impl DraftBody {
         self.step.is_none()
     }
 
-    /// Of a draft; with `all_modes`, all alternatives and not the chosen ones alone.
+    /// Of a draft; with `all_modes`, all alternatives, not only the chosen ones.
     pub fn new(draft: &Draft, futures: &Sample, all_modes: bool, form: FuturesForm) -> Self {
         let agents = futures.agents.iter();
         let agents =
@@ -87,12 +87,12 @@ pub struct FinalBody {
     /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
     /// of the first and end with its plan.
     pub windows: usize,
-    /// Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
-    /// unless `kept_futures` says otherwise.
+    /// Joint scenes. They include road users outside the call with the future that the scene keeps, unless
+    /// `kept_futures` excludes them.
     pub samples: Vec<SampleBody>,
     /// Every condition field as it was used.
     pub resolved: BTreeMap<String, Resolved>,
-    /// One report a sample, or null when none was asked for.
+    /// One report per sample, or null without `score`.
     pub scores: Option<Vec<Score>>,
     /// Unlikely things that were done anyway.
     pub warnings: Vec<Warning>,
@@ -102,7 +102,7 @@ pub struct FinalBody {
     /// Where the time went.
     pub timing: TimingBody,
     /// Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
-    /// options, seed, weights and version. Equal calls have equal codes.
+    /// options, seed, weights and version. Identical calls have identical codes.
     pub code: String,
     /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
     /// compact form as columns).
@@ -113,7 +113,7 @@ pub struct FinalBody {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Round")]
 pub struct RoundBody {
-    /// One a future of the road user that was asked for, or one a sample, in their order: the best liked first.
+    /// One per future of the requested road user, or one per sample, the most preferred first.
     pub cards: Vec<RoundCard>,
     /// What the answers agree upon, the surest first.
     pub wishes: Vec<Learned>,

@@ -28,7 +28,7 @@ pub enum MotionChoice {
     /// The chosen futures, and the recording for all else.
     #[default]
     Chosen,
-    /// The recording alone.
+    /// Only the recording.
     Log,
 }
 

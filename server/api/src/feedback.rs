@@ -17,18 +17,18 @@ const MOST_TRAITS: usize = 64;
 /// Most places of a road user: every half second of the longest answer.
 const MOST_PLACES: usize = 41;
 
-/// Rounds of cards: the answer is the next round, taken from a wide draw by what was said of earlier cards. `feedback`
-/// of the reply says what each card is like; each is sent back with what is said of it.
+/// Rounds of cards: the reply is the next round, chosen from a wide draw by the verdicts on earlier cards. `feedback`
+/// of the reply has the features of each card; the client returns them with its verdict.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeedbackDoc {
-    /// Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
+    /// Judged cards, the first round's first, without cards that were neither kept nor rejected.
     #[schemars(length(max = 200))]
     pub answers: Vec<AnswerDoc>,
-    /// Wishes that were said outright.
+    /// Preferences that the user stated.
     #[schemars(length(max = 32))]
     pub wishes: Vec<Wish>,
-    /// Traits that do not count, whatever the answers show.
+    /// Traits to ignore, whatever the verdicts show.
     #[schemars(length(max = 32))]
     pub forgotten: Vec<Trait>,
 }
@@ -37,20 +37,20 @@ pub struct FeedbackDoc {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnswerDoc {
-    /// Of the card, as it was answered.
+    /// Features of the card, as the reply had them.
     pub features: Features,
-    /// What was said.
+    /// The user's verdict.
     pub verdict: Verdict,
-    /// What should be otherwise, or was liked.
+    /// The reason for the verdict.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub why: Option<Wish>,
-    /// Of the card, as they were answered: nothing like it comes again.
+    /// Places of the card, as the reply had them: later rounds have no similar card.
     #[serde(default)]
     pub places: Members<Vec<[f64; 2]>>,
 }
 
 impl FeedbackDoc {
-    /// What it says.
+    /// The judged cards, preferences and ignored traits.
     ///
     /// # Errors
     /// Lists that are too long and numbers out of their range, each with its place.

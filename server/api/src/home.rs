@@ -1,4 +1,4 @@
-//! Where scenes come from: "a scene, or the id of one", and who knows ids.
+//! Sources of scenes: a scene in the request, or the id of one, which a `Home` resolves.
 
 use crate::code::Code;
 use crate::english;
@@ -60,7 +60,7 @@ pub fn at_once<T>(given: impl Future<Output = T>) -> Option<T> {
     }
 }
 
-/// What a request says about its scene. Exactly one of `scene` and `scene_id` is given.
+/// The scene of a request. Exactly one of `scene` and `scene_id` is given.
 #[derive(Debug, Default)]
 pub struct SceneRef {
     /// The scene itself.
@@ -75,7 +75,7 @@ pub struct SceneRef {
 
 /// A request that is about a scene.
 pub trait AboutScene {
-    /// Takes out what it says about it.
+    /// Takes the scene out of the request.
     fn take_scene(&mut self) -> SceneRef;
 }
 

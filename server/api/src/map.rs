@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapBody {
-    /// What to start from.
+    /// The template.
     pub template: Template,
-    /// In place of the template's own parameters; those that are left out stay, and a list replaces a list. Names and
-    /// ranges are those of the template in `Layout`.
+    /// Parameters that replace those of the template; absent ones stay, and a list replaces a list. `Layout` has their
+    /// names and ranges.
     #[serde(default)]
     #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
     pub parameters: Option<AnyDoc>,
@@ -29,7 +29,7 @@ pub struct MapBody {
 /// A new map.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MapReply {
-    /// A scene with the map and nobody in it. Its `x_layout` says what it was made from.
+    /// A scene with the map and no road users. Its `x_layout` has the template and its parameters.
     pub scene: SceneDoc,
     /// The template with all its parameters.
     pub layout: Layout,
@@ -93,7 +93,7 @@ impl MapBody {
         Ok((layout, scene, built))
     }
 
-    /// Draws the map and says all of it.
+    /// Draws the map and checks it.
     ///
     /// # Errors
     /// Every fault of the parameters.

@@ -27,7 +27,7 @@ impl Opened {
     }
 }
 
-/// What a scene comes to as it stands, by the steps that are scored; worked out when it is first asked for.
+/// Scores of an unchanged scene by the number of scored steps; computed at the first use.
 pub struct Standings {
     scene: Arc<Scene>,
     known: Mutex<Vec<Arc<BaselineScore>>>,
@@ -46,7 +46,7 @@ impl Standings {
         if let Some(standing) = find(&lock()) {
             return standing;
         }
-        // Not under the lock: two callers may work out the same, and nobody waits for another.
+        // Not under the lock: two callers may compute the same, but neither waits for the other.
         let standing = Arc::new(BaselineScore::new(Arc::clone(&self.scene), drivable, steps.clone()));
         let mut known = lock();
         if find(&known).is_none() {

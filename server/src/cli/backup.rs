@@ -52,7 +52,7 @@ fn takes_a_file(path: &Path) -> bool {
     path != Path::new("-") && path.metadata().map_or(true, |found| found.is_file())
 }
 
-/// One file by two names, or one of those that the database library keeps beside it.
+/// Are both paths the same file, or is one a side file of the database?
 fn same_file(db: &Path, output: &Path) -> bool {
     let Ok(db) = db.canonicalize() else { return false };
     let output = output.canonicalize().unwrap_or_else(|_| {

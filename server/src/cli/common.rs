@@ -16,7 +16,7 @@ const MOST_LISTED: usize = 10;
 /// Flags of every command.
 #[derive(Args, Clone, Debug)]
 pub struct Common {
-    /// Print errors alone on standard error.
+    /// Print only errors on standard error.
     #[arg(short, long, global = true, help_heading = HEADING)]
     pub quiet: bool,
     /// List all losses, warnings and road users on standard error, instead of the first 10.
@@ -112,7 +112,7 @@ impl Common {
         Ok(Operations { generator: Arc::new(operations.generator.beside(threads)), ..operations })
     }
 
-    /// The generator alone.
+    /// Only the generator.
     ///
     /// # Errors
     /// Exit 7.

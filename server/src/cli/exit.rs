@@ -19,7 +19,7 @@ pub enum Exit {
     Weights = 7,
     /// The output exists.
     OutputExists = 8,
-    /// Ctrl-C; what was done by then is kept where the command says so.
+    /// Ctrl-C; commands that write result by result keep the finished ones.
     Interrupted = 130,
 }
 
@@ -28,7 +28,7 @@ pub enum Exit {
 pub struct Failure {
     /// Exit code.
     pub exit: Exit,
-    /// One sentence; empty when it was told already.
+    /// One sentence; empty when it was printed already.
     pub message: String,
 }
 

@@ -17,7 +17,7 @@ pub struct MapArgs {
     /// Print the templates with their parameters as JSON.
     #[arg(long, exclusive = true)]
     list: bool,
-    /// JSON file with `template` and `parameters`, or with parameters alone; - is standard input.
+    /// JSON file with `template` and `parameters`, or with only parameters; - is standard input.
     #[arg(long = "parameters", value_name = "FILE")]
     parameters_file: Option<PathBuf>,
     /// Set one parameter by its path, such as kerb_radius_m=6 or arms.1.angle_deg=71. Overrides the file.

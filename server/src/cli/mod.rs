@@ -161,7 +161,7 @@ fn without_global_options(mut whole: clap::Command) -> clap::Command {
     whole.mut_subcommands(hidden)
 }
 
-/// Flags of the server alone stand before another command: they would do nothing there.
+/// Refuses server flags before another command, where they have no effect.
 fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     let server = serve::ServeArgs::augment_args(clap::Command::new("serve"));
     for flag in server.get_arguments() {
@@ -178,7 +178,7 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     Ok(())
 }
 
-/// Flags of earlier versions, and those that say the same now.
+/// Flags of earlier versions, with their replacements.
 const RENAMED: [(&str, &str); 4] = [
     ("--forget", "--kept-futures forgotten"),
     ("--replan", "--replan-interval"),

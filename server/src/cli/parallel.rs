@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 /// Results that may wait for an earlier one, for each worker.
 const AHEAD: usize = 4;
 
-/// Workers when nobody says how many: one a core.
+/// Default number of workers: one per core.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }

@@ -88,7 +88,7 @@ impl Progress {
         }
     }
 
-    /// A line that is told under `--quiet` too.
+    /// A line that is printed under `--quiet` too.
     pub fn error(&self, text: &str) {
         match &self.bar {
             Some(bar) => bar.suspend(|| output::complain(text)),
@@ -117,7 +117,7 @@ impl Drop for Progress {
     }
 }
 
-/// A line for those who have no terminal.
+/// A progress line for output without a terminal.
 fn text(what: &str, state: &State, elapsed: Duration) -> String {
     let State { done, before, total, .. } = state;
     let (left, own) = (total.saturating_sub(*done), done.saturating_sub(*before));

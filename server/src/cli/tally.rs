@@ -1,4 +1,4 @@
-//! How work on many files ends: each failure is told when it happens, the command's end follows from all of them.
+//! The outcome of work on many files: each failure is printed when it happens, and the exit code follows from all.
 
 use super::progress::Progress;
 use super::{Exit, Failure};
@@ -12,7 +12,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// One item's end. A failure is told at once, unless it is the only item there is: then it ends the command.
+    /// The outcome of one item. A failure is printed at once, unless it is the only item: then it ends the command.
     pub fn add(&mut self, result: Result<(), Failure>, only: bool, progress: &Progress) {
         match result {
             Ok(()) => self.done += 1,

@@ -1,4 +1,4 @@
-//! Values of flags, judged where they are read, so that a bad one is told in the words of the command line.
+//! Values of flags, checked when they are parsed, so that messages name the flag.
 
 use std::ops::Range;
 

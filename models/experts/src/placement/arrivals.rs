@@ -245,7 +245,7 @@ impl Sampler<'_> {
         say(full, &format!("a scene holds {} road users: no place", scene::MAX_AGENTS));
         say(
             outside,
-            "the area ends inside the map, and nobody appears in the middle of a road: no way in later",
+            "the area ends inside the map, and no road user appears in the middle of a road: no way in later",
         );
     }
 

@@ -185,7 +185,7 @@ fn lost(scene: &Scene, motion: ExportedMotion, losses: &mut Vec<Loss>) {
         (agents.iter().any(|a| a.role.is_some() && !ego(&a)), code::NO_ROLES, "roles other than the ego's"),
         (renamed, code::IDS_RENUMBERED, "the ego is called AV"),
         (heights, code::NO_Z, "heights"),
-        (unseen, code::NO_UNSEEN, "road users whom nobody saw"),
+        (unseen, code::NO_UNSEEN, "road users without recorded states"),
         (noted || scene.name != *id, code::NO_NOTES, "name, tags, notes and members of other tools"),
     ];
     losses.extend(

@@ -268,7 +268,7 @@ fn tell(scene: &Scene, options: &ExportOptions, full: bool, renumbered: bool, lo
         (
             if full { heights } else { flat },
             code::NO_Z,
-            if full { "heights that nobody knows become zero" } else { "heights" },
+            if full { "unknown heights become zero" } else { "heights" },
         ),
         (!full && agents.iter().any(|a| a.size.height_m.is_some()), code::NO_SIZES, "heights of boxes"),
         (agents.iter().any(|a| a.subtype != Subtype::Unknown), code::NO_SUBTYPE, "finer kinds such as truck"),

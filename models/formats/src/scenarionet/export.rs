@@ -201,7 +201,7 @@ fn tell(scene: &Scene, motion: ExportedMotion, losses: &mut BTreeSet<Loss>) {
     // Half of the least step between two numbers of 24 bits.
     let off_m = largest.chain(lines).fold(1.0, f64::max) / f64::from(1 << 24);
     let all = [
-        (unknown, code::NO_Z, "heights that nobody knows become zero"),
+        (unknown, code::NO_Z, "unknown heights become zero"),
         (agents.iter().any(|a| a.subtype != Subtype::Unknown), code::NO_SUBTYPE, "finer kinds such as truck"),
         (roles, code::NO_ROLES, "roles other than the ego's"),
         (!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas"),

@@ -1,4 +1,4 @@
-//! From a request and its scene to what the generator is asked for.
+//! From a request and its scene to the generator's request.
 
 use super::concerned;
 use super::request::{AgentChoice, GenerateRequest, ReactChoice, StreamModes};

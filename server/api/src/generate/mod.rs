@@ -23,8 +23,8 @@ fn concerned(request: &Request) -> usize {
     }
 }
 
-/// Puts the chosen futures of those who are not part of an answer into its sample: they were planned around, so the
-/// answer is coherent with them alone.
+/// Adds the chosen futures of road users outside the call to its sample: the plans avoid exactly these futures, so the
+/// answer is coherent only with them.
 fn fill(scene: &Scene, sample: &mut Sample) {
     let kept = scene.generated.as_ref().and_then(|generated| generated.samples.get(generated.chosen_sample));
     let there = |id: &String| scene.agent(id).is_some();

@@ -21,11 +21,11 @@ use std::time::Duration;
 pub struct GenerationPlan {
     /// For the generator. Its scene has this call's road users and conditions.
     pub request: Request,
-    /// The caller reads drafts, not the answer alone.
+    /// The caller reads drafts, not only the final answer.
     pub drafts: bool,
-    /// What the scene comes to without this call's changes, where it is one that stays open.
+    /// Scores of the unchanged scene, for a scene that stays open.
     pub standings: Option<Arc<Standings>>,
-    /// All alternatives in drafts, not the chosen ones alone.
+    /// All alternatives in drafts, not only the chosen ones.
     pub(super) all_modes: bool,
     /// Drafts that stand sooner than this after the work began are left out, until one is sent.
     pub(super) draft_delay: Duration,
@@ -35,11 +35,11 @@ pub struct GenerationPlan {
     pub(super) form: FuturesForm,
     /// Score each sample.
     pub(super) score: bool,
-    /// Samples hold the futures of those who are not part of the call too.
+    /// Samples include the futures of road users outside the call.
     pub(super) with_kept: bool,
     /// The rest of `generated`.
     pub(super) head: GeneratedHead,
-    /// Warnings that follow from the request alone.
+    /// Warnings that follow from the request, before any planning.
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -89,7 +89,7 @@ impl GenerateRequest {
             .collect()
     }
 
-    /// A future that is kept answers something else than what the scene says with this call's conditions.
+    /// Does a kept future belong to other conditions than those of the scene with this call's changes?
     fn keeps_stale(&self, scene: &Scene, applied: &Scene, request: &Request) -> bool {
         let (Some(before), Some(generated)) = (&scene.generated, &applied.generated) else { return false };
         let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));

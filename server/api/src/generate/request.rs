@@ -1,4 +1,4 @@
-//! What a generation is asked for: the request with its defaults.
+//! The request of a generation, with its defaults.
 
 use crate::compact::FuturesForm;
 use crate::english;
@@ -35,12 +35,12 @@ pub enum AllWord {
     All,
 }
 
-/// Who else answers: true for everyone near, or ids.
+/// Road users that may react: true for all nearby, or ids.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged)]
 #[schemars(rename = "Reacting")]
 pub enum ReactChoice {
-    /// Everyone, or nobody.
+    /// All, or none.
     Whether(bool),
     /// These.
     Ids(Vec<String>),
@@ -81,25 +81,25 @@ pub struct GenerateRequest {
     pub scene_id: Option<String>,
     /// With `scene_id`: refuse when the scene has changed.
     pub etag: Option<String>,
-    /// With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
-    /// reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+    /// With `scene`: the server holds it in memory. Later calls use the name in the reply's header `Dragtraffic-Scene`
+    /// as their `scene_id`. The server drops scenes that were not used for a long time (`not-found`).
     pub hold: bool,
     /// Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
     /// size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
     /// a future of it.
     pub conditions: Members<ConditionsDoc>,
-    /// Road users put in for this call.
+    /// Road users added for this call.
     pub add_agents: Vec<AgentDoc>,
-    /// Road users taken out for this call.
+    /// Road users removed for this call.
     pub remove_agents: Vec<String>,
-    /// Own id for the job, so that it can be cancelled.
+    /// The client's id of the job, to cancel it by.
     pub job: Option<String>,
-    /// With `revision`: a newer revision of this client takes over.
+    /// With `revision`: a newer revision of this client replaces the running one.
     pub client: Option<String>,
     /// Rises with each request of `client`.
     #[schemars(range(max = 9007199254740991u64))]
     pub revision: Option<u64>,
-    /// Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+    /// A background call: calls without this flag go first, in the queue and on the cores.
     pub background: bool,
     /// Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
     /// user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
@@ -109,8 +109,8 @@ pub struct GenerateRequest {
     pub agents: Option<AgentChoice>,
     /// Road users that may react to them.
     pub react: ReactChoice,
-    /// Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
-    /// the others answer it.
+    /// Road users that continue with the chosen future that the scene keeps for them: it counts as requested, and
+    /// other road users react to it.
     pub pinned: Vec<String>,
     /// Scene time of the start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
@@ -135,12 +135,12 @@ pub struct GenerateRequest {
     /// Refinement steps; 0 returns the first draft.
     #[schemars(range(max = 100))]
     pub steps: u64,
-    /// What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
-    /// the jump.
+    /// The futures shown last for these road users during a drag: each is kept unless another is better by the cost of
+    /// `switching`.
     pub shown: Members<ShownDoc>,
-    /// Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
-    /// round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
-    /// many. `samples` does not count.
+    /// Requests a round of cards, chosen by the verdicts on earlier cards; `{}` requests the first round. For one road
+    /// user without reactions each future is a card, else each sample. `modes` is the number of cards; `samples` has
+    /// no effect.
     pub feedback: Option<FeedbackDoc>,
     /// What drafts carry.
     pub stream_modes: StreamModes,
@@ -259,7 +259,7 @@ impl GenerateRequest {
     }
 }
 
-/// What is said of an angle beyond [`MOST_ANGLE_RAD`]: mostly it was meant in degrees.
+/// The message for an angle beyond [`MOST_ANGLE_RAD`], which is usually meant in degrees.
 pub fn more_than_a_turn(got: f64) -> String {
     let radians = format!("{:.4}", got.to_radians());
     let got = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };

@@ -1,4 +1,4 @@
-//! From a placement's request to what the placer is asked for: every member held against its range.
+//! From a request to the placer's input: every member is checked against its range.
 
 use super::request::{ArrivalsDoc, DensityDoc, ParkedDoc, PlaceBody, RegionDoc, SpeedsDoc};
 use crate::problem::{Problem, refuse, unknown_agent};

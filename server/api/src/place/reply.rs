@@ -9,16 +9,16 @@ use serde::Serialize;
 /// What was placed.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlaceReply {
-    /// New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
-    /// has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
+    /// New road users: one state at `at_s`, the same as a fixed start, goals free. One that enters by an arm
+    /// later has a track from the map's edge on, which it keeps until it reacts; a parked one has a standing track.
     pub agents: Vec<AgentDoc>,
-    /// Road users asked for that found no place.
+    /// Number of requested road users without a place.
     pub unplaced: usize,
     /// Why, in one sentence; null when all were placed.
     pub reason: Option<String>,
     /// `model`, or `lane-sampler` where the weights folder has no placement weights.
     pub method: PlacementMethod,
-    /// Where roads come into the map or the region, with what came of the traffic asked for.
+    /// Arms: where roads enter the map or the region, with the traffic placed on each.
     pub arms: Vec<ArmDoc>,
     /// Places at kerbs and in lots; null without `parked`.
     pub parking_places: Option<usize>,

@@ -1,4 +1,4 @@
-//! What a placement is asked for: the request with its defaults.
+//! The request of a placement, with its defaults.
 
 use crate::home::{AboutScene, SceneRef, one_scene};
 use formats::native::{Members, SceneDoc};
@@ -95,7 +95,7 @@ pub struct PlaceBody {
     pub etag: Option<String>,
     /// Where; null is the whole map. It may reach 50 m beyond the map's box.
     pub region: Option<RegionDoc>,
-    /// How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`.
+    /// Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`.
     pub density: Option<DensityDoc>,
     /// Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
     #[schemars(with = "Option<BTreeMap<String, f64>>")]
@@ -108,15 +108,15 @@ pub struct PlaceBody {
     /// The same seed gives the same answer.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
-    /// Least room along the lane between those who drive, metres. Everybody else keeps 0.1 m.
+    /// Minimum gap along the lane between moving vehicles, metres. All other gaps are at least 0.1 m.
     #[schemars(range(min = 0.0, max = 50.0))]
     pub min_gap_m: f64,
-    /// Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands.
+    /// Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest.
     pub speeds: Option<SpeedsDoc>,
-    /// Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone.
+    /// Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here.
     #[schemars(length(max = 256))]
     pub arrivals: Vec<ArrivalsDoc>,
-    /// Parked cars, beside those that `density` asks for.
+    /// Parked cars, in addition to `density`.
     pub parked: Option<ParkedDoc>,
 }
 

@@ -174,7 +174,7 @@ fn tell(losses: &Losses, only: bool, args: &ConvertArgs, common: &Common) {
     }
 }
 
-/// A scene in the format asked for.
+/// A scene in the requested format.
 fn written(
     item: &Item,
     args: &ConvertArgs,

@@ -1,4 +1,4 @@
-//! From flags and a scene to the request that says the same.
+//! From flags and a scene to the equivalent request.
 
 use super::GenerateArgs;
 use super::who::{self, AgentSelector};
@@ -11,7 +11,7 @@ use scene::scenarios::Casting;
 use scene::{Agent, Conditions, STEP_S, Scene};
 use std::collections::BTreeMap;
 
-/// The request for one scene and seed; with a casting, for its actor alone. `scored`: figures are wanted.
+/// The request for one scene and seed; with a casting, only for its actor. `scored`: the reply needs scores.
 ///
 /// # Errors
 /// Exit 2 for what the scene does not have, 3 for a file of conditions that cannot be read.
@@ -57,7 +57,7 @@ pub fn request(
     })
 }
 
-/// Conditions of those that a flag says something about; the rest keep what the scene has fixed.
+/// Conditions of road users named by a flag; all others keep those of the scene.
 fn conditions(
     args: &GenerateArgs,
     scene: &Scene,
@@ -85,7 +85,7 @@ fn conditions(
     for id in logged(args, scene)? {
         let Some(agent) = scene.agent(&id) else { continue };
         let Some(goal) = goal_of_log(args, agent) else {
-            // A word means all who fit; an id means this one.
+            // A selector matches several road users; an id matches one.
             if args.goal_from_log.contains(&AgentSelector::Id(id.clone())) {
                 let message =
                     format!("--goal-from-log {id}: no state is recorded 0.5 s or more after the start");
@@ -99,7 +99,7 @@ fn conditions(
         let asked = &given.value;
         change(&given.id, &|doc| (doc.goal, doc.frame) = (Some(asked.goal.clone()), Some(asked.frame)));
     }
-    // What the flag says stands in place of those that the scene has.
+    // Conditions of the flag replace those of the scene.
     for given in &args.via {
         change(&given.id, &|doc| doc.via.clear());
     }
@@ -118,7 +118,7 @@ fn conditions(
     Ok(docs)
 }
 
-/// Refuses to say something about somebody who is not there.
+/// Refuses conditions of a road user that the scene does not have.
 fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure> {
     match values.iter().find(|given| scene.agent(&given.id).is_none()) {
         Some(given) => Err(Failure::usage(format!("{flag} {}: the scene has no such road user", given.id))),

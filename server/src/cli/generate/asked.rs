@@ -11,7 +11,7 @@ const ANGLE_RAD: f64 = api::generate::request::MOST_ANGLE_RAD;
 /// Latest goal, seconds.
 const LATEST_S: f64 = 80.0;
 
-/// A goal and the frame that it is told in.
+/// A goal and its frame of reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedGoal {
     /// The goal.
@@ -126,7 +126,7 @@ pub fn goal(text: &str) -> Result<AskedGoal, String> {
         y_m: value("y"),
         heading_rad: value("heading"),
         ahead_m: value("ahead"),
-        // Straight ahead unless it is said otherwise.
+        // Straight ahead by default.
         left_m: value("left").or(value("ahead").map(|_| 0.0)),
         turn_rad: value("turn"),
         speed_mps: value("speed"),

@@ -36,9 +36,9 @@ pub enum MakeOutcome {
 pub struct MadeScene {
     /// With the samples that are kept.
     pub scene: Scene,
-    /// Who plays what, with a template.
+    /// The roles of a template.
     pub casting: Option<Casting>,
-    /// The road user that was asked for, where it is one.
+    /// The requested road user, if it is a single one.
     pub actor: Option<String>,
     /// What was asked of each and whether it can be had.
     pub resolved: BTreeMap<String, Resolved>,
@@ -48,7 +48,7 @@ pub struct MadeScene {
     pub samples: Vec<(usize, Option<Figures>)>,
     /// How many there were.
     pub all_samples: usize,
-    /// Who was in the scene's futures before and was not asked for.
+    /// Road users outside the call whose futures the scene keeps.
     pub kept: Vec<String>,
     /// Names what it follows from, in six characters.
     pub code: String,

@@ -53,7 +53,7 @@ struct Sum {
 /// Generates everything.
 ///
 /// # Errors
-/// Exit 4 when some failed, when nothing is kept, or under `--strict` when somebody does not fit; 8 when the folder has
+/// Exit 4 when some failed, when nothing is kept, or under `--strict` when a template fits no road user; 8 when the folder has
 /// results already.
 pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common) -> Result<(), Failure> {
     let folder = Folder::new(path, args.force)?;
@@ -188,7 +188,7 @@ struct BatchReport<'a> {
     table: crate::cli::score::table::Table,
     sums: BTreeMap<Option<Template>, Sum>,
     tally: Tally,
-    /// Told already: files that cannot be read, and scenes in which nobody fits.
+    /// Messages printed already: unreadable files, and scenes that a template does not fit.
     told: BTreeSet<(String, Option<Template>)>,
 }
 
@@ -207,7 +207,7 @@ impl<'a> BatchReport<'a> {
     fn add(&mut self, part: &WishBatch<'_>, ends: Result<Vec<WishEnd>, Failure>) {
         match ends {
             Ok(ends) => ends.into_iter().for_each(|end| self.end(end)),
-            // Other parts of the same file fail alike: it is told and counted once.
+            // Other parts of the same file fail alike: the failure is printed and counted once.
             Err(failure) if self.told.insert((part.source.shown(), None)) => {
                 self.tally.add(Err(failure), self.only, self.progress);
             }

@@ -193,7 +193,7 @@ fn one(args: &GenerateArgs, source: &super::inputs::Source, common: &Common) -> 
 }
 
 impl GenerateArgs {
-    /// What clap cannot see: that nobody is told two things.
+    /// Refuses a flag that names one road user twice, which clap cannot detect.
     fn check(&self) -> Result<(), Failure> {
         twice("--goal", &self.goal)?;
         twice("--start", &self.start)?;

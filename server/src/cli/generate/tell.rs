@@ -1,5 +1,5 @@
-//! What came of each road user, in a line: the goal met or how far from it and why, who answered whom, what is wrong
-//! with the future that is shown.
+//! One line per road user: the goal met or missed, with distance and reason, the reactions with their causes, and the
+//! faults of the shown future.
 
 use super::GenerateArgs;
 use super::made::MadeScene;
@@ -10,7 +10,7 @@ use scene::{AgentFutures, Future};
 
 /// Faults of a future that are named.
 const MOST_FAULTS: usize = 3;
-/// A goal is off by so little that nobody needs the number, metres.
+/// Goal errors below this are not printed, metres.
 const NEAR_M: f64 = 0.005;
 
 /// All lines of an answer, those of the first sample; road users with a goal come first, then those that react.
@@ -63,7 +63,7 @@ fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
     parts.join("; ")
 }
 
-/// Whether a goal that somebody asked for is met; `None` where nobody asked.
+/// Is the requested goal met? `None` without a goal.
 pub fn goal(resolved: &Resolved) -> Option<String> {
     let goal = &resolved.goal;
     let asked = |field: experts::Field| field.from == From::User;
@@ -144,8 +144,8 @@ fn fault(fault: &Fault) -> String {
     format!("{what}{with} at {:.1} s", fault.time_s)
 }
 
-/// Says who comes in after the start of a scene that is generated whole and keeps its log, which knows nothing of
-/// what the others do now.
+/// Names the road users that enter later and replay the recording, in a scene that is generated whole: the recording
+/// does not react to the generated motion.
 fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
     let whole = args.agents.is_empty() && args.react.is_empty() && made.casting.is_none();
     let samples = made.scene.generated.iter().flat_map(|generated| &generated.samples);

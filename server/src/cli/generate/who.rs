@@ -7,11 +7,11 @@ use std::str::FromStr;
 /// Road users of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AgentSelector {
-    /// Everybody that can be generated.
+    /// All road users that can be generated.
     All,
-    /// Who moves at the start.
+    /// Road users that move at the start.
     Moving,
-    /// Who is there at the start and counts as this.
+    /// Road users of this type that are present at the start.
     Kind(AgentType),
     /// The recording vehicle.
     Ego,
@@ -42,11 +42,11 @@ impl FromStr for AgentSelector {
     }
 }
 
-/// Ids that these words mean in a scene, each once, in the order of the scene; ids as they are, known or not. `None`
-/// for everybody.
+/// The ids that these selectors match in a scene, each once, in the order of the scene; plain ids pass through, known or
+/// not. `None` for all.
 ///
 /// # Errors
-/// Exit 2 when a word means nobody here; `flag` names where it stands.
+/// Exit 2 when a selector matches no road user; `flag` is named in the message.
 pub fn ids(
     who: &[AgentSelector],
     scene: &Scene,

@@ -80,7 +80,7 @@ fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// Whether a file of a folder is taken, by its name alone.
+/// Does the name of a file in a folder qualify it as an input?
 fn is_scene(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if name.starts_with('.') || name.ends_with(".tmp") {
@@ -117,7 +117,7 @@ fn label(path: &Path) -> String {
     registry::stem(&path.file_name().unwrap_or_default().to_string_lossy()).to_owned()
 }
 
-/// Refuses ids that stand behind a flag which takes them behind `=` alone: they would be files that are not there.
+/// Refuses ids after a flag that takes them only with `=`: they would be read as names of missing files.
 ///
 /// # Errors
 /// Exit 2.

@@ -97,8 +97,8 @@ impl Source {
         format.is_none_or(|format| format.info().many)
     }
 
-    /// Reads scene after scene and hands each to `take`; gives their number. What is no scene is told and passed
-    /// over.
+    /// Reads scene after scene, passes each to `take` and returns their number. Records that are no scenes are printed
+    /// and skipped.
     ///
     /// # Errors
     /// Exit 3, and what `take` reports.

@@ -1,4 +1,4 @@
-//! `dragtraffic lab bench --crowd`: many callers at once, and one who drags beside the heaviest calls there can be.
+//! `dragtraffic lab bench --crowd`: many callers at once, and one drag beside the heaviest possible calls.
 
 use super::failed;
 use super::http_bench::longest_way;
@@ -27,7 +27,7 @@ pub struct Crowd {
     seconds: f64,
     answered_per_s: f64,
     refused_per_s: f64,
-    /// Of those that were answered, milliseconds.
+    /// Latency of answered calls, milliseconds.
     answer: Percentiles,
     /// Memory of the server at each full minute and at the end, MB.
     memory_mb: Vec<f64>,
@@ -49,8 +49,8 @@ pub struct Strain {
     drag: DragLatency,
 }
 
-/// Crowds of these sizes that ask for one road user's futures again and again, at once after a refusal too, for so
-/// long each; then one who drags, alone and beside four calls for everybody in 32 samples of 100 steps.
+/// Crowds of these sizes request one road user's futures repeatedly, without a pause after a refusal, for the given
+/// time each. Then one client drags, first alone, then beside four calls for all road users in 32 samples of 100 steps.
 pub fn strain(
     scene: &Scene,
     sizes: &[usize],

@@ -154,7 +154,7 @@ fn timed(
     })
 }
 
-/// The vehicle that goes farthest, of those that are there at the first step.
+/// The vehicle with the longest path among those present at the first step.
 pub(super) fn longest_way(scene: &Scene) -> Option<&str> {
     let vehicles =
         scene.agents.iter().filter(|a| a.agent_type == AgentType::Vehicle && a.state_at(0).is_some());

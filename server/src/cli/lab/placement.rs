@@ -50,7 +50,7 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
         inputs: patterns(&args.inputs)?,
         trained_on: args.trained_on,
     };
-    // What cannot be listed is told by the work itself.
+    // The work itself reports folders that cannot be listed.
     let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
     let bar = Progress::new("files", files as u64, common.quiet);
     let progress = |summary: &lab_train::placement::PlacementSummary| bar.reach(summary.files as u64);

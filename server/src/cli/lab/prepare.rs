@@ -72,7 +72,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         crop: Crop { side_m: args.crop, least_agents: args.least_agents },
         mirror: args.mirror,
     };
-    // What cannot be listed is told by the work itself.
+    // The work itself reports folders that cannot be listed.
     let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
     let bar = Progress::new("files", files as u64, common.quiet);
     let progress = |report: &lab_train::prepare::PrepareReport| bar.reach(report.files as u64);

@@ -24,7 +24,7 @@ pub struct ReproduceArgs {
     /// A tenth of their places is held out for validation and, without --test, another tenth for the test.
     #[arg(required = true)]
     data: Vec<PathBuf>,
-    /// Files, folders or patterns for the test alone; their places are never trained on.
+    /// Files, folders or patterns used only for the test; their places are never trained on.
     #[arg(long, value_name = "PATH")]
     test: Vec<PathBuf>,
     /// Folder of the run; an interrupted run continues with what it holds.

@@ -52,7 +52,7 @@ impl Served {
 }
 
 impl Served {
-    /// Memory that it holds now, MB; `None` where the system does not tell.
+    /// Current memory, MB; `None` where the system does not report it.
     pub fn memory_mb(&self) -> Option<f64> {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

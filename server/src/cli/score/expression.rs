@@ -1,8 +1,7 @@
 //! Conditions on scores, such as `min_ttc_s < 1.5 && collisions == 0`: comparisons of figures with numbers or with
 //! each other, joined by `&&`, `||`, `!` and parentheses.
 //!
-//! A figure that a scene does not have (no two road users ever close in, nobody has a goal) compares as false with
-//! everything.
+//! A comparison with a figure that a scene does not have (no approaching pair, no goal) is false.
 
 use super::tokens::{Operand, Order, Placed, Token, Wrong, tokens};
 
@@ -24,7 +23,7 @@ enum Node {
 }
 
 impl Expression {
-    /// Reads a condition; `known` says which figures there are.
+    /// Parses a condition; `known` decides which names are figures.
     ///
     /// # Errors
     /// The first fault with its column.

@@ -1,5 +1,5 @@
 //! The figures of a score by name, for conditions and tables: the numbers of the scene's score and how many entries
-//! its lists have, and under `actor.` those of the road user that was asked for.
+//! its lists have, and under `actor.` those of the requested road user.
 
 use super::expression::Expression;
 use scene::Scene;
@@ -81,7 +81,7 @@ pub fn names() -> &'static [String] {
     })
 }
 
-/// Names of the numbers and lists that a type has, as its schema tells them.
+/// Names of the numbers and lists of a type, from its schema.
 fn of_schema<T: JsonSchema>(prefix: &str) -> Vec<String> {
     let mut generator = SchemaGenerator::default();
     let schema: Schema = generator.root_schema_for::<T>();
@@ -159,7 +159,7 @@ fn flatten(prefix: &str, value: &Value, out: &mut BTreeMap<String, f64>) {
     }
 }
 
-/// The road user that a scene's futures were asked for, where it is one alone.
+/// The road user that a scene's futures were requested for, if it is a single one.
 pub fn actor_of(scene: &Scene) -> Option<&str> {
     match scene.generated.as_ref()?.request["agents"].as_array()?.as_slice() {
         [Value::String(only)] => Some(only),
@@ -192,7 +192,7 @@ mod tests {
         let score = scene::score::score(&ScoreInput::of_scene(&empty, &drivable));
         let figures = Figures::new(&score, None);
         assert_eq!((figures.get("collisions"), figures.get("min_ttc_s")), (Some(0.0), None));
-        // Every figure of a score is a name that can be asked for.
+        // Every figure of a score can be used by its name.
         assert!(figures.0.keys().all(|name| known.contains(name)), "{:?}", figures.0.keys());
         assert!(FigureFilter::parse("min_ttc_s < 1.5 && collisions == 0").is_ok());
         assert!(FigureFilter::parse("collisions == 0").unwrap().holds(&figures));

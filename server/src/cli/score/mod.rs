@@ -1,4 +1,4 @@
-//! `dragtraffic score`: figures of scenes and of each of their samples, those that hold a condition picked out.
+//! `dragtraffic score`: figures of scenes and of each of their samples, filtered by a condition.
 
 mod expression;
 pub mod figures;
@@ -152,7 +152,7 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
     Ok(scored)
 }
 
-/// The samples asked for with their numbers; without futures, the log alone.
+/// The requested samples with their numbers; without futures, only the recording.
 fn picked<'a>(scene: &'a Scene, which: &Which) -> Vec<(Option<usize>, Option<&'a Sample>)> {
     let Some(generated) = &scene.generated else { return vec![(None, None)] };
     let wanted = |i: &usize| match which {

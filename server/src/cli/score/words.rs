@@ -2,7 +2,7 @@
 
 use scene::score::Score;
 
-/// What a score says, behind the name of what was scored.
+/// A score in one line, after the name of the scored scene.
 pub fn line(place: &str, score: &Score) -> String {
     let number = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2} {unit}"));
     let scene = &score.scene;

@@ -593,18 +593,18 @@ export interface components {
          * @description A judged card.
          */
         AnswerDoc: {
-            /** @description Of the card, as it was answered. */
+            /** @description Features of the card, as the reply had them. */
             features: components["schemas"]["Features"];
             /**
-             * @description Of the card, as they were answered: nothing like it comes again.
+             * @description Places of the card, as the reply had them: later rounds have no similar card.
              * @default {}
              */
             places?: {
                 [key: string]: number[][];
             };
-            /** @description What was said. */
+            /** @description The user's verdict. */
             verdict: components["schemas"]["Verdict"];
-            /** @description What should be otherwise, or was liked. */
+            /** @description The reason for the verdict. */
             why?: components["schemas"]["Wish"] | null;
         };
         /**
@@ -1235,7 +1235,7 @@ export interface components {
          * @description `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where it begins.
          */
         DraftEvent: {
-            /** @description Futures by road user; the chosen ones alone, or all as `stream_modes` says. */
+            /** @description Futures by road user; only the chosen ones, or all by `stream_modes`. */
             agents: {
                 [key: string]: components["schemas"]["FuturesDoc"];
             };
@@ -1433,22 +1433,22 @@ export interface components {
         };
         /**
          * FeedbackDoc
-         * @description Rounds of cards: the answer is the next round, taken from a wide draw by what was said of earlier cards. `feedback`
-         *     of the reply says what each card is like; each is sent back with what is said of it.
+         * @description Rounds of cards: the reply is the next round, chosen from a wide draw by the verdicts on earlier cards. `feedback`
+         *     of the reply has the features of each card; the client returns them with its verdict.
          */
         FeedbackDoc: {
             /**
-             * @description Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
+             * @description Judged cards, the first round's first, without cards that were neither kept nor rejected.
              * @default []
              */
             answers?: components["schemas"]["AnswerDoc"][];
             /**
-             * @description Traits that do not count, whatever the answers show.
+             * @description Traits to ignore, whatever the verdicts show.
              * @default []
              */
             forgotten?: components["schemas"]["Trait"][];
             /**
-             * @description Wishes that were said outright.
+             * @description Preferences that the user stated.
              * @default []
              */
             wishes?: components["schemas"]["Wish"][];
@@ -1502,7 +1502,7 @@ export interface components {
         FinalEvent: {
             /**
              * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
-             *     options, seed, weights and version. Equal calls have equal codes.
+             *     options, seed, weights and version. Identical calls have identical codes.
              */
             code: string;
             /**
@@ -1534,11 +1534,11 @@ export interface components {
              */
             revision?: number;
             /**
-             * @description Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
-             *     unless `kept_futures` says otherwise.
+             * @description Joint scenes. They include road users outside the call with the future that the scene keeps, unless
+             *     `kept_futures` excludes them.
              */
             samples: components["schemas"]["AnswerSample"][];
-            /** @description One report a sample, or null when none was asked for. */
+            /** @description One report per sample, or null without `score`. */
             scores: components["schemas"]["ScoreReply"][] | null;
             /**
              * Format: uint64
@@ -1626,7 +1626,7 @@ export interface components {
         };
         /**
          * FuturesDoc
-         * @description The futures of one road user in a reply, as `futures` of the request says.
+         * @description The futures of one road user in a reply, in the form that `futures` of the request names.
          */
         FuturesDoc: components["schemas"]["AgentFuturesDoc"] | components["schemas"]["CompactFuturesDoc"];
         /**
@@ -1640,7 +1640,7 @@ export interface components {
          */
         GenerateRequest: {
             /**
-             * @description Road users put in for this call.
+             * @description Road users added for this call.
              * @default []
              */
             add_agents?: components["schemas"]["AgentDoc"][];
@@ -1652,12 +1652,12 @@ export interface components {
              */
             agents?: components["schemas"]["Who"];
             /**
-             * @description Nobody waits for the answer: calls that somebody waits for go first, on the cores of the machine too.
+             * @description A background call: calls without this flag go first, in the queue and on the cores.
              * @default false
              */
             background?: boolean;
             /**
-             * @description With `revision`: a newer revision of this client takes over.
+             * @description With `revision`: a newer revision of this client replaces the running one.
              * @default null
              */
             client?: string | null;
@@ -1697,17 +1697,17 @@ export interface components {
              */
             etag?: string | null;
             /**
-             * @description Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
-             *     round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
-             *     many. `samples` does not count.
+             * @description Requests a round of cards, chosen by the verdicts on earlier cards; `{}` requests the first round. For one road
+             *     user without reactions each future is a card, else each sample. `modes` is the number of cards; `samples` has
+             *     no effect.
              * @default null
              */
             feedback?: components["schemas"]["FeedbackDoc"] | null;
             /** @description How futures are written, in drafts and in `final`. */
             futures?: components["schemas"]["FuturesForm"];
             /**
-             * @description With `scene`: it is held in memory for the calls that follow, which name it as their `scene_id` by what the
-             *     reply's header `Dragtraffic-Scene` says. One that was not asked for in a long time is forgotten (`not-found`).
+             * @description With `scene`: the server holds it in memory. Later calls use the name in the reply's header `Dragtraffic-Scene`
+             *     as their `scene_id`. The server drops scenes that were not used for a long time (`not-found`).
              * @default false
              */
             hold?: boolean;
@@ -1718,7 +1718,7 @@ export interface components {
              */
             horizon_s?: number;
             /**
-             * @description Own id for the job, so that it can be cancelled.
+             * @description The client's id of the job, to cancel it by.
              * @default null
              */
             job?: string | null;
@@ -1734,8 +1734,8 @@ export interface components {
              */
             modes?: number;
             /**
-             * @description Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
-             *     the others answer it.
+             * @description Road users that continue with the chosen future that the scene keeps for them: it counts as requested, and
+             *     other road users react to it.
              * @default []
              */
             pinned?: string[];
@@ -1745,7 +1745,7 @@ export interface components {
              */
             react?: components["schemas"]["Reacting"];
             /**
-             * @description Road users taken out for this call.
+             * @description Road users removed for this call.
              * @default []
              */
             remove_agents?: string[];
@@ -1789,8 +1789,8 @@ export interface components {
              */
             seed?: number;
             /**
-             * @description What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
-             *     the jump.
+             * @description The futures shown last for these road users during a drag: each is kept unless another is better by the cost of
+             *     `switching`.
              */
             shown?: {
                 [key: string]: components["schemas"]["ShownDoc"];
@@ -2486,14 +2486,14 @@ export interface components {
              */
             name?: string | null;
             /**
-             * @description In place of the template's own parameters; those that are left out stay, and a list replaces a list. Names and
-             *     ranges are those of the template in `Layout`.
+             * @description Parameters that replace those of the template; absent ones stay, and a list replaces a list. `Layout` has their
+             *     names and ranges.
              * @default null
              */
             parameters?: {
                 [key: string]: unknown;
             } | null;
-            /** @description What to start from. */
+            /** @description The template. */
             template: components["schemas"]["Template"];
         };
         /**
@@ -2598,7 +2598,7 @@ export interface components {
             corners: components["schemas"]["CornerPlace"][];
             /** @description The template with all its parameters. */
             layout: components["schemas"]["Layout"];
-            /** @description A scene with the map and nobody in it. Its `x_layout` says what it was made from. */
+            /** @description A scene with the map and no road users. Its `x_layout` has the template and its parameters. */
             scene: components["schemas"]["SceneDoc"];
             /** @description Ways from lane to lane where roads meet at grade. */
             ways: components["schemas"]["Way2"][];
@@ -2919,7 +2919,7 @@ export interface components {
          * @description Body of a placement. Exactly one of `scene` and `scene_id` is given.
          */
         PlaceBody: {
-            /** @description Traffic by arm, for as long as the scene lasts. Drivers on the lanes of these arms come from here alone. */
+            /** @description Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here. */
             arrivals?: components["schemas"]["ArrivalsDoc"][];
             /**
              * Format: double
@@ -2927,7 +2927,7 @@ export interface components {
              * @default 0
              */
             at_s?: number;
-            /** @description How many; absent or null is 12 for each kilometre, or nobody beside `arrivals` or `parked`. */
+            /** @description Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`. */
             density?: components["schemas"]["DensityDoc"] | null;
             /**
              * @description With `scene_id`: refuse when the scene has changed.
@@ -2941,11 +2941,11 @@ export interface components {
             keep?: string[] | null;
             /**
              * Format: double
-             * @description Least room along the lane between those who drive, metres. Everybody else keeps 0.1 m.
+             * @description Minimum gap along the lane between moving vehicles, metres. All other gaps are at least 0.1 m.
              * @default 2
              */
             min_gap_m?: number;
-            /** @description Parked cars, beside those that `density` asks for. */
+            /** @description Parked cars, in addition to `density`. */
             parked?: components["schemas"]["ParkedDoc"] | null;
             /** @description Where; null is the whole map. It may reach 50 m beyond the map's box. */
             region?: components["schemas"]["RegionDoc"] | null;
@@ -2965,7 +2965,7 @@ export interface components {
              * @default 0
              */
             seed?: number;
-            /** @description Speeds of motor vehicles that move; null is as they are on such roads. Who stands, as in a queue, stands. */
+            /** @description Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest. */
             speeds?: components["schemas"]["SpeedsDoc"] | null;
             /**
              * @description Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
@@ -2985,11 +2985,11 @@ export interface components {
          */
         PlaceReply: {
             /**
-             * @description New road users: one state at `at_s`, the same as a fixed start, goals free. Who comes in by an arm later
-             *     has a track from the map's edge on, which it keeps until it reacts; who is parked has one that stands.
+             * @description New road users: one state at `at_s`, the same as a fixed start, goals free. One that enters by an arm
+             *     later has a track from the map's edge on, which it keeps until it reacts; a parked one has a standing track.
              */
             agents: components["schemas"]["AgentDoc"][];
-            /** @description Where roads come into the map or the region, with what came of the traffic asked for. */
+            /** @description Arms: where roads enter the map or the region, with the traffic placed on each. */
             arms: components["schemas"]["ArmDoc"][];
             /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
             method: components["schemas"]["PlacementMethod"];
@@ -3002,7 +3002,7 @@ export interface components {
             reason: string | null;
             /**
              * Format: uint
-             * @description Road users asked for that found no place.
+             * @description Number of requested road users without a place.
              */
             unplaced: number;
         };
@@ -3194,7 +3194,7 @@ export interface components {
         };
         /**
          * Reacting
-         * @description Who else answers: true for everyone near, or ids.
+         * @description Road users that may react: true for all nearby, or ids.
          */
         Reacting: boolean | string[];
         /**
@@ -3524,7 +3524,7 @@ export interface components {
          * @description A round of cards.
          */
         Round: {
-            /** @description One a future of the road user that was asked for, or one a sample, in their order: the best liked first. */
+            /** @description One per future of the requested road user, or one per sample, the most preferred first. */
             cards: components["schemas"]["RoundCard"][];
             /** @description What the answers agree upon, the surest first. */
             wishes: components["schemas"]["LearnedWish"][];

@@ -71,8 +71,8 @@ export const SENTENCES = table('file-messages', {
     'ids-renumbered': "Lanes and junctions have numbers instead of SUMO's ids",
     'ids-replaced': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} id of ${v.subject} was replaced: an id occurs once and has letters, digits and _ . : - alone`,
-        other: `${v.count} ids of ${v.subject} were replaced: an id occurs once and has letters, digits and _ . : - alone`,
+        one: `${v.count} id of ${v.subject} was replaced: an id occurs once and has letters, digits and _ . : -`,
+        other: `${v.count} ids of ${v.subject} were replaced: an id occurs once and has letters, digits and _ . : -`,
       }),
     'ids-respelled': (v: Values) =>
       plural(Number(v.count), {
@@ -134,7 +134,7 @@ export const SENTENCES = table('file-messages', {
         other: `lanes are lines within ${v.off_mm} mm, and ${v.count} begin with a way into them`,
       }),
     'loss-lane-points': (v: Values) =>
-      `lanes are within ${v.off_mm} mm of their lines when their points are set anew; stop lines and stop signs are where lanes begin and end`,
+      `lanes are within ${v.off_mm} mm of their lines when their points are set again; stop lines and stop signs are where lanes begin and end`,
     'loss-lanes-without-length': (v: Values) =>
       plural(Number(v.count), { one: `${v.count} lane of no length`, other: `${v.count} lanes of no length` }),
     'loss-lights-over-room': (v: Values) => `a record has room for ${v.most} lights per step`,
@@ -161,8 +161,8 @@ export const SENTENCES = table('file-messages', {
       `states more than ${v.past} steps before the current one or ${v.future} after it`,
     'loss-users-off-lanes': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} road user on no lane of its own is in the recording alone`,
-        other: `${v.count} road users on no lane of their own are in the recording alone`,
+        one: `${v.count} road user without a lane of its own is only in the recording`,
+        other: `${v.count} road users without a lane of their own are only in the recording`,
       }),
     'loss-users-over-room': (v: Values) =>
       plural(Number(v.count), {

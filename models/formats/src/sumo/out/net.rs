@@ -282,8 +282,8 @@ pub(super) fn losses(scene: &Scene, network: &ExportedNetwork<'_>) -> Vec<Loss> 
     let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
     lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
-    lose(lines, code::NO_LINES, "painted lines and road edges: they are drawn anew beside lanes");
-    lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas: they are drawn anew round lanes");
+    lose(lines, code::NO_LINES, "painted lines and road edges: they are redrawn beside the lanes");
+    lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas: they are redrawn around the lanes");
     let areas = [&map.crosswalks, &map.speed_bumps, &map.driveways].into_iter().any(|list| !list.is_empty());
     lose(areas, code::NO_AREAS, "crosswalks, speed bumps and driveways");
     let any = |test: fn(&Lane) -> bool| map.lanes.iter().any(test);

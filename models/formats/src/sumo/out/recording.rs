@@ -60,7 +60,7 @@ pub(super) fn steps(scene: &Scene, written: &[ExportedAgent<'_>]) -> usize {
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let written = road_users(scene, options);
     if written.is_empty() {
-        let detail = "a recording of SUMO has one road user or more; nobody is seen in this scene";
+        let detail = "a SUMO recording needs at least one road user; this scene has no recorded states";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     }
     let mut losses = losses(scene, options, &written);
@@ -128,7 +128,7 @@ pub(super) fn losses(scene: &Scene, options: &ExportOptions, written: &[Exported
     let heightless =
         |user: &ExportedAgent<'_>| user.shown.size.length_m > 60.0 || user.shown.size.width_m > 60.0;
     lose(written.iter().any(heightless), code::NO_SIZES, "sizes beyond 60 m");
-    lose(written.len() < scene.agents.len(), code::NO_UNSEEN, "road users whom nobody saw");
+    lose(written.len() < scene.agents.len(), code::NO_UNSEEN, "road users without recorded states");
     let aside = |state: &State| {
         (direction(state.heading_rad) * state.speed_mps() - state.velocity()).norm() > ALONG_MPS
     };
