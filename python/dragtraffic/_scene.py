@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 
 from ._conditions import Condition, Goal
 from ._program import run
+from ._renamed import renamed
 
 #: An id of a road user; numbers are taken as their text.
 AgentId = Union[str, int]
@@ -68,6 +69,7 @@ class Scene:
             raise IndexError(f"sample {sample} of {len(self.samples)}")
         return Scene({**self.document, "generated": {**self.document["generated"], "chosen_sample": sample}})
 
+    @renamed(replan_s="replan_interval_s", forget='kept_futures="forgotten"')
     def generate(
         self,
         agents: AgentId | Iterable[AgentId] | None = None,
@@ -112,7 +114,7 @@ class Scene:
             "samples": samples,
             "modes": modes,
             "horizon": horizon_s,
-            "at": start_s,
+            "start-time": start_s,
             "replan-interval": replan_interval_s,
             "diversity": diversity,
             "steps": steps,
@@ -130,27 +132,28 @@ class Scene:
                 arguments.append(f"--condition={id}={file}")
             return self._made(arguments)
 
+    @renamed(at_s="start_s", density_per_km="density_per_lane_km")
     def place(
         self,
         *,
         count: int | None = None,
-        density_per_km: float | None = None,
+        density_per_lane_km: float | None = None,
         types: Mapping[str, float] | None = None,
         region: Iterable[tuple[float, float]] | None = None,
         keep: AgentId | Iterable[AgentId] | None = None,
-        at_s: float = 0.0,
+        start_s: float = 0.0,
         seed: int = 0,
     ) -> Scene:
-        """Places road users on the map, beside those that are there: ``count`` in all, or ``density_per_km`` for
+        """Places road users on the map, beside those that are there: ``count`` in all, or ``density_per_lane_km`` for
         each kilometre of lane. ``types`` gives shares, ``region`` a polygon in metres, ``keep`` the road users of
         the scene that stay (all when absent).
 
         Raises:
             DragTrafficError: the program refused the call.
         """
-        arguments = ["place", "-", f"--seed={seed}", f"--at={at_s}"]
+        arguments = ["place", "-", f"--seed={seed}", f"--start-time={start_s}"]
         arguments += [f"--count={count}"] if count is not None else []
-        arguments += [f"--density={density_per_km}"] if density_per_km is not None else []
+        arguments += [f"--density={density_per_lane_km}"] if density_per_lane_km is not None else []
         if types:
             arguments.append("--types=" + ",".join(f"{name}={share}" for name, share in types.items()))
         if keep is not None:

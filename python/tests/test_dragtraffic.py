@@ -116,6 +116,16 @@ def test_placing(scene: Scene) -> None:
     inside = scene.place(count=3, types={"vehicle": 1.0}, keep=[], region=box)
     first = [agent["track"] for agent in inside.document["agents"]]
     assert first and all(abs(t["x_m"][0]) <= 60 and abs(t["y_m"][0]) <= 60 for t in first)
+    later = scene.place(density_per_lane_km=0, start_s=1.0, keep=[])
+    assert not later.agents
+
+
+def test_old_names_of_arguments_are_refused_with_the_new_ones(scene: Scene) -> None:
+    generate, place = cast("tuple[Any, Any]", (scene.generate, scene.place))
+    with pytest.raises(TypeError, match="replan_s is replan_interval_s now"):
+        generate(replan_s=3)
+    with pytest.raises(TypeError, match="density_per_km is density_per_lane_km now"):
+        place(density_per_km=12)
 
 
 def test_saving(turned: Scene, tmp_path: Path) -> None:

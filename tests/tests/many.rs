@@ -128,6 +128,7 @@ fn values_are_told_in_words_of_the_command_line() {
         (&["--replan-interval", "4"], "3, 6, 9 expected"),
         (&["--replan", "6"], "--replan is --replan-interval now"),
         (&["--forget"], "--forget is --kept-futures forgotten now"),
+        (&["--at", "1"], "--at is --start-time now"),
         (&["--kept-futures", "gone"], "answered, omitted or forgotten expected"),
         (&["--agents", "@none"], "--agents: expected \"all\", at least one id"),
         (&["--where", "violations > 0"], "violations is kinematic.violations now"),

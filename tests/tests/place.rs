@@ -171,7 +171,7 @@ fn kept_road_users_are_in_the_way_and_types_are_as_asked() {
     alone["keep"] = json!(["0"]);
     let alone = place(&server, &alone)["agents"].as_array().unwrap().len();
     assert!(alone > among, "{alone} {among}");
-    let body = json!({"scene": street(2, 20), "density": {"count": 10}, "at_s": 1.0,
+    let body = json!({"scene": street(2, 20), "density": {"count": 10}, "start_s": 1.0,
         "types": {"vehicle": 0.4, "cyclist": 0.6, "pedestrian": 0.0}});
     let reply = place(&server, &body);
     let count = |t: &str| reply["agents"].as_array().unwrap().iter().filter(|a| a["type"] == t).count();
@@ -393,8 +393,8 @@ fn bad_requests_are_refused_with_their_place() {
     let server = Server::start(&[]).unwrap();
     let good = json!({"scene": street(2, 20), "density": {"count": 3}});
     let cases: Vec<(&str, Value, &str, &str)> = vec![
-        ("/at_s", json!(2.0), "out-of-range", "/at_s"),
-        ("/at_s", json!(-0.1), "out-of-range", "/at_s"),
+        ("/start_s", json!(2.0), "out-of-range", "/start_s"),
+        ("/start_s", json!(-0.1), "out-of-range", "/start_s"),
         ("/seed", json!(1u64 << 54), "out-of-range", "/seed"),
         ("/min_gap_m", json!(50.1), "out-of-range", "/min_gap_m"),
         ("/density", json!({"count": 257}), "out-of-range", "/density/count"),

@@ -179,9 +179,10 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
 }
 
 /// Flags of earlier versions, with their replacements.
-const RENAMED: [(&str, &str); 4] = [
+const RENAMED: [(&str, &str); 5] = [
     ("--forget", "--kept-futures forgotten"),
     ("--replan", "--replan-interval"),
+    ("--at", "--start-time"),
     ("--format", "--to"),
     ("--samples", "--sample"),
 ];

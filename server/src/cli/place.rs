@@ -40,8 +40,8 @@ pub struct PlaceArgs {
     #[arg(long, value_name = "FILE")]
     region: Option<PathBuf>,
     /// Scene time at which the road users start, s.
-    #[arg(long, value_name = "SECONDS", default_value_t = PlaceBody::default().at_s, value_parser = within(0.0, 59.9, "seconds"))]
-    at: f64,
+    #[arg(long, value_name = "SECONDS", default_value_t = PlaceBody::default().start_s, value_parser = within(0.0, 59.9, "seconds"))]
+    start_time: f64,
     /// Seed of the random draws; equal seeds give equal answers.
     #[arg(long, allow_negative_numbers = true, default_value_t = PlaceBody::default().seed, value_parser = whole(0, MAX_SAFE_INTEGER))]
     seed: u64,
@@ -202,7 +202,7 @@ fn request(args: &PlaceArgs) -> Result<PlaceBody, Failure> {
         density,
         types: (!args.types.is_empty()).then_some(Members(shares)),
         keep: args.keep.as_ref().map(named),
-        at_s: args.at,
+        start_s: args.start_time,
         seed: args.seed,
         min_gap_m: args.min_gap,
         speeds: args.speeds.map(|[min_mps, max_mps]| SpeedsDoc { min_mps, max_mps }),

@@ -5,10 +5,10 @@ use crate::cli::{Failure, inputs};
 use api::Problem;
 
 /// Members of a request and the flags that say them.
-const FLAGS: [(&str, &str); 20] = [
+const FLAGS: [(&str, &str); 19] = [
     ("/horizon_s", "--horizon"),
     ("/replan_interval_s", "--replan-interval"),
-    ("/start_s", "--at"),
+    ("/start_s", "--start-time"),
     ("/samples", "--samples"),
     ("/modes", "--modes"),
     ("/steps", "--steps"),
@@ -18,7 +18,6 @@ const FLAGS: [(&str, &str); 20] = [
     ("/react", "--react"),
     ("/pinned", "--pinned"),
     // Of a placement.
-    ("/at_s", "--at"),
     ("/min_gap_m", "--min-gap"),
     ("/density/count", "--count"),
     ("/density", "--density"),

@@ -27,7 +27,7 @@ impl PlaceBody {
         let mut faults = Vec::new();
         let last_s = (scene.time.steps - 1) as f64 * STEP_S;
         let numbers = [
-            ("/at_s", 0.0, last_s, self.at_s),
+            ("/start_s", 0.0, last_s, self.start_s),
             ("/seed", 0.0, MAX_SAFE_INTEGER as f64, self.seed as f64),
             ("/min_gap_m", 0.0, MAX_GAP_M, self.min_gap_m),
         ];
@@ -55,7 +55,7 @@ impl PlaceBody {
         faults.truncate(MAX_PROBLEMS);
         refuse(faults)?;
         Ok(PlaceRequest {
-            step: (self.at_s / STEP_S).round() as usize,
+            step: (self.start_s / STEP_S).round() as usize,
             region,
             amount,
             types,

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// What was placed.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlaceReply {
-    /// New road users: one state at `at_s`, the same as a fixed start, goals free. One that enters by an arm
+    /// New road users: one state at `start_s`, the same as a fixed start, goals free. One that enters by an arm
     /// later has a track from the map's edge on, which it keeps until it reacts; a parked one has a standing track.
     pub agents: Vec<AgentDoc>,
     /// Number of requested road users without a place.

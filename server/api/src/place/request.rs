@@ -104,7 +104,7 @@ pub struct PlaceBody {
     pub keep: Option<Vec<String>>,
     /// Scene time at which they start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
-    pub at_s: f64,
+    pub start_s: f64,
     /// The same seed gives the same answer.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
@@ -131,7 +131,7 @@ impl Default for PlaceBody {
             density: None,
             types: None,
             keep: None,
-            at_s: 0.0,
+            start_s: 0.0,
             seed: 0,
             min_gap_m: 2.0,
             speeds: None,

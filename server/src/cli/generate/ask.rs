@@ -43,7 +43,7 @@ pub fn request(
         conditions: Members(conditions(args, scene, casting)?),
         agents,
         react,
-        start_s: args.at,
+        start_s: args.start_time,
         horizon_s: args.horizon,
         replan_interval_s: args.replan_interval,
         seed,

@@ -119,7 +119,7 @@ pub struct GenerateArgs {
     horizon: f64,
     /// Scene time of the start, s.
     #[arg(long, value_name = "SECONDS", default_value_t = GenerateRequest::default().start_s, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
-    at: f64,
+    start_time: f64,
     /// Time between two plans: 3, 6 or 9 s. Default: 9.
     #[arg(long, value_name = "SECONDS", value_parser = one_of(&limits::REPLAN_S), help_heading = DRAWING)]
     replan_interval: Option<f64>,
@@ -204,7 +204,7 @@ impl GenerateArgs {
 
     /// Scene step of the start.
     fn start_step(&self) -> usize {
-        (self.at / scene::STEP_S).round() as usize
+        (self.start_time / scene::STEP_S).round() as usize
     }
 }
 

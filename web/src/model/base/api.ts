@@ -2921,12 +2921,6 @@ export interface components {
         PlaceBody: {
             /** @description Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here. */
             arrivals?: components["schemas"]["ArrivalsDoc"][];
-            /**
-             * Format: double
-             * @description Scene time at which they start, seconds.
-             * @default 0
-             */
-            at_s?: number;
             /** @description Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`. */
             density?: components["schemas"]["DensityDoc"] | null;
             /**
@@ -2968,6 +2962,12 @@ export interface components {
             /** @description Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest. */
             speeds?: components["schemas"]["SpeedsDoc"] | null;
             /**
+             * Format: double
+             * @description Scene time at which they start, seconds.
+             * @default 0
+             */
+            start_s?: number;
+            /**
              * @description Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
              * @default null
              */
@@ -2985,7 +2985,7 @@ export interface components {
          */
         PlaceReply: {
             /**
-             * @description New road users: one state at `at_s`, the same as a fixed start, goals free. One that enters by an arm
+             * @description New road users: one state at `start_s`, the same as a fixed start, goals free. One that enters by an arm
              *     later has a track from the map's edge on, which it keeps until it reacts; a parked one has a standing track.
              */
             agents: components["schemas"]["AgentDoc"][];
