@@ -144,6 +144,14 @@ pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
     Box::new(std::iter::once(scene))
 }
 
+/// The scene of a file that holds one, read only if it is wanted.
+pub(crate) fn only<'a>(
+    options: &ImportOptions,
+    read: impl FnOnce() -> Result<Imported, ReadError>,
+) -> Scenes<'a> {
+    if options.skip > 0 || options.max_scenes == 0 { Box::new(std::iter::empty()) } else { one(read()) }
+}
+
 /// Role of the ego: the vehicle that recorded a scene or whose motion is predicted.
 pub(crate) const EGO: &str = "ego";
 
@@ -181,7 +189,10 @@ pub trait Format: Sync {
     fn info(&self) -> Info;
 
     /// Confidence that a file with this beginning has this format: 0 none, 1 by name, 2 by content.
-    fn sniff(&self, head: &[u8], name: &str) -> u8;
+    /// Files of a format that is only written are not recognized.
+    fn sniff(&self, _head: &[u8], _name: &str) -> u8 {
+        0
+    }
 
     /// May come with names of columns ([`ImportOptions::columns`]).
     fn takes_columns(&self) -> bool {

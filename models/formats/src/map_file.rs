@@ -1,9 +1,9 @@
 //! Formats whose file is one map: a scene with its signals, without road users.
 
 use crate::format::{
-    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one, one_scene, only_read,
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one_scene, only, only_read,
 };
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
+use crate::problem::{ImportWarning, Imported, ReadError, checked};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::map::LaneMap;
@@ -67,10 +67,7 @@ impl MapRead {
             generated: None,
             extra: BTreeMap::new(),
         };
-        match scene.checked() {
-            Ok(scene) => Ok((scene, warnings)),
-            Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-        }
+        checked(scene, warnings)
     }
 }
 
@@ -100,10 +97,7 @@ impl Format for MapFile {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        if options.skip > 0 || options.max_scenes == 0 {
-            return Box::new(std::iter::empty());
-        }
-        one((self.read)(file).and_then(|read| read.scene(self.source, options.licence.clone())))
+        only(options, || (self.read)(file).and_then(|read| read.scene(self.source, options.licence.clone())))
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

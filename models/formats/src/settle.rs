@@ -3,7 +3,7 @@
 use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
+use crate::problem::{ImportWarning, Imported, ReadError, checked};
 use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
@@ -36,10 +36,7 @@ pub(crate) fn settled(
     if let Some(licence) = &options.licence {
         scene.meta.licence = Some(licence.clone());
     }
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    checked(scene, warnings)
 }
 
 /// The state nearest in time to a step.

@@ -2,16 +2,13 @@
 
 use super::{export, import, map};
 use crate::columnar::{is_parquet, names_in};
-use crate::format::{
-    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one,
-};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER, Scenes, only};
 use crate::loss;
-use crate::map_file;
+use crate::map_file::{self, MapRead};
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};
 use crate::unpack;
-use scene::{Meta, Origin, Scene, Vec2};
-use std::collections::BTreeMap;
+use scene::{Origin, Scene, Vec2};
 use std::io;
 
 /// A scenario with or without its map; a map without scenario is a scene without road users.
@@ -62,10 +59,7 @@ impl Format for Argoverse {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        if options.skip > 0 || options.max_scenes == 0 {
-            return Box::new(std::iter::empty());
-        }
-        if is_parquet(&head(file)) { one(scenario(file, options)) } else { one(place(file, options)) }
+        only(options, || if is_parquet(&head(file)) { scenario(file, options) } else { place(file, options) })
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
@@ -91,24 +85,8 @@ fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadErr
         return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
     }
     let (map, warnings) = place.lane_map(origin);
-    let scene = Scene {
-        id: None,
-        name: String::new(),
-        meta: Meta {
-            source: "argoverse".into(),
-            licence: Some(options.licence.clone().unwrap_or_else(|| super::LICENCE.into())),
-            origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
-            ..Meta::default()
-        },
-        time: MAP_TIMING,
-        map: map.into(),
-        signals: Vec::new(),
-        agents: Vec::new(),
-        generated: None,
-        extra: BTreeMap::new(),
-    };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    let licence = options.licence.clone().unwrap_or_else(|| super::LICENCE.into());
+    let origin = Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() };
+    MapRead { name: String::new(), map: map.into(), signals: Vec::new(), origin, warnings }
+        .scene("argoverse", Some(licence))
 }

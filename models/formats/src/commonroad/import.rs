@@ -7,7 +7,7 @@ use crate::describe;
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
 use crate::sentences;
 use crate::settle;
 use crate::source::Source;
@@ -85,10 +85,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
         generated: None,
         extra: BTreeMap::new(),
     };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    checked(scene, warnings)
 }
 
 /// All places of a document.

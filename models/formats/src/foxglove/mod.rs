@@ -43,10 +43,6 @@ impl Format for Mcap {
         }
     }
 
-    fn sniff(&self, _: &[u8], _: &str) -> u8 {
-        0
-    }
-
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         written_only("mcap is written, never read: messages are pictures of the scene")
     }

@@ -45,10 +45,6 @@ impl Format for GeoJson {
         }
     }
 
-    fn sniff(&self, _: &[u8], _: &str) -> u8 {
-        0
-    }
-
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         written_only("geojson is written, never read: features say nothing of lanes that follow each other")
     }

@@ -65,10 +65,6 @@ impl Format for OpenScenario {
         }
     }
 
-    fn sniff(&self, _: &[u8], _: &str) -> u8 {
-        0
-    }
-
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         written_only("OpenSCENARIO is written, not read")
     }

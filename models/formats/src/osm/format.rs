@@ -2,7 +2,7 @@
 
 use super::driving_side::is_left;
 use super::extract::{self, Extract};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, only_read};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, only, only_read};
 use crate::map_file::MapRead;
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences;
@@ -122,10 +122,7 @@ impl Format for OsmExtract {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        if options.skip > 0 || options.max_scenes == 0 {
-            return Box::new(std::iter::empty());
-        }
-        one(Self::scene(file, options))
+        only(options, || Self::scene(file, options))
     }
 
     fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {

@@ -5,7 +5,7 @@ use super::{AgentIds, RecordedAgent, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
 use crate::sentences;
 use scene::map::LaneMap;
 use scene::{
@@ -237,10 +237,7 @@ impl PreparedRecording {
             generated,
             extra: BTreeMap::new(),
         };
-        Some(match scene.checked() {
-            Ok(scene) => Ok((scene, warnings)),
-            Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-        })
+        Some(checked(scene, warnings))
     }
 
     /// The ego's place; else zero where the file's coordinates are small; else the middle of all, in whole metres.

@@ -1,7 +1,7 @@
 //! ScenarioNet as a format among others.
 
 use super::{export, import};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene, only};
 use crate::loss;
 use crate::source::Source;
 use crate::unpack;
@@ -57,10 +57,7 @@ impl Format for ScenarioNet {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        if options.skip > 0 || options.max_scenes == 0 {
-            return Box::new(std::iter::empty());
-        }
-        one(import::read(file, options))
+        only(options, || import::read(file, options))
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

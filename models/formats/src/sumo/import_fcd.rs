@@ -8,7 +8,7 @@ use super::rows::{FcdItem, FcdRow, FcdRows};
 use super::window::{Between, FcdState, MAX_FILLED_S, SAME_S, between, track};
 use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
 use crate::recording::{AgentIds, middle};
 use crate::sentences;
 use scene::geometry::direction;
@@ -230,10 +230,7 @@ impl<'a> Windows<'a> {
             generated: None,
             extra: BTreeMap::new(),
         };
-        Some(match scene.checked() {
-            Ok(scene) => Ok((scene, warnings)),
-            Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-        })
+        Some(checked(scene, warnings))
     }
 
     /// Road users that fit the scene: within reach of its origin, and nearest to the middle of all.

@@ -75,10 +75,6 @@ impl Format for WomdExample {
         }
     }
 
-    fn sniff(&self, _: &[u8], _: &str) -> u8 {
-        0
-    }
-
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         written_only("tf.Example records are written, not read; Scenario records are read")
     }

@@ -5,7 +5,7 @@ use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, T
 use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::format::EGO;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
+use crate::problem::{ImportWarning, Imported, ReadError, checked};
 use crate::sentences::{self, subject};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
@@ -90,10 +90,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
         generated: None,
         extra: BTreeMap::new(),
     };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    checked(scene, warnings)
 }
 
 fn steps(scenario: &Scenario) -> usize {

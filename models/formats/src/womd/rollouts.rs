@@ -58,10 +58,6 @@ impl Format for SimAgents {
         }
     }
 
-    fn sniff(&self, _: &[u8], _: &str) -> u8 {
-        0
-    }
-
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         written_only("submissions are written, not read: they have no map and no past")
     }
