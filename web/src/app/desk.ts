@@ -56,7 +56,11 @@ function makeParts(o: Opening): Context {
     care,
     importing,
     generation,
-    sharing: new Sharing(editor, file, library, care, client),
+    sharing: new Sharing(editor, file, library, care, client, (at) => {
+      stage.view.look(at.camera);
+      stage.viewChanged();
+      editor.playhead.moveTo(at.time);
+    }),
     gestures: new Gestures(stage, editor, placement, picture, overlay, generation, made),
     playback: new Playback(editor, stage),
     clipboard: clipboardOf(() => c),
@@ -94,12 +98,6 @@ function connect(c: Context): void {
   });
   gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
   gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
-  sharing.onOpened = (at) => {
-    if (!at) return;
-    stage.view.look(at.camera);
-    stage.viewChanged();
-    editor.playhead.moveTo(at.time);
-  };
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
   library.askBy((missing) => {
     // Events of the recording; with changes from an earlier session their answer has the events.

@@ -31,8 +31,6 @@ export class Sharing {
   readonly #error = signal<string | null>(null);
   /** Why a link could not be opened. */
   readonly error: ReadonlySignal<string | null> = this.#error;
-  /** Called with the time and place to show. */
-  onOpened: ((at: ShownAt | null) => void) | null = null;
 
   constructor(
     private readonly session: Session,
@@ -40,6 +38,8 @@ export class Sharing {
     private readonly library: Library,
     private readonly care: SceneCare,
     private readonly client: Client,
+    /** Shows a time and place of an opened scene. */
+    private readonly show: (at: ShownAt) => void,
   ) {}
 
   dismiss(): void {
@@ -72,7 +72,7 @@ export class Sharing {
         label: TEXTS.makeACopy,
         run: copy,
       });
-      this.onOpened?.(at);
+      if (at) this.show(at);
       return true;
     } catch (e) {
       if (e instanceof Away) throw e;
