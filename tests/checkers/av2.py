@@ -5,24 +5,13 @@
 
 import json
 import math
-import pathlib
 import subprocess
 import sys
 
+from support.checks import check, end, program, root, work
+
 # This file has the name of the package.
 sys.path.pop(0)
-program, work = sys.argv[1], pathlib.Path(sys.argv[2])
-root = pathlib.Path(__file__).resolve().parents[2]
-work.mkdir(parents=True, exist_ok=True)
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    passed, failed = passed + bool(holds), failed + (not holds)
-    if not holds:
-        print("FAILED:", name)
-
 
 try:
     from av2.datasets.motion_forecasting import scenario_serialization
@@ -55,5 +44,4 @@ for path in sorted((root / "assets/scenes").glob("*.json"))[:4]:
             good &= state.observed == (state.timestep <= scene["time"].get("now_step", 0))
             good &= abs(state.velocity[0] - motion["vx_mps"][i]) < 1e-6 if "vx_mps" in motion else True
         check(f"{path.name}: {agent['id']}", good)
-print(f"{passed} passed, {failed} failed")
-sys.exit(failed > 0)
+end()

@@ -5,25 +5,11 @@
 
 import json
 import math
-import pathlib
 import subprocess
-import sys
 
 import jsonschema
 from mcap.reader import NonSeekingReader, make_reader
-
-program, work = sys.argv[1], pathlib.Path(sys.argv[2])
-root = pathlib.Path(__file__).resolve().parents[2]
-work.mkdir(parents=True, exist_ok=True)
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    passed, failed = passed + bool(holds), failed + (not holds)
-    if not holds:
-        print("FAILED:", name)
-
+from support.checks import check, end, program, root, work
 
 for path in sorted((root / "assets/scenes").glob("*.json"))[:4]:
     scene = json.loads(path.read_text())
@@ -60,5 +46,4 @@ for path in sorted((root / "assets/scenes").glob("*.json"))[:4]:
                 at = entity["cubes"][0]["pose"]["position"]
                 good &= math.dist((at["x"], at["y"]), (track["x_m"][step - first], track["y_m"][step - first])) < 1e-6
         check(f"{path.name}: {agent['id']}", good)
-print(f"{passed} passed, {failed} failed")
-sys.exit(failed > 0)
+end()

@@ -4,23 +4,10 @@
 """Collections in geojson-pydantic, and the right-hand rule of RFC 7946 for rings."""
 
 import json
-import pathlib
 import subprocess
-import sys
 
 from geojson_pydantic import FeatureCollection
-
-program, work = sys.argv[1], pathlib.Path(sys.argv[2])
-root = pathlib.Path(__file__).resolve().parents[2]
-work.mkdir(parents=True, exist_ok=True)
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    passed, failed = passed + bool(holds), failed + (not holds)
-    if not holds:
-        print("FAILED:", name)
+from support.checks import check, end, program, root, work
 
 
 def area(ring):
@@ -50,5 +37,4 @@ for path in sorted((root / "assets/scenes").glob("*.json"))[:4]:
         check(f"{path.name}: rings", closed and area(outer) >= 0 and all(area(hole) <= 0 for hole in holes))
     frame = json.loads(text)["frame"]
     check(f"{path.name}: frame", frame["kind"] in ("local", "projected") and len(frame["origin_m"]) == 2)
-print(f"{passed} passed, {failed} failed")
-sys.exit(failed > 0)
+end()

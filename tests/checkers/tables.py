@@ -5,29 +5,17 @@
 
 import json
 import math
-import pathlib
 import subprocess
-import sys
 
 import pandas
 import pyarrow.parquet
+from support.checks import check, end, program, root, work
 
-program, work = sys.argv[1], pathlib.Path(sys.argv[2])
-root = pathlib.Path(__file__).resolve().parents[2]
-work.mkdir(parents=True, exist_ok=True)
-passed = failed = 0
 TEXT = ["scenario_id", "agent_id", "type", "subtype", "source"]
 WHOLE = ["sample", "mode", "step"]
 NUMBER = ["probability", "time_s", "x_m", "y_m", "z_m", "heading_rad", "vx_mps", "vy_mps"]
 NUMBER += ["length_m", "width_m", "height_m"]
 FLAG = ["valid", "chosen"]
-
-
-def check(name, holds):
-    global passed, failed
-    passed, failed = passed + bool(holds), failed + (not holds)
-    if not holds:
-        print("FAILED:", name)
 
 
 def run(*arguments):
@@ -120,5 +108,4 @@ for codec in ("snappy", "zstd", "gzip", None):
         agents = json.loads((work / "pandas.json").read_text())["agents"]
         good = [agent["type"] for agent in agents] == ["vehicle", "pedestrian"]
         check(f"{table.name}: read", good and agents[1]["track"]["x_m"] == [30.0, 31.0, 32.0])
-print(f"{passed} passed, {failed} failed")
-sys.exit(failed > 0)
+end()
