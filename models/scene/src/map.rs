@@ -1,6 +1,7 @@
 //! Lane maps: centre lines with their links, painted lines, edges, crosswalks and the like.
 
 use crate::Vec2;
+use crate::geometry::segments::Segment;
 use serde::{Deserialize, Serialize};
 
 /// A line or ring of points, metres.
@@ -159,6 +160,22 @@ pub struct Area {
     pub polygon: Points,
     /// Holes, each an open ring; only drivable areas have them.
     pub holes: Vec<Points>,
+}
+
+impl Area {
+    /// The point lies inside the outer ring, or at most `beside_m` from it.
+    pub fn is_near(&self, point: Vec2, beside_m: f64) -> bool {
+        let ring = &self.polygon.xy;
+        let mut inside = false;
+        let mut beside = false;
+        for (from, to) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            let side = Segment { from: *from, to: *to, owner: 0, piece: 0 };
+            beside |= (side.foot(point) - point).norm() <= beside_m;
+            let spans = (from.y > point.y) != (to.y > point.y);
+            inside ^= spans && point.x < from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y);
+        }
+        inside || beside
+    }
 }
 
 /// A stop sign and the lanes that obey it.

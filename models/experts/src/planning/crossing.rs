@@ -10,7 +10,7 @@ use crate::tuning::fixed::crossing::{
     SETTING_OFF_MPS2, STOPPING_MPS2,
 };
 use scene::geometry::cross;
-use scene::geometry::segments::{Segment, pieces};
+use scene::geometry::segments::Segment;
 use scene::map::Area;
 use scene::motion::{MotionModel, Target};
 use scene::routes::Polyline;
@@ -99,21 +99,7 @@ fn is_on_crosswalk(world: &World<'_>, path: &Polyline, from_m: f64, to_m: f64) -
         (0..=count).map(|i| path.position_at(from_m + (to_m - from_m) * i as f64 / count as f64)).collect();
     // It is drawn up to the kerb or short of it, so its middle decides.
     let middle = &places[places.len() / 4..places.len() - places.len() / 4];
-    world.scene.map.crosswalks.iter().any(|area| middle.iter().all(|p| is_near(area, *p)))
-}
-
-fn is_near(area: &Area, place: Vec2) -> bool {
-    let ring = &area.polygon.xy;
-    let closed: Vec<Vec2> = ring.iter().chain(ring.first()).copied().collect();
-    let mut inside = false;
-    let mut beside = false;
-    for side in pieces(&closed, 0) {
-        beside |= (side.foot(place) - place).norm() <= BESIDE_M;
-        let (a, b) = (side.from, side.to);
-        let spans = (a.y > place.y) != (b.y > place.y);
-        inside ^= spans && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y);
-    }
-    inside || beside
+    world.scene.map.crosswalks.iter().any(|area| middle.iter().all(|p| area.is_near(*p, BESIDE_M)))
 }
 
 /// The middle line of a crosswalk from kerb to kerb.

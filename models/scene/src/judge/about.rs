@@ -19,10 +19,20 @@ pub enum FaultKind {
     OverMedian,
     /// Over a kerb or away from the road; `extent` is how far past the edge, metres.
     OffRoad,
+    /// Where the roads of the map have ended; `extent` is how far from the lanes, metres.
+    OffMap,
+    /// On foot along a lane, or across lanes beside a crosswalk; `extent` is how far, metres.
+    OnCarriageway,
+    /// Above the speed limit; `extent` is by how much, m/s.
+    Speeding,
     /// Braking; `extent` in m/s2.
     HarshBraking,
     /// Turning; `extent` is the acceleration sideways, m/s2.
     HarshSteering,
+    /// A pedestrian runs; `extent` is the speed, m/s.
+    Running,
+    /// Ends at an angle to its lane; `extent` in radians.
+    Askew,
     /// Another is met all but; `extent` is the gap, metres.
     NearMiss,
     /// A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.

@@ -11,9 +11,9 @@ pub use relations::relations;
 pub use trace::{SharedGround, Trace, crossing};
 
 use crate::score::goal::goal_error;
-use crate::score::kinematic::{harsh_braking, harsh_steering};
+use crate::score::lane_rules::end_step;
 use crate::score::pairs::{Meeting, Mover};
-use crate::score::recorded;
+use crate::score::recorded::{self, Rule};
 use crate::score::report::{RedLight, Stretch};
 use crate::score::road::{RoadScore, score_road};
 use crate::score::signals::{SignalStopLine, crossed_at_red, stop_lines};
@@ -27,7 +27,7 @@ const PAST_EDGE_M: f64 = 0.15;
 /// Shorter stretches off the road are touches, metres driven.
 const TOUCH_M: f64 = 0.3;
 /// Shorter stretches against the traffic are turns across it: metres driven, unless it faces the traffic so long,
-/// seconds.
+/// seconds, or ends so.
 const WRONG_WAY_M: f64 = 4.0;
 const FACING_S: f64 = 1.0;
 /// Shorter braking and steering is a jerk of the wheel or of the record, seconds.
@@ -88,10 +88,6 @@ impl<'a> Judge<'a> {
         let mut found = Vec::new();
         let mut road = self.road(actor);
         recorded::mark_road(&self.input, actor, &mut road);
-        let mut braking = harsh_braking(actor, &self.input);
-        recorded::mark_braking(&self.input, actor, &mut braking);
-        let mut steering = harsh_steering(actor, &self.input);
-        recorded::mark_steering(&self.input, actor, &mut steering);
         let mut add = |kind, stretches: Vec<Stretch>, keeps: &dyn Fn(&Stretch) -> bool| {
             found.extend(stretches.into_iter().filter(|s| !s.in_log && keeps(s)).map(|s| fault(kind, s)));
         };
@@ -101,13 +97,26 @@ impl<'a> Judge<'a> {
         let driven = |s: &Stretch| entered(s) && self.driven_m(actor, s) >= TOUCH_M;
         add(FaultKind::OffRoad, road.off_road, &driven);
         add(FaultKind::OverMedian, road.over_median, &driven);
+        let end = end_step(&self.input, actor).filter(|end| !self.is_in_junction(actor, *end));
         let against = |s: &Stretch| {
-            entered(s) && (s.worst.unwrap_or(0.0) >= WRONG_WAY_M || s.until_s - s.time_s >= FACING_S - 1e-6)
+            let ends = end.is_some_and(|end| (step(s.time_s)..=step(s.until_s)).contains(&end));
+            let long = s.worst.unwrap_or(0.0) >= WRONG_WAY_M || s.until_s - s.time_s >= FACING_S - 1e-6;
+            entered(s) && (long || ends)
         };
         add(FaultKind::WrongWay, road.wrong_way, &against);
         let lasting = |s: &Stretch| s.until_s - s.time_s >= HARSH_S - 1e-6;
-        add(FaultKind::HarshBraking, braking, &lasting);
-        add(FaultKind::HarshSteering, steering, &lasting);
+        for rule in Rule::ALL {
+            let (kind, keeps): (_, &dyn Fn(&Stretch) -> bool) = match rule {
+                Rule::Braking => (FaultKind::HarshBraking, &lasting),
+                Rule::Steering => (FaultKind::HarshSteering, &lasting),
+                Rule::OffMap => (FaultKind::OffMap, &entered),
+                Rule::OnCarriageway => (FaultKind::OnCarriageway, &|_| true),
+                Rule::Speeding => (FaultKind::Speeding, &|_| true),
+                Rule::Running => (FaultKind::Running, &|_| true),
+                Rule::Askew => (FaultKind::Askew, &|_| true),
+            };
+            add(kind, rule.breaches(&self.input, actor), keeps);
+        }
         let red = crossed_at_red(&self.input, actor, &self.lines);
         let red = recorded::beyond_log(&self.input, actor, &self.lines, red);
         found.extend(red.into_iter().map(|r| at_red(actor, r)));
@@ -147,6 +156,12 @@ impl<'a> Judge<'a> {
             Some(Fault { with, ..new(kind, (time_s, time_s), state, Some(extent)) })
         };
         others.filter(|o| o.actor.id != actor.id).filter_map(meets).collect()
+    }
+
+    /// A lane at its place leads through a junction: which way to face cannot be told.
+    fn is_in_junction(&self, actor: &Actor<'_>, step: usize) -> bool {
+        let lanes = actor.state(step).map(|s| self.input.drivable.vehicle_lanes(s.position()));
+        lanes.into_iter().flatten().any(|(_, band)| band.in_junction)
     }
 
     /// Metres driven in a stretch and the step before it, which covers a vehicle that leaves the kerb at

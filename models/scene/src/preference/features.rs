@@ -162,10 +162,12 @@ impl Trait {
 
 /// The future breaks a rule or misses its goal, and so is no useful card.
 pub(super) fn is_broken(future: &Future) -> bool {
-    use FaultKind::{Collision, GoalMissed, OffRoad, OverMedian, RedLight, ViaMissed, WrongWay};
+    use FaultKind::{
+        Collision, GoalMissed, OffMap, OffRoad, OnCarriageway, OverMedian, RedLight, ViaMissed, WrongWay,
+    };
     let missed = |kind| matches!(kind, ViaMissed | GoalMissed);
-    let broken =
-        |kind| missed(kind) || matches!(kind, Collision | RedLight | WrongWay | OverMedian | OffRoad);
+    let ground = |kind| matches!(kind, WrongWay | OverMedian | OffRoad | OffMap | OnCarriageway);
+    let broken = |kind| missed(kind) || ground(kind) || matches!(kind, Collision | RedLight);
     future.about.faults.iter().any(|fault| broken(fault.kind))
 }
 

@@ -14,6 +14,8 @@ const BEFORE_END_M: f64 = 0.05;
 /// Length beyond a lane's end at the map's edge over which the ground is unknown, metres: a minute at urban
 /// speed.
 const BEYOND_MAP_M: f64 = 1000.0;
+/// Lanes are looked for within this, metres: no lane is more than twice as wide.
+const LANE_NEAR_M: f64 = 4.0;
 /// A lane farther away than this says nothing about a place, metres.
 const LANE_REACH_M: f64 = 30.0;
 /// Ground this near to an edge that may be driven over counts as road, metres, and this near where nothing but such
@@ -27,9 +29,13 @@ const ROW_M: f64 = 4.0;
 
 /// What a lane contributes.
 #[derive(Clone, Copy, Debug)]
-struct Band {
+pub(crate) struct Band {
     half_width_m: f64,
     carries_vehicles: bool,
+    /// Leads through a junction between two lanes.
+    pub(crate) in_junction: bool,
+    /// Where the map gives one, m/s.
+    pub(super) speed_limit_mps: Option<f64>,
     /// Where it begins and ends, if nothing leads to it or follows it: the road may go on beyond the map.
     open: [Option<Vec2>; 2],
 }
@@ -72,6 +78,8 @@ impl Drivable {
         let band = |lane: &crate::map::Lane| Band {
             half_width_m: 0.5 * lane.width_or_assumed_m(),
             carries_vehicles: lane.lane_type.carries_vehicles(),
+            in_junction: lane.interpolating,
+            speed_limit_mps: lane.speed_limit_mps.filter(|v| *v > 0.0),
             open: [
                 lane.points.xy.first().copied().filter(|_| lane.predecessors.is_empty()),
                 lane.points.xy.last().copied().filter(|_| lane.successors.is_empty()),
@@ -142,16 +150,42 @@ impl Drivable {
     /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
     /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on.
     fn is_beyond_map(&self, point: Vec2) -> bool {
-        let Some((piece, foot, away_m)) = self.centers.nearest(point, BEYOND_MAP_M) else { return false };
-        let Some(band) = self.bands.get(piece.owner as usize) else { return false };
+        self.beyond_end(point).is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b))
+    }
+
+    /// Where a point lies that is ahead of the open end of its nearest lane.
+    fn beyond_end(&self, point: Vec2) -> Option<BeyondEnd> {
+        let (piece, foot, away_m) = self.centers.nearest(point, BEYOND_MAP_M)?;
+        let band = self.bands.get(piece.owner as usize)?;
         let way = (piece.to - piece.from).normalize();
-        [-way, way].into_iter().zip(band.open).any(|(out, end)| {
+        [-way, way].into_iter().zip(band.open).find_map(|(out, end)| {
             let is_end = end.is_some_and(|end| (end - foot).norm() < 1e-6);
             let ahead_m = out.dot(&(point - foot));
-            let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
-            let on_road = || self.outside_known_m(point - out * (ahead_m + BEFORE_END_M)) == Some(0.0);
-            is_end && ahead_m > 0.0 && (beside_m <= band.half_width_m || ahead_m > 0.5 * away_m || on_road())
+            let (half_width_m, away_m) = (band.half_width_m, away_m);
+            (is_end && ahead_m > 0.0).then_some(BeyondEnd { out, ahead_m, away_m, half_width_m })
         })
+    }
+
+    /// In the width of the lane, or on the road if that went on.
+    fn is_straight_on(&self, point: Vec2, beyond: &BeyondEnd) -> bool {
+        let &BeyondEnd { out, ahead_m, away_m, half_width_m } = beyond;
+        let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
+        let on_road = || self.outside_known_m(point - out * (ahead_m + BEFORE_END_M)) == Some(0.0);
+        beside_m <= half_width_m || on_road()
+    }
+
+    /// How far a point is from the lanes, metres, where the roads of the map have ended: no lane, edge or area within
+    /// `reach_m`, and not straight on from the end of the nearest lane. `None` elsewhere.
+    pub fn off_map_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
+        let is_near = [&self.centers, &self.edges, &self.area_sides]
+            .into_iter()
+            .any(|index| index.nearest(point, reach_m).is_some());
+        if is_near || self.outside_known_m(point).is_none_or(|m| m == 0.0) {
+            return None;
+        }
+        let beyond = self.beyond_end(point)?;
+        let leads_off = beyond.ahead_m > 0.5 * beyond.away_m && !self.is_straight_on(point, &beyond);
+        leads_off.then_some(beyond.away_m)
     }
 
     fn outside_known_m(&self, point: Vec2) -> Option<f64> {
@@ -269,22 +303,38 @@ impl Drivable {
     /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
     /// than 120 degrees off the direction of every one of them. `None` off the lanes.
     pub fn is_wrong_way(&self, point: Vec2, forward: Vec2) -> Option<bool> {
-        let mut on_lane = false;
-        for lane in self.centers.near(point, 4.0) {
-            let Some(band) = self.bands.get(lane.owner as usize).filter(|b| b.carries_vehicles) else {
-                continue;
-            };
-            if (lane.foot(point) - point).norm() > band.half_width_m {
-                continue;
-            }
-            on_lane = true;
+        let mut lanes = self.vehicle_lanes(point).peekable();
+        lanes.peek()?;
+        Some(lanes.all(|(lane, _)| {
             let along = lane.to - lane.from;
-            if along.dot(&forward) >= -0.5 * along.norm() {
-                return Some(false);
-            }
-        }
-        on_lane.then_some(true)
+            along.dot(&forward) < -0.5 * along.norm()
+        }))
     }
+
+    /// Pieces of the vehicle lanes in whose width a point lies.
+    pub(crate) fn vehicle_lanes(&self, point: Vec2) -> impl Iterator<Item = (&Segment, &Band)> {
+        let lanes = self.centers.near(point, LANE_NEAR_M);
+        lanes.filter_map(move |lane| {
+            let band = self.bands.get(lane.owner as usize).filter(|b| b.carries_vehicles)?;
+            ((lane.foot(point) - point).norm() <= band.half_width_m).then_some((lane, band))
+        })
+    }
+
+    /// A driveway leads over this point.
+    pub(super) fn is_driveway(&self, point: Vec2) -> bool {
+        self.driveways.contain(point)
+    }
+}
+
+/// A point ahead of the open end of its nearest lane.
+struct BeyondEnd {
+    /// Direction in which the lane would go on, a unit vector.
+    out: Vec2,
+    /// Along it, metres.
+    ahead_m: f64,
+    /// From the lane's end, metres.
+    away_m: f64,
+    half_width_m: f64,
 }
 
 fn distance(to: &SegmentIndex, point: Vec2) -> f64 {

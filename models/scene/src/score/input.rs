@@ -36,6 +36,20 @@ pub struct Thresholds {
     pub harsh_lateral_mps2: f64,
     /// A corner farther outside than this is off the road, metres.
     pub offroad_m: f64,
+    /// Off the map: no lane and no road edge within this, metres.
+    pub off_map_m: f64,
+    /// Turned by more than this from every lane at its end is askew, radians.
+    pub askew_rad: f64,
+    /// Speeding: above the lane's limit by more than this share of it and `speeding_mps` together.
+    pub speeding_share: f64,
+    /// Speeding: see `speeding_share`, m/s.
+    pub speeding_mps: f64,
+    /// A faster pedestrian runs, m/s.
+    pub running_mps: f64,
+    /// Walking along a lane for longer than this is walking on the carriageway, metres.
+    pub along_lane_m: f64,
+    /// Crossing this near beside a crosswalk is walking on the carriageway, metres.
+    pub crosswalk_m: f64,
     /// Goal position met within this, metres.
     pub goal_position_m: f64,
     /// Goal heading met within this, radians.
@@ -59,6 +73,13 @@ impl Default for Thresholds {
             harsh_brake_mps2: 4.0,
             harsh_lateral_mps2: 4.0,
             offroad_m: 0.1,
+            off_map_m: 5.0,
+            askew_rad: 0.26,
+            speeding_share: 0.1,
+            speeding_mps: 1.4,
+            running_mps: 2.5,
+            along_lane_m: 3.0,
+            crosswalk_m: 15.0,
             goal_position_m: 0.05,
             goal_heading_rad: 0.02,
             goal_speed_mps: 0.05,
@@ -92,7 +113,7 @@ impl Thresholds {
     /// [`Self::gap_m`].
     pub const GAP_M: Threshold = Threshold { name: "gap_m", range: (0.0, 60.0), of: |t| t.gap_m };
     /// All of them. Beyond these ranges a number decides nothing any more.
-    pub const ALL: [Threshold; 13] = [
+    pub const ALL: [Threshold; 20] = [
         Self::IOU,
         Threshold { name: "covered_share", range: (0.0, 2.0), of: |t| t.covered_share },
         Self::TTC_S,
@@ -103,6 +124,13 @@ impl Thresholds {
         Threshold { name: "harsh_brake_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_brake_mps2 },
         Threshold { name: "harsh_lateral_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_lateral_mps2 },
         Threshold { name: "offroad_m", range: (0.0, 100.0), of: |t| t.offroad_m },
+        Threshold { name: "off_map_m", range: (0.0, 1_000.0), of: |t| t.off_map_m },
+        Threshold { name: "askew_rad", range: (0.0, 4.0), of: |t| t.askew_rad },
+        Threshold { name: "speeding_share", range: (0.0, 100.0), of: |t| t.speeding_share },
+        Threshold { name: "speeding_mps", range: (0.0, 300.0), of: |t| t.speeding_mps },
+        Threshold { name: "running_mps", range: (0.0, 300.0), of: |t| t.running_mps },
+        Threshold { name: "along_lane_m", range: (0.0, 1_000.0), of: |t| t.along_lane_m },
+        Threshold { name: "crosswalk_m", range: (0.0, 1_000.0), of: |t| t.crosswalk_m },
         Threshold { name: "goal_position_m", range: (0.0, 1_000.0), of: |t| t.goal_position_m },
         Threshold { name: "goal_heading_rad", range: (0.0, 4.0), of: |t| t.goal_heading_rad },
         Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },

@@ -12,6 +12,7 @@ pub mod drivable;
 pub mod goal;
 pub mod input;
 pub mod kinematic;
+pub(crate) mod lane_rules;
 pub mod overlap;
 pub mod pairs;
 pub mod pet;
@@ -20,6 +21,7 @@ pub mod report;
 pub mod road;
 pub mod signals;
 mod single;
+pub(crate) mod walking;
 
 pub use baseline_score::BaselineScore;
 pub use drivable::Drivable;

@@ -3,7 +3,7 @@
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, Stretch};
-use super::{kinematic, road, signals};
+use super::{kinematic, lane_rules, road, signals, walking};
 use std::borrow::Cow;
 
 /// An event this much before or after that of the log is the same one, seconds.
@@ -14,6 +14,14 @@ const SAME_OFF_ROAD_M: f64 = 0.3;
 const SAME_HARSH_MPS2: f64 = 1.0;
 /// ... metres driven against the traffic.
 const SAME_WRONG_WAY_M: f64 = 5.0;
+/// ... metres from the lanes where the roads of the map have ended ...
+const SAME_OFF_MAP_M: f64 = 5.0;
+/// ... metres walked on the carriageway ...
+const SAME_ON_CARRIAGEWAY_M: f64 = 3.0;
+/// ... m/s above the limit, or of running ...
+const SAME_SPEED_MPS: f64 = 1.0;
+/// ... radians askew.
+const SAME_ASKEW_RAD: f64 = 0.1;
 
 /// The road user as it was recorded, if it was.
 fn as_recorded<'a>(actor: &Actor<'a>) -> Option<Actor<'a>> {
@@ -45,14 +53,58 @@ pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut r
     mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| road::score_road(input, a).wrong_way);
 }
 
-/// Marks stretches of hard braking.
-pub(crate) fn mark_braking(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
-    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_braking(a, input));
+/// A rule that one road user keeps or breaks whatever the others do, with a list of its own in the score.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rule {
+    Braking,
+    Steering,
+    OffMap,
+    OnCarriageway,
+    Speeding,
+    Running,
+    Askew,
 }
 
-/// Marks stretches of hard turning.
-pub(crate) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
-    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_steering(a, input));
+impl Rule {
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Braking,
+        Self::Steering,
+        Self::OffMap,
+        Self::OnCarriageway,
+        Self::Speeding,
+        Self::Running,
+        Self::Askew,
+    ];
+
+    /// Stretches in which a motion breaks it, those of its recording marked.
+    pub(crate) fn breaches(self, input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Stretch> {
+        let mut found = self.look(input, actor);
+        mark(actor, &mut found, self.same(), |a| self.look(input, a));
+        found
+    }
+
+    fn look(self, input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Stretch> {
+        match self {
+            Self::Braking => kinematic::harsh_braking(actor, input),
+            Self::Steering => kinematic::harsh_steering(actor, input),
+            Self::OffMap => lane_rules::off_map(actor, input),
+            Self::OnCarriageway => walking::on_carriageway(actor, input),
+            Self::Speeding => lane_rules::speeding(actor, input),
+            Self::Running => walking::running(actor, input),
+            Self::Askew => lane_rules::ends_askew(actor, input),
+        }
+    }
+
+    /// A stretch that much worse than the log's is another one, in its unit.
+    fn same(self) -> f64 {
+        match self {
+            Self::Braking | Self::Steering => SAME_HARSH_MPS2,
+            Self::OffMap => SAME_OFF_MAP_M,
+            Self::OnCarriageway => SAME_ON_CARRIAGEWAY_M,
+            Self::Speeding | Self::Running => SAME_SPEED_MPS,
+            Self::Askew => SAME_ASKEW_RAD,
+        }
+    }
 }
 
 /// Marks red lights that one road user runs in the log too.

@@ -5,6 +5,7 @@ use super::goal::GoalError;
 use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
 use super::pairs::{PairScores, PairTotals};
+use super::recorded::Rule;
 use crate::{AgentId, State};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -86,8 +87,9 @@ pub struct Stretch {
     pub time_s: f64,
     /// Scene time of the last step, seconds.
     pub until_s: f64,
-    /// The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
-    /// metres driven against the traffic.
+    /// The worst of it, in the unit of its list: metres off the road, off the map, driven against the traffic or
+    /// walked on the carriageway; m/s2 of braking or sideways; share of the limit for turns; m/s above the speed limit
+    /// or of running; radians askew.
     pub worst: Option<f64>,
     /// Box centre where it is worst, metres.
     pub x_m: f64,
@@ -171,6 +173,16 @@ pub struct SceneScore {
     pub harsh_braking: Vec<Stretch>,
     /// Turning harder than the threshold; `worst` in m/s2 sideways.
     pub harsh_steering: Vec<Stretch>,
+    /// Wheels where the roads of the map have ended; `worst` in metres from the lanes.
+    pub off_map: Vec<Stretch>,
+    /// Pedestrians along a lane, or across lanes beside a crosswalk; `worst` in metres walked.
+    pub on_carriageway: Vec<Stretch>,
+    /// Vehicles above the speed limit; `worst` in m/s above it.
+    pub speeding: Vec<Stretch>,
+    /// Pedestrians that run; `worst` in m/s.
+    pub running: Vec<Stretch>,
+    /// Vehicles that end at an angle to their lane; `worst` in radians.
+    pub askew: Vec<Stretch>,
     /// Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only).
     pub implausible_turns: Vec<Stretch>,
     /// Stop lines crossed at red.
@@ -249,15 +261,22 @@ impl SceneScore {
         let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();
         self.goals_reached = share(reached, goals.count());
         self.accuracy = Accuracy::mean(agents.iter().filter_map(|a| a.accuracy.as_ref()));
-        for list in [
-            &mut self.off_road,
-            &mut self.over_median,
-            &mut self.wrong_way,
-            &mut self.harsh_braking,
-            &mut self.harsh_steering,
-            &mut self.implausible_turns,
-        ] {
-            list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        let by_time = |list: &mut Vec<Stretch>| list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        let roads = [&mut self.off_road, &mut self.over_median, &mut self.wrong_way];
+        roads.into_iter().chain([&mut self.implausible_turns]).for_each(by_time);
+        Rule::ALL.into_iter().for_each(|rule| by_time(self.breaches_mut(rule)));
+    }
+
+    /// The list of a rule.
+    pub(super) fn breaches_mut(&mut self, rule: Rule) -> &mut Vec<Stretch> {
+        match rule {
+            Rule::Braking => &mut self.harsh_braking,
+            Rule::Steering => &mut self.harsh_steering,
+            Rule::OffMap => &mut self.off_map,
+            Rule::OnCarriageway => &mut self.on_carriageway,
+            Rule::Speeding => &mut self.speeding,
+            Rule::Running => &mut self.running,
+            Rule::Askew => &mut self.askew,
         }
     }
 }

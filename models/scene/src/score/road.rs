@@ -2,12 +2,13 @@
 
 use super::drivable::Drivable;
 use super::input::{Actor, ScoreInput};
+use super::lane_rules::end_step;
 use super::report::{Stretch, share, stretches, time_of};
 use crate::geometry::direction;
 use crate::{AgentType, STEP_S, Subtype, Vec2};
 
 /// A vehicle that stays within this of its first place is parked, metres.
-const PARKED_M: f64 = 1.0;
+pub(super) const PARKED_M: f64 = 1.0;
 
 /// Road score of a vehicle's motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,9 +35,8 @@ pub struct RoadScore {
 /// for vehicles that stay parked where the log has them (they often stand across the kerb), whether they were
 /// generated or not.
 pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
-    let drives = actor.agent_type == AgentType::Vehicle && actor.subtype != Subtype::Trailer;
     let parked = actor.travel_m(input.steps.clone()) < PARKED_M && stands_where_logged(input, actor);
-    if !drives || parked || input.drivable.is_unknown() {
+    if !drives(actor) || parked || input.drivable.is_unknown() {
         return RoadScore::default();
     }
     let ground = input.drivable.allowing(actor.may_cross);
@@ -44,6 +44,8 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let (mut off, mut wrong) = (Vec::new(), Vec::new());
     let mut score = RoadScore::default();
     let mut farthest: Option<f64> = None;
+    // One that comes to rest against the traffic ends against it.
+    let end = end_step(input, actor);
     let mut travelled_m = 0.0;
     for step in input.steps.clone() {
         let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
@@ -55,15 +57,16 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
             }
         }
         travelled_m += state.speed_mps() * STEP_S;
-        if state.speed_mps() > limits.moving_mps {
-            score.moving_steps += 1;
-            if input.drivable.is_wrong_way(state.position(), outline.forward()) == Some(true) {
-                wrong.push((step, travelled_m));
-            }
+        let moves = state.speed_mps() > limits.moving_mps;
+        score.moving_steps += usize::from(moves);
+        if (moves || Some(step) == end)
+            && input.drivable.is_wrong_way(state.position(), outline.forward()) == Some(true)
+        {
+            score.wrong_way_steps += usize::from(moves);
+            wrong.push((step, travelled_m));
         }
     }
     score.offroad_steps = off.len();
-    score.wrong_way_steps = wrong.len();
     score.offroad_max_m = farthest;
     score.offroad_share = share(off.len(), score.road_steps);
     score.wrong_way_share = share(wrong.len(), score.moving_steps);
@@ -81,6 +84,11 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
         stretch.worst = stretch.worst.map(|m| m - begun_m);
     }
     score
+}
+
+/// A vehicle under its own power.
+pub(super) fn drives(actor: &Actor<'_>) -> bool {
+    actor.agent_type == AgentType::Vehicle && actor.subtype != Subtype::Trailer
 }
 
 /// Whether it begins at its recorded state of that step; without a recording of the step, the user placed it.

@@ -3,9 +3,9 @@
 use super::accuracy::{Accuracy, accuracy};
 use super::goal::{GoalError, goal_error};
 use super::input::{Actor, ScoreInput};
-use super::kinematic::{Kinematic, harsh_braking, harsh_steering, score_kinematic};
+use super::kinematic::{Kinematic, score_kinematic};
 use super::pairs::PairTotals;
-use super::recorded;
+use super::recorded::{self, Rule};
 use super::report::{AgentScore, RedLight, SceneScore, Stretch};
 use super::road::{RoadScore, score_road};
 use super::signals::{SignalStopLine, crossed_at_red};
@@ -16,8 +16,8 @@ pub(super) struct Single {
     road: RoadScore,
     kinematic: Option<Kinematic>,
     implausible_turns: Vec<Stretch>,
-    braking: Vec<Stretch>,
-    steering: Vec<Stretch>,
+    /// By rule, in the order of [`Rule::ALL`].
+    rules: [Vec<Stretch>; Rule::ALL.len()],
     red_lights: Vec<RedLight>,
     goal_error: Option<GoalError>,
     accuracy: Option<Accuracy>,
@@ -30,18 +30,13 @@ impl Single {
         recorded::mark_road(input, actor, &mut road);
         let kinematic = actor.generated.then(|| score_kinematic(actor, input.steps.clone()));
         let (kinematic, turns) = kinematic.unzip();
-        let mut braking = harsh_braking(actor, input);
-        recorded::mark_braking(input, actor, &mut braking);
-        let mut steering = harsh_steering(actor, input);
-        recorded::mark_steering(input, actor, &mut steering);
         let mut red_lights = crossed_at_red(input, actor, lines);
         recorded::mark_red_lights(input, actor, lines, &mut red_lights);
         Self {
             road,
             kinematic,
             implausible_turns: turns.unwrap_or_default(),
-            braking,
-            steering,
+            rules: Rule::ALL.map(|rule| rule.breaches(input, actor)),
             red_lights,
             goal_error: goal_error(actor),
             accuracy: accuracy(actor, input.steps.clone()),
@@ -52,8 +47,9 @@ impl Single {
     pub(super) fn add_to(self, scene: &mut SceneScore, totals: &PairTotals) -> AgentScore {
         let road = self.road;
         scene.implausible_turns.extend(self.implausible_turns);
-        scene.harsh_braking.extend(self.braking);
-        scene.harsh_steering.extend(self.steering);
+        for (rule, found) in Rule::ALL.into_iter().zip(self.rules) {
+            scene.breaches_mut(rule).extend(found);
+        }
         scene.red_lights.extend(self.red_lights);
         scene.off_road.extend(road.off_road);
         scene.over_median.extend(road.over_median);
