@@ -171,9 +171,12 @@ fn scored(scene: &Scene, time: &Timing, steps: &std::ops::Range<usize>, losses: 
     // Without equal lanes or ground, figures that depend on them are not compared.
     let ground = ["no-map", "no-lane-type", "no-lane-graph", "no-drivable", "no-lines"];
     if losses.iter().any(|code| ground.contains(code)) {
-        for figure in
-            ["offroad_max_m", "offroad_share", "wrong_way_share", "off_road", "wrong_way", "over_median"]
-        {
+        let [shares, roads, rules] = [
+            ["offroad_max_m", "offroad_share", "wrong_way_share"],
+            ["off_road", "wrong_way", "over_median"],
+            ["off_map", "on_carriageway", "speeding"],
+        ];
+        for figure in [shares, roads, rules].concat().into_iter().chain(["askew"]) {
             let agents = value["agents"].as_object_mut().into_iter().flat_map(|agents| agents.values_mut());
             let mut judged: Vec<&mut Value> = agents.collect();
             judged

@@ -37,14 +37,19 @@ const PRESSED_SHARE: f64 = 0.8;
 const SHOWN: usize = 18;
 
 /// Faults in the order of the columns.
-const KINDS: [(FaultKind, &str); 8] = [
+const KINDS: [(FaultKind, &str); 13] = [
     (FaultKind::Collision, "collision"),
     (FaultKind::RedLight, "red light"),
     (FaultKind::WrongWay, "wrong way"),
     (FaultKind::OverMedian, "over median"),
     (FaultKind::OffRoad, "off road"),
+    (FaultKind::OffMap, "off map"),
+    (FaultKind::OnCarriageway, "on carriageway"),
+    (FaultKind::Speeding, "speeding"),
     (FaultKind::HarshBraking, "harsh braking"),
     (FaultKind::HarshSteering, "harsh steering"),
+    (FaultKind::Running, "running"),
+    (FaultKind::Askew, "askew"),
     (FaultKind::NearMiss, "near miss"),
 ];
 
@@ -127,11 +132,16 @@ fn worst(
     let road = [FaultKind::WrongWay, FaultKind::OverMedian, FaultKind::OffRoad];
     let has = |d: &Drag, kinds: &[FaultKind]| kinds.iter().any(|k| d.shown.contains(k));
     type Measure<'a> = &'a dyn Fn(&Drag) -> Option<f64>;
-    let kinds: [(&str, Measure<'_>); 6] = [
+    let kinds: [(&str, Measure<'_>); 11] = [
         ("collision", &|d| (d.free && has(d, &[FaultKind::Collision])).then_some(d.extent)),
         ("road", &|d| (d.met && d.vehicle && d.by_road && has(d, &road)).then_some(d.extent)),
         ("near", &|d| (d.met && d.by_road && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
         ("steering", &|d| (d.met && d.by_road && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
+        ("map", &|d| (d.met && d.by_road && has(d, &[FaultKind::OffMap])).then_some(d.extent)),
+        ("carriageway", &|d| (d.met && has(d, &[FaultKind::OnCarriageway])).then_some(d.extent)),
+        ("speeding", &|d| (d.met && d.by_road && has(d, &[FaultKind::Speeding])).then_some(d.extent)),
+        ("running", &|d| (d.met && has(d, &[FaultKind::Running])).then_some(d.extent)),
+        ("askew", &|d| (d.met && d.by_road && has(d, &[FaultKind::Askew])).then_some(d.extent)),
         ("jump", &|d| (d.jump_m > 1.0).then_some(d.jump_m)),
         ("copies", &|d| (d.copies > 1).then_some(d.copies as f64)),
     ];
@@ -383,14 +393,14 @@ fn is_before_red(site: &Site<'_>, agent: &scene::Agent) -> bool {
 fn faults_sheet() -> Sheet {
     let mut columns = vec!["reached"];
     columns.extend(KINDS.map(|(_, name)| name));
-    columns.extend(["road left or wrong way", "off road, not said"]);
+    columns.extend(["any fault", "road left or wrong way", "off road, not said"]);
     Sheet::new(
         "9a Trust: faults of dragged goals that are reached",
         &[
             "Goals moved by 2 to 30 m along and across the lane, ten for each of at most 150 road users drawn by the \
              seed, everybody reacting. Share of reached goals whose future has each fault (`all six`: share of all \
              futures), by whether a route with the traffic leads to the goal \
-             in the time.",
+             in the time. Any fault: one of these kinds at least.",
         ],
         &["ours", "goals of vehicles", "futures"],
         &columns,
@@ -411,6 +421,7 @@ fn fault_cells(boot: &Bootstrap, drags: &[&Drag], shown: bool) -> Vec<Cell> {
     };
     let mut cells = vec![Cell::Count(drags.len() as u64)];
     cells.extend(KINDS.map(|(kind, _)| share(&|kinds| kinds.contains(&kind))));
+    cells.push(share(&|kinds| KINDS.iter().any(|(kind, _)| kinds.contains(kind))));
     let leaves = [FaultKind::WrongWay, FaultKind::OverMedian, FaultKind::OffRoad];
     cells.push(share(&|kinds| leaves.iter().any(|kind| kinds.contains(kind))));
     let unsaid = drags.iter().filter(|_| shown).map(|d| Value::flag(d.site, d.unsaid));

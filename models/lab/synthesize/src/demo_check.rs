@@ -139,6 +139,11 @@ fn events(scene: &Scene) -> Vec<String> {
         ("is off the road", &found.off_road),
         ("is over a median", &found.over_median),
         ("drives against the traffic", &found.wrong_way),
+        ("leaves the map", &found.off_map),
+        ("walks on the carriageway", &found.on_carriageway),
+        ("exceeds the speed limit", &found.speeding),
+        ("runs", &found.running),
+        ("ends askew", &found.askew),
         ("brakes hard", &found.harsh_braking),
         ("steers hard", &found.harsh_steering),
     ];

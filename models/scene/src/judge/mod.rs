@@ -284,7 +284,14 @@ mod tests {
         };
         assert_eq!(passes(1.95), [FaultKind::Collision]);
         assert_eq!(passes(2.1), [FaultKind::NearMiss]);
+        assert_eq!(passes(2.3), [FaultKind::NearMiss]);
         assert!(passes(2.6).is_empty());
+        let beside_parked = |beside_m: f64| {
+            let me = straight("a", CAR, (-30.0, 0.0), 0.0, 8.0);
+            kinds(&LaneMap::default(), &me, Some(straight("b", CAR, (0.0, beside_m), PI, 0.0)))
+        };
+        assert_eq!(beside_parked(2.1), [FaultKind::NearMiss]);
+        assert!(beside_parked(2.3).is_empty(), "parked cars stand beside every lane");
     }
 
     #[test]
@@ -312,14 +319,39 @@ mod tests {
     fn to_face_the_traffic_for_long_is_the_wrong_way_too() {
         let lane = crate::map::Lane::street("east", vec![Vec2::new(-50.0, 0.0), Vec2::new(50.0, 0.0)]);
         let map = LaneMap { lanes: vec![lane], ..LaneMap::default() };
-        // It creeps beside the lane and comes onto it, facing the traffic.
-        let comes = |since_s: f64| {
+        // It creeps beside the lane, and on it for a while, facing the traffic.
+        let comes = |seconds: f64| {
             let mut me = straight("a", CAR, (0.0, 0.0), PI, 1.2);
-            let beside = me.track.to_mut().states.iter_mut().take(step(since_s)).flatten();
+            let on = step(6.0)..step(6.0 + seconds);
+            let states = me.track.to_mut().states.iter_mut().enumerate();
+            let beside = states.filter(|(i, _)| !on.contains(i)).filter_map(|(_, state)| state.as_mut());
             beside.for_each(|state| state.y_m = 30.0);
             kinds(&map, &me, None)
         };
-        assert!(comes(7.0).contains(&FaultKind::WrongWay));
-        assert!(!comes(8.6).contains(&FaultKind::WrongWay));
+        assert!(comes(2.0).contains(&FaultKind::WrongWay));
+        assert!(!comes(0.5).contains(&FaultKind::WrongWay));
+    }
+
+    #[test]
+    fn a_short_end_in_the_oncoming_lane_is_the_wrong_way() {
+        let lanes = |interpolating| {
+            let line = |points: [(f64, f64); 2]| points.map(|(x, y)| Vec2::new(x, y)).to_vec();
+            let own = crate::map::Lane::street("own", line([(-50.0, 0.0), (150.0, 0.0)]));
+            let oncoming = crate::map::Lane::street("oncoming", line([(150.0, 3.5), (-50.0, 3.5)]));
+            let oncoming = crate::map::Lane { interpolating, ..oncoming };
+            LaneMap { lanes: vec![own, oncoming], ..LaneMap::default() }
+        };
+        // It is in the oncoming lane for 0.2 s and 1.2 m, 30 degrees askew, and comes to rest there.
+        let mut me = straight("a", CAR, (0.0, 0.0), 0.0, 6.0);
+        for (i, state) in me.track.to_mut().states.iter_mut().flatten().enumerate().skip(88) {
+            (state.y_m, state.heading_rad) = (2.6, PI / 6.0);
+            state.vx_mps = if i == 90 { 0.0 } else { 6.0 };
+        }
+        let against = |map: &LaneMap, me: &Actor<'_>| kinds(map, me, None).contains(&FaultKind::WrongWay);
+        assert!(against(&lanes(false), &me));
+        assert!(!against(&lanes(true), &me), "which way to face in a junction cannot be told");
+        let back = me.track.to_mut().states.last_mut();
+        back.into_iter().flatten().for_each(|state| (state.y_m, state.heading_rad) = (0.0, 0.0));
+        assert!(!against(&lanes(false), &me), "it only cut across");
     }
 }

@@ -3,8 +3,9 @@
 use crate::geometry::Vec2;
 use crate::geometry::obb::OrientedBox;
 use crate::geometry::segments::{Segment, SegmentIndex, thinned_pieces};
-use crate::map::{Area, LaneMap, LaneType};
+use crate::map::{Area, Lane, LaneMap, LaneType};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Cap on distances off the road, metres.
@@ -32,7 +33,7 @@ const ROW_M: f64 = 4.0;
 pub(crate) struct Band {
     half_width_m: f64,
     carries_vehicles: bool,
-    /// Leads through a junction between two lanes.
+    /// Leads through a junction, or where lanes part or join.
     pub(crate) in_junction: bool,
     /// Where the map gives one, m/s.
     pub(super) speed_limit_mps: Option<f64>,
@@ -74,11 +75,12 @@ impl Drivable {
             .zip(0..)
             .flat_map(|(e, i)| thinned_pieces(&e.points.xy, false, i))
             .collect();
+        let by_id: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
         let has_areas = map.drivable.iter().any(|a| a.polygon.xy.len() >= 3);
-        let band = |lane: &crate::map::Lane| Band {
+        let band = |lane: &Lane| Band {
             half_width_m: 0.5 * lane.width_or_assumed_m(),
             carries_vehicles: lane.lane_type.carries_vehicles(),
-            in_junction: lane.interpolating,
+            in_junction: lane.interpolating || parts_or_joins(&by_id, lane),
             speed_limit_mps: lane.speed_limit_mps.filter(|v| *v > 0.0),
             open: [
                 lane.points.xy.first().copied().filter(|_| lane.predecessors.is_empty()),
@@ -335,6 +337,14 @@ struct BeyondEnd {
     /// From the lane's end, metres.
     away_m: f64,
     half_width_m: f64,
+}
+
+/// Another lane comes from where this one comes from, or leads to where it leads: few maps say which lanes lead through
+/// junctions.
+fn parts_or_joins(by_id: &HashMap<&str, &Lane>, lane: &Lane) -> bool {
+    let lane_of = |id: &String| by_id.get(id.as_str());
+    lane.predecessors.iter().filter_map(lane_of).any(|before| before.successors.len() > 1)
+        || lane.successors.iter().filter_map(lane_of).any(|next| next.predecessors.len() > 1)
 }
 
 fn distance(to: &SegmentIndex, point: Vec2) -> f64 {

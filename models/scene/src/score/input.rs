@@ -28,6 +28,10 @@ pub struct Thresholds {
     /// Near miss of one that follows another: only when avoiding the collision needs more braking
     /// than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
     pub follow_brake_mps2: f64,
+    /// Near miss of two that pass each other at more than `pass_mps`: gap below this, metres.
+    pub pass_gap_m: f64,
+    /// Near miss of two that pass each other: only when their relative speed is above this, m/s.
+    pub pass_mps: f64,
     /// Slower than this counts as standing, m/s.
     pub moving_mps: f64,
     /// Braking above this is harsh, m/s2.
@@ -69,6 +73,8 @@ impl Default for Thresholds {
             gap_m: 1.0,
             closing_speed_mps: 1.0,
             follow_brake_mps2: 3.35,
+            pass_gap_m: 0.4,
+            pass_mps: 3.0,
             moving_mps: 0.5,
             harsh_brake_mps2: 4.0,
             harsh_lateral_mps2: 4.0,
@@ -113,13 +119,15 @@ impl Thresholds {
     /// [`Self::gap_m`].
     pub const GAP_M: Threshold = Threshold { name: "gap_m", range: (0.0, 60.0), of: |t| t.gap_m };
     /// All of them. Beyond these ranges a number decides nothing any more.
-    pub const ALL: [Threshold; 20] = [
+    pub const ALL: [Threshold; 22] = [
         Self::IOU,
         Threshold { name: "covered_share", range: (0.0, 2.0), of: |t| t.covered_share },
         Self::TTC_S,
         Self::GAP_M,
         Threshold { name: "closing_speed_mps", range: (0.0, 300.0), of: |t| t.closing_speed_mps },
         Threshold { name: "follow_brake_mps2", range: (0.0, 1_000.0), of: |t| t.follow_brake_mps2 },
+        Threshold { name: "pass_gap_m", range: (0.0, 60.0), of: |t| t.pass_gap_m },
+        Threshold { name: "pass_mps", range: (0.0, 300.0), of: |t| t.pass_mps },
         Threshold { name: "moving_mps", range: (0.0, 300.0), of: |t| t.moving_mps },
         Threshold { name: "harsh_brake_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_brake_mps2 },
         Threshold { name: "harsh_lateral_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_lateral_mps2 },
@@ -135,6 +143,11 @@ impl Thresholds {
         Threshold { name: "goal_heading_rad", range: (0.0, 4.0), of: |t| t.goal_heading_rad },
         Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },
     ];
+
+    /// No near miss by its gap has a larger one, metres.
+    pub fn near_gap_m(&self) -> f64 {
+        self.gap_m.max(self.pass_gap_m)
+    }
 
     /// Thresholds out of their range, each with its value.
     pub fn outside(&self) -> impl Iterator<Item = (Threshold, f64)> {

@@ -79,7 +79,7 @@ pub(crate) fn speeding(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch
         let above = limit.filter(|limit| speed > limit * (1.0 + share) + extra_mps);
         fast_since_start &= above.is_some();
         let slowed_to_mps = first_mps - SLOWING_MPS2 * STEP_S * (step - first) as f64;
-        let slowing = fast_since_start && speed <= slowed_to_mps + 1e-9;
+        let slowing = fast_since_start && step > first && speed <= slowed_to_mps + 1e-9;
         if let Some(limit) = above.filter(|_| !slowing) {
             flagged.push((step, speed - limit));
         }
@@ -105,4 +105,121 @@ pub(crate) fn off_map(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
 pub(super) fn lasting(mut stretches: Vec<Stretch>, seconds: f64) -> Vec<Stretch> {
     stretches.retain(|s| s.until_s - s.time_s >= seconds - 1e-6);
     stretches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{input_of, lane, straight, track_of};
+    use super::super::{Drivable, ScoreInput};
+    use super::*;
+    use crate::map::Lane;
+    use crate::{Goal, LaneMap, State, Vec2};
+    use std::borrow::Cow;
+
+    fn street(limit_mps: Option<f64>) -> Lane {
+        Lane { speed_limit_mps: limit_mps, ..lane("east", &[(-20.0, 0.0), (200.0, 0.0)]) }
+    }
+
+    fn drivable(lane: Lane) -> Drivable {
+        Drivable::new(&LaneMap { lanes: vec![lane], ..LaneMap::default() })
+    }
+
+    /// On the lane to the east, at this speed at each time.
+    fn driven(speed: impl Fn(f64) -> f64) -> Actor<'static> {
+        let mut actor = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+        let mut x_m = 0.0;
+        let states = (0..91).map(|i| {
+            let vx_mps = speed(i as f64 * STEP_S);
+            x_m += vx_mps * STEP_S;
+            Some(State { x_m, vx_mps, ..State::default() })
+        });
+        actor.track.to_mut().states = states.collect();
+        actor
+    }
+
+    #[test]
+    fn above_the_limit_by_more_than_the_tolerance_for_a_second_is_speeding() {
+        let found = |limit: Option<f64>, speed: &dyn Fn(f64) -> f64| {
+            let drivable = drivable(street(limit));
+            let input = input_of(vec![driven(speed)], &drivable);
+            speeding(&input.actors[0], &input)
+        };
+        // 10 m/s may be driven with 12.4.
+        let fast = found(Some(10.0), &|_| 13.0);
+        assert_eq!((fast.len(), fast[0].time_s, fast[0].until_s), (1, 0.0, 9.0));
+        assert!((fast[0].worst.unwrap() - 3.0).abs() < 1e-9);
+        assert!(found(Some(10.0), &|_| 12.3).is_empty(), "within the tolerance");
+        assert!(found(None, &|_| 30.0).is_empty(), "no limit is known");
+        let for_s = |seconds: f64| move |t: f64| if (2.0..2.05 + seconds).contains(&t) { 13.0 } else { 10.0 };
+        assert_eq!((found(Some(10.0), &for_s(0.8)).len(), found(Some(10.0), &for_s(1.0)).len()), (0, 1));
+    }
+
+    #[test]
+    fn who_starts_too_fast_and_slows_down_is_not_speeding() {
+        let drivable = drivable(street(Some(10.0)));
+        let found = |speed: &dyn Fn(f64) -> f64| {
+            let input = input_of(vec![driven(speed)], &drivable);
+            speeding(&input.actors[0], &input).len()
+        };
+        assert_eq!(found(&|t| (16.0 - 0.8 * t).max(12.0)), 0);
+        assert_eq!(found(&|t| 16.0 - 0.1 * t), 1);
+    }
+
+    fn askew_rad(map: &LaneMap, turn_rad: f64, change: impl Fn(&mut Actor<'_>)) -> Option<f64> {
+        let drivable = Drivable::new(map);
+        let mut actor = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+        // It turns in the last half second.
+        let state = |i: usize| {
+            let heading_rad = if i > 85 { turn_rad } else { 0.0 };
+            State { x_m: i as f64, heading_rad, vx_mps: 10.0, ..State::default() }
+        };
+        actor.track = Cow::Owned(track_of(state));
+        change(&mut actor);
+        let input = ScoreInput { map, ..input_of(vec![actor], &drivable) };
+        ends_askew(&input.actors[0], &input).first().and_then(|s| s.worst)
+    }
+
+    #[test]
+    fn the_end_across_a_lane_is_askew() {
+        let map = LaneMap { lanes: vec![street(None)], ..LaneMap::default() };
+        let turned = |rad: f64| askew_rad(&map, rad, |_| ());
+        assert!((turned(0.4).unwrap() - 0.4).abs() < 1e-9 && turned(0.2).is_none());
+        assert!((turned(2.6).unwrap() - (std::f64::consts::PI - 2.6)).abs() < 1e-9);
+        let due_at_4 = Goal { position: Some(Vec2::new(40.0, 0.0)), time_s: Some(4.0), ..Goal::default() };
+        assert_eq!(
+            askew_rad(&map, 0.4, |a| a.goal = due_at_4),
+            None,
+            "it was along the lane when it was due"
+        );
+        let fixed = Goal { heading_rad: Some(0.4), ..Goal::default() };
+        assert_eq!(askew_rad(&map, 0.4, |a| a.goal = fixed), None, "the user asked for it");
+        let beside =
+            |a: &mut Actor<'_>| a.track.to_mut().states.iter_mut().flatten().for_each(|s| s.y_m = 9.0);
+        assert_eq!(askew_rad(&map, 0.4, beside), None, "off the lanes");
+    }
+
+    #[test]
+    fn in_junctions_bends_and_other_lanes_that_fit_nothing_is_askew() {
+        let junction = Lane { interpolating: true, ..street(None) };
+        assert_eq!(askew_rad(&LaneMap { lanes: vec![junction], ..LaneMap::default() }, 0.4, |_| ()), None);
+        let other = lane("other", &[(60.0, -12.0), (120.0, 12.0)]);
+        let map = LaneMap { lanes: vec![street(None), other], ..LaneMap::default() };
+        assert_eq!(askew_rad(&map, 0.4, |_| ()), None);
+        let bend = lane("bend", &[(-20.0, 0.0), (92.0, 0.0), (130.0, 16.0)]);
+        assert_eq!(askew_rad(&LaneMap { lanes: vec![bend], ..LaneMap::default() }, 0.4, |_| ()), None);
+    }
+
+    #[test]
+    fn aside_beyond_the_end_of_the_roads_is_off_the_map_and_straight_on_is_not() {
+        let drivable = drivable(lane("east", &[(-20.0, 0.0), (40.0, 0.0)]));
+        let found = |heading_rad: f64| {
+            let input =
+                input_of(vec![straight("a", AgentType::Vehicle, (0.0, 0.0), heading_rad, 10.0)], &drivable);
+            off_map(&input.actors[0], &input)
+        };
+        assert!(found(0.0).is_empty());
+        let aside = found(0.3);
+        assert_eq!(aside.len(), 1);
+        assert!(aside[0].time_s > 4.0 && aside[0].worst.unwrap() > 40.0, "{aside:?}");
+    }
 }

@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use super::goal::GoalError;
 use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
-use super::pairs::{PairScores, PairTotals};
+use super::pairs::{Measures, PairScores, PairTotals};
 use super::recorded::Rule;
 use crate::{AgentId, State};
 use schemars::JsonSchema;
@@ -78,6 +78,42 @@ pub struct NearMiss {
     pub in_log: bool,
 }
 
+/// What a pair comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EncounterKind {
+    /// In the list of collisions.
+    Collision,
+    /// In the list of overlaps.
+    Overlap,
+    /// In the list of near misses.
+    NearMiss,
+}
+
+/// A pair with a collision, an overlap or a near miss, and its surrogate safety measures.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Encounter {
+    /// The one listed first.
+    pub a: AgentId,
+    /// The other.
+    pub b: AgentId,
+    /// The list that it is in.
+    pub kind: EncounterKind,
+    /// Scene time of the event, seconds.
+    pub time_s: f64,
+    /// Between the two at that time, metres.
+    pub x_m: f64,
+    /// Between the two at that time, metres.
+    pub y_m: f64,
+    /// The worst values up to the event.
+    #[serde(flatten)]
+    pub measures: Measures,
+    /// The worst values of the recording over the scored time; null without a recording of both.
+    pub log: Option<Measures>,
+    /// As in the list.
+    pub in_log: bool,
+}
+
 /// Something one road user does over a stretch of time.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
@@ -138,8 +174,12 @@ pub struct SceneScore {
     pub overlaps: Vec<BoxOverlap>,
     /// By time, then by pair.
     pub near_misses: Vec<NearMiss>,
-    /// Least time to collision of any pair, seconds; none within the look-ahead.
+    /// The pairs of the three lists with their measures. By time, then by pair.
+    pub encounters: Vec<Encounter>,
+    /// Least time to collision of any pair at constant velocity, seconds; none within the look-ahead.
     pub min_ttc_s: Option<f64>,
+    /// The pair with `min_ttc_s`.
+    pub min_ttc_pair: Option<[AgentId; 2]>,
     /// Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
     /// overlap. People in company are left out where they touch.
     pub min_distance_m: Option<f64>,
@@ -237,6 +277,10 @@ impl SceneScore {
     /// Fills in what follows from the pairs and the single road users.
     pub(super) fn finish(&mut self, input: &ScoreInput<'_>, pairs: PairScores, agents: &[AgentScore]) {
         self.min_ttc_s = minimum(agents.iter().map(|a| a.min_ttc_s));
+        let soonest =
+            pairs.agents.iter().position(|a| a.min_ttc_s.is_some() && a.min_ttc_s == self.min_ttc_s);
+        let id = |k: usize| input.actors.get(k).map(|actor| actor.id.to_owned());
+        self.min_ttc_pair = soonest.and_then(|k| Some([id(k)?, id(pairs.agents[k].min_ttc_with?)?]));
         self.min_distance_m = minimum(agents.iter().map(|a| a.min_distance_m));
         self.pet_s = minimum(agents.iter().map(|a| a.pet_s));
         let of_all = |count: usize| count as f64 / agents.len().max(1) as f64;
@@ -247,6 +291,8 @@ impl SceneScore {
         self.collisions = pairs.collisions;
         self.overlaps = pairs.overlaps;
         self.near_misses = pairs.near_misses;
+        self.encounters = pairs.encounters;
+        self.encounters.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.collisions.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.overlaps.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.near_misses.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));

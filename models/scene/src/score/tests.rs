@@ -102,7 +102,9 @@ fn member_names_are_those_of_the_api() {
         "collision_rate",
         "overlaps",
         "near_misses",
+        "encounters",
         "min_ttc_s",
+        "min_ttc_pair",
         "min_distance_m",
         "pet_s",
         "offroad_share",
@@ -127,6 +129,32 @@ fn member_names_are_those_of_the_api() {
     assert_eq!(json["agents"]["b"]["goal_error"], serde_json::Value::Null);
     assert_eq!(json["agents"]["a"]["endpoint"], "last");
     assert_eq!(json["thresholds"]["iou"], 0.0);
+}
+
+#[test]
+fn an_encounter_has_its_measures_and_those_of_the_recording() {
+    let drivable = Drivable::default();
+    let log =
+        |x_m: f64, mps: f64| straight("log", AgentType::Vehicle, (x_m, 0.0), 0.0, mps).track.into_owned();
+    // 10 m apart, 14 m from centre to centre; the recording keeps that gap.
+    let (log_a, log_b) = (log(0.0, 10.0), log(-14.0, 10.0));
+    let mut leader = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+    let mut follower = straight("b", AgentType::Vehicle, (-14.0, 0.0), 0.0, 12.0);
+    (leader.log, follower.log) = (Some(&log_a), Some(&log_b));
+    let scene = score(&input_of(vec![leader, follower], &drivable)).scene;
+    assert_eq!(scene.encounters.len(), 1);
+    let met = &scene.encounters[0];
+    assert_eq!((met.a.as_str(), met.b.as_str(), met.kind), ("a", "b", report::EncounterKind::Collision));
+    assert_eq!((met.time_s, met.in_log), (scene.collisions[0].time_s, false));
+    // They touch after 5 s; the place lies between their centres.
+    assert!((met.time_s - 5.0).abs() < 0.15 && (met.x_m - (10.0 * met.time_s - 2.0)).abs() < 1.0, "{met:?}");
+    let found = met.measures;
+    assert_eq!((found.ttc_s, found.pet_s), (Some(0.0), None));
+    assert!(found.drac_mps2.unwrap() > 3.0 && found.headway_s.unwrap() < 0.05, "{found:?}");
+    let log = met.log.unwrap();
+    assert_eq!((log.ttc_s, log.drac_mps2), (None, None));
+    assert!((log.gap_m.unwrap() - 10.0).abs() < 1e-9 && (log.headway_s.unwrap() - 1.0).abs() < 1e-9);
+    assert_eq!(scene.min_ttc_pair, Some(["a".to_owned(), "b".to_owned()]));
 }
 
 #[test]

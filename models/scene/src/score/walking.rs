@@ -103,10 +103,11 @@ fn beside_crosswalks(
         }
         if input.map.crosswalks.iter().any(|area| serves(area, from, to, input.thresholds.crosswalk_m)) {
             let walked_m = (to - from).norm();
-            found.extend(stretches(actor, &[(first.0, walked_m)]).into_iter().map(|s| Stretch {
-                until_s: super::report::time_of(last.0 as f64),
-                ..s
-            }));
+            found.extend(
+                stretches(actor, &[(first.0, walked_m)])
+                    .into_iter()
+                    .map(|s| Stretch { until_s: super::report::time_of(last.0 as f64), ..s }),
+            );
         }
     }
     found
@@ -130,4 +131,71 @@ fn serves(area: &Area, from: Vec2, to: Vec2, beside_m: f64) -> bool {
 
 fn step_of(time_s: f64) -> usize {
     (time_s / STEP_S).round() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{area, input_of, lane, straight};
+    use super::super::{Drivable, ScoreInput};
+    use super::*;
+    use crate::LaneMap;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// A street of two lanes to the east with a crosswalk from x = 18 to 22.
+    fn street() -> LaneMap {
+        LaneMap {
+            lanes: vec![lane("a", &[(-50.0, 0.0), (50.0, 0.0)]), lane("b", &[(50.0, 3.5), (-50.0, 3.5)])],
+            crosswalks: vec![area(&[(18.0, -2.0), (22.0, -2.0), (22.0, 5.5), (18.0, 5.5)])],
+            ..LaneMap::default()
+        }
+    }
+
+    fn found(from: (f64, f64), heading_rad: f64, speed_mps: f64) -> Vec<Stretch> {
+        let map = street();
+        let drivable = Drivable::new(&map);
+        let walker = straight("a", AgentType::Pedestrian, from, heading_rad, speed_mps);
+        let input = ScoreInput { map: &map, ..input_of(vec![walker], &drivable) };
+        on_carriageway(&input.actors[0], &input)
+    }
+
+    #[test]
+    fn a_walk_along_a_lane_is_on_the_carriageway() {
+        let along = found((-10.0, 0.5), 0.2, 1.0);
+        assert_eq!(along.len(), 1);
+        // It leaves the lane after 6.2 m and goes on along the next one.
+        assert!((along[0].worst.unwrap() - 9.1).abs() < 0.2, "{along:?}");
+        assert!(found((-10.0, 0.5), 0.0, 0.3).is_empty(), "2.7 m, slower than a walk");
+        assert!(found((-10.0, -6.0), 0.0, 1.4).is_empty(), "beside the street");
+        assert!(found((18.5, 0.0), 0.0, 0.3).is_empty(), "on the crosswalk");
+    }
+
+    #[test]
+    fn crossing_beside_a_crosswalk_is_on_the_carriageway() {
+        let at = |x: f64| found((x, -4.0), FRAC_PI_2, 1.4);
+        let beside = at(10.0);
+        assert_eq!(beside.len(), 1);
+        assert!((beside[0].worst.unwrap() - 7.0).abs() < 0.3 && beside[0].time_s > 1.0);
+        assert!(at(20.0).is_empty(), "on it");
+        assert!(at(16.6).is_empty(), "right beside it");
+        assert!(at(-10.0).is_empty(), "28 m away");
+        assert!(found((10.0, -4.0), FRAC_PI_2, 0.6).is_empty(), "it has not crossed yet");
+    }
+
+    #[test]
+    fn a_crosswalk_over_another_road_does_not_serve() {
+        let other = area(&[(18.0, -9.0), (22.0, -9.0), (22.0, -5.0), (18.0, -5.0)]);
+        assert!(!serves(&other, Vec2::new(10.0, -2.0), Vec2::new(10.0, 5.0), 15.0));
+    }
+
+    #[test]
+    fn a_fast_walk_for_a_second_is_a_run() {
+        let drivable = Drivable::default();
+        let runs = |agent_type, mps: f64| {
+            let input = input_of(vec![straight("a", agent_type, (0.0, 0.0), 0.0, mps)], &drivable);
+            running(&input.actors[0], &input).first().and_then(|s| s.worst)
+        };
+        assert_eq!(runs(AgentType::Pedestrian, 3.0), Some(3.0));
+        assert_eq!(runs(AgentType::Pedestrian, 2.4), None);
+        assert_eq!(runs(AgentType::Cyclist, 3.0), None);
+    }
 }

@@ -2,16 +2,18 @@
 
 mod company;
 mod log;
+mod measures;
 mod mover;
 mod near;
 mod tally;
 
 use super::input::{Actor, Exclude, ScoreInput};
-use super::report::{BoxOverlap, Collision, NearMiss, time_of};
+use super::report::{BoxOverlap, Collision, Encounter, EncounterKind, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 pub use log::{SAME_GAP_M, SAME_S};
+pub use measures::Measures;
 pub(super) use mover::Rectangle;
 pub(crate) use mover::{Mover, MoverState};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
@@ -35,6 +37,8 @@ pub struct PairTotals {
     pub overlaps: bool,
     /// Least time to collision, seconds.
     pub min_ttc_s: Option<f64>,
+    /// With which road user, by its place in the input.
+    pub min_ttc_with: Option<usize>,
     /// Least gap, metres.
     pub min_distance_m: Option<f64>,
     /// Least post-encroachment time, seconds.
@@ -50,6 +54,8 @@ pub struct PairScores {
     pub overlaps: Vec<BoxOverlap>,
     /// One a pair, in pair order.
     pub near_misses: Vec<NearMiss>,
+    /// One a pair with any of these events, in pair order.
+    pub encounters: Vec<Encounter>,
     /// By road user, in input order.
     pub agents: Vec<PairTotals>,
 }
@@ -124,6 +130,21 @@ pub(crate) enum Meeting {
 }
 
 impl Meeting {
+    fn kind(&self) -> EncounterKind {
+        match self {
+            Self::Collision { .. } => EncounterKind::Collision,
+            Self::Overlap { .. } => EncounterKind::Overlap,
+            Self::Near { .. } => EncounterKind::NearMiss,
+        }
+    }
+
+    /// Scene time, seconds.
+    fn time_s(&self) -> f64 {
+        let (Self::Collision { time_s, .. } | Self::Overlap { time_s, .. } | Self::Near { time_s, .. }) =
+            self;
+        *time_s
+    }
+
     fn of(pair: &Pair, first_step: usize) -> Option<Self> {
         let scene_time = |step: f64| time_of(first_step as f64 + step);
         if let Some(Contact { first, iou, closing_mps: closing_speed_mps, .. }) = pair.collision {
@@ -145,7 +166,7 @@ impl Meeting {
         (b, mover_b): (&Actor<'_>, &Mover),
     ) -> Option<Self> {
         // Only collisions and near misses are needed, so the bounds skip the search for least gap and time.
-        let known = PairBounds { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
+        let known = PairBounds { gap_m: input.thresholds.near_gap_m(), ttc_s: input.thresholds.ttc_s };
         if stay_apart(mover_a, mover_b, known.gap_m) {
             return None;
         }
@@ -202,7 +223,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> P
         let moving = p.speed_mps > limits.moving_mps || q.speed_mps > limits.moving_mps;
         let apart = circle_gap(&p.outline, &q.outline);
         // The gap matters where it can be a new least, a near miss, or a collision before the next step.
-        let gap_m = known.gap_m.min(pair.min_distance_m.unwrap_or(f64::INFINITY)).max(limits.gap_m);
+        let gap_m = known.gap_m.min(pair.min_distance_m.unwrap_or(f64::INFINITY)).max(limits.near_gap_m());
         let horizon_s = known.ttc_s.min(pair.min_ttc_s.unwrap_or(LOOK_AHEAD_S)).max(limits.ttc_s);
         let displacement_m = a.max_displacement_m + b.max_displacement_m;
         let matter_m = gap_m.max(displacement_m).max((a.top_mps + b.top_mps) * horizon_s);
@@ -228,7 +249,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> P
             collide(&mut pair, input, (a, b), step, gap);
         }
         pair.min_ttc_s = least(pair.min_ttc_s, ttc_s);
-        if ttc_s.is_some_and(|t| t < limits.ttc_s) || (matters && gap < limits.gap_m) {
+        if ttc_s.is_some_and(|t| t < limits.ttc_s) || (matters && gap < limits.near_gap_m()) {
             let (gap, towards) =
                 if matters { (gap, towards) } else { gap_and_direction(&p.outline, &q.outline) };
             let closing = (p.velocity - q.velocity).dot(&towards);

@@ -12,10 +12,13 @@ pub(super) const PARKED_M: f64 = 1.0;
 /// Beside pedestrians, slower vehicles crawl, m/s: a pedestrian keeps clear of them without haste.
 const CRAWL_MPS: f64 = 1.5;
 
-/// Made motion that passes another nearer than this, at this speed relative to it, all but brushes it, metres and m/s.
-/// Recorded boxes are no better than that.
+/// Made motion that passes a parked road user nearer than this all but brushes it, metres: recorded boxes are no better.
 const BRUSH_M: f64 = 0.15;
-const BRUSH_MPS: f64 = 3.0;
+
+/// A gap counts as no less than this where it divides, metres.
+pub(super) const LEAST_GAP_M: f64 = 0.05;
+/// Cosine of the angle within which one that follows has the other ahead of it.
+const AHEAD: f64 = 0.7;
 
 /// A collision course of fewer steps ends by a turn that just begins, and is no near miss.
 const LEAST_COURSE: usize = 3;
@@ -103,11 +106,13 @@ pub(super) struct Gap {
 /// passes beside another on its own line, and one that brakes normally behind another.
 pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<NearMissKind> {
     let made = a.mover.generated || b.mover.generated;
+    let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
     let relative_mps = (a.moment.velocity - b.moment.velocity).norm();
-    if made && !(a.walks() && b.walks()) && gap.gap_m < BRUSH_M && relative_mps > BRUSH_MPS {
+    let pass_gap_m = if parked { BRUSH_M.min(limits.pass_gap_m) } else { limits.pass_gap_m };
+    let passes = gap.gap_m < pass_gap_m && relative_mps > limits.pass_mps && (made || !parked);
+    if passes && !(a.walks() && b.walks()) {
         return Some(NearMissKind::Gap);
     }
-    let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
     if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {
         return None;
     }
@@ -116,10 +121,8 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
         return None;
     }
     let turn = wrap_angle(a.moment.outline.heading_rad() - b.moment.outline.heading_rad()).abs();
-    let needed_mps2 = gap.closing_mps.powi(2) / (2.0 * gap.gap_m.max(0.05));
-    let forward = direction(a.moment.outline.heading_rad());
-    let follows = turn < FRAC_PI_6 && gap.towards.dot(&forward).abs() > 0.7;
-    if follows && needed_mps2 <= limits.follow_brake_mps2 {
+    let needed_mps2 = gap.closing_mps.powi(2) / (2.0 * gap.gap_m.max(LEAST_GAP_M));
+    if follows(a.moment, b.moment, gap.towards) && needed_mps2 <= limits.follow_brake_mps2 {
         return None;
     }
     let moves = |side: Side<'_>| side.moment.speed_mps > limits.moving_mps;
@@ -132,8 +135,19 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(NearMissKind::Course)
 }
 
-/// The two touch within this time if both keep their speeds and turn rates, checked step by step.
+/// One of the two is behind the other on the same way.
+pub(super) fn follows(a: &MoverState, b: &MoverState, towards: Vec2) -> bool {
+    let turn = wrap_angle(a.outline.heading_rad() - b.outline.heading_rad()).abs();
+    turn < FRAC_PI_6 && towards.dot(&direction(a.outline.heading_rad())).abs() > AHEAD
+}
+
+/// The two touch within this time if both keep their speeds and turn rates.
 pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
+    meeting_s(a, b, time_s).is_some()
+}
+
+/// Seconds until the two touch if both keep their speeds and turn rates, at most `time_s`; checked step by step.
+pub(super) fn meeting_s(a: Side<'_>, b: Side<'_>, time_s: f64) -> Option<f64> {
     let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
     let both_m = (a.moment.speed_mps + b.moment.speed_mps) * STEP_S;
     let last = (time_s / STEP_S).ceil() as usize;
@@ -142,11 +156,11 @@ pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
         let later_s = (step as f64 * STEP_S).min(time_s);
         let (later_a, later_b) = (a.later(of_a, later_s), b.later(of_b, later_s));
         if overlaps(&later_a, &later_b, 0.0) {
-            return true;
+            return Some(later_s);
         }
         // Two apart do not touch before they have gone what lies between them: those steps need no look.
         let apart_m = circle_gap(&later_a, &later_b).max(0.0);
         step = step.saturating_add(((apart_m / both_m) as usize).max(1));
     }
-    false
+    None
 }

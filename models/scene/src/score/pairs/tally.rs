@@ -1,10 +1,14 @@
 //! Results of the pairs so far: the least values of each road user, and the events.
 
-use super::{Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at, stay_apart};
+use super::{
+    Measures, Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at, stay_apart,
+};
+use crate::STEP_S;
+use crate::geometry::Vec2;
 use crate::geometry::ttc::LOOK_AHEAD_S;
-use crate::score::input::{PairChoice, ScoreInput};
+use crate::score::input::{Actor, PairChoice, ScoreInput};
 use crate::score::pet::post_encroachment_s;
-use crate::score::report::{BoxOverlap, Collision, NearMiss};
+use crate::score::report::{BoxOverlap, Collision, Encounter, NearMiss};
 
 /// A least value of one road user, and the other road user of that pair.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +39,8 @@ struct PairEvent {
     overlaps: bool,
     meeting: Option<Meeting>,
     in_log: bool,
+    /// Where the pair meets, with its measures and those of its recording.
+    measured: Option<(Vec2, Measures, Option<Measures>)>,
 }
 
 /// Totals over pairs so far. The order of the pairs changes nothing.
@@ -119,7 +125,7 @@ impl PairTally {
     fn add(&mut self, input: &ScoreInput<'_>, movers: &[&Mover], pair: (usize, usize), note: bool) {
         let (i, j) = pair;
         let known = self.known(pair);
-        if stay_apart(movers[i], movers[j], known.gap_m.max(input.thresholds.gap_m)) {
+        if stay_apart(movers[i], movers[j], known.gap_m.max(input.thresholds.near_gap_m())) {
             return;
         }
         let (a, b) = (&input.actors[i], &input.actors[j]);
@@ -134,7 +140,8 @@ impl PairTally {
             let values = [found.min_ttc_s, found.min_distance_m, pet_s];
             for (least, value) in leasts.all_mut().into_iter().zip(values) {
                 let Some(value) = value else { continue };
-                if least.is_none_or(|l| value < l.value) {
+                // Of equal values the first pair's, whatever the order of the pairs.
+                if least.is_none_or(|l| value < l.value || value == l.value && with < l.with) {
                     *least = Some(Least { value, with });
                 }
             }
@@ -142,7 +149,11 @@ impl PairTally {
         let meeting = Meeting::of(&found, input.steps.start);
         if note && (found.overlaps || meeting.is_some()) {
             let in_log = meeting.is_some() && log::is_in_log(input, a, b, &found);
-            self.events.push(PairEvent { pair, overlaps: found.overlaps, meeting, in_log });
+            // Boxes may meet between two steps: the one after it shows them met.
+            let steps = |m: Meeting| (m.time_s() / STEP_S - 1e-6).ceil() as usize;
+            let step = meeting.map(|m| steps(m).saturating_sub(input.steps.start));
+            let measured = step.and_then(|step| measured(input, (a, movers[i]), (b, movers[j]), step));
+            self.events.push(PairEvent { pair, overlaps: found.overlaps, meeting, in_log, measured });
         }
     }
 
@@ -151,13 +162,14 @@ impl PairTally {
         let value = |least: Option<Least>| least.map(|l| l.value);
         let totals = |l: &Leasts| PairTotals {
             min_ttc_s: value(l.ttc_s),
+            min_ttc_with: l.ttc_s.map(|l| l.with),
             min_distance_m: value(l.distance_m),
             pet_s: value(l.pet_s),
             ..PairTotals::default()
         };
         let mut scores =
             PairScores { agents: self.leasts.iter().map(totals).collect(), ..PairScores::default() };
-        for PairEvent { pair: (i, j), overlaps, meeting, in_log } in self.events {
+        for PairEvent { pair: (i, j), overlaps, meeting, in_log, measured } in self.events {
             for k in [i, j] {
                 let totals = &mut scores.agents[k];
                 totals.overlaps |= overlaps;
@@ -171,6 +183,11 @@ impl PairTally {
                 *count += 1;
             }
             let (a, b) = (input.actors[i].id.to_owned(), input.actors[j].id.to_owned());
+            if let (Some(meeting), Some((place, measures, log))) = (meeting, measured) {
+                let (kind, time_s) = (meeting.kind(), meeting.time_s());
+                let (a, b, x_m, y_m) = (a.clone(), b.clone(), place.x, place.y);
+                scores.encounters.push(Encounter { a, b, kind, time_s, x_m, y_m, measures, log, in_log });
+            }
             match meeting {
                 Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
                     scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
@@ -187,4 +204,18 @@ impl PairTally {
         }
         scores
     }
+}
+
+/// Between the two at a step of their meeting, with the measures of their motions and of their recordings.
+fn measured(
+    input: &ScoreInput<'_>,
+    (a, mover_a): (&Actor<'_>, &Mover),
+    (b, mover_b): (&Actor<'_>, &Mover),
+    step: usize,
+) -> Option<(Vec2, Measures, Option<Measures>)> {
+    let center = |mover: &Mover| Some(mover.moments.get(step)?.as_ref()?.outline.center());
+    let place = 0.5 * (center(mover_a)? + center(mover_b)?);
+    let whole = input.steps.len();
+    let log = log::logged(input, a, b).map(|(p, q)| Measures::of(&p, &q, whole));
+    Some((place, Measures::of(mover_a, mover_b, step), log))
 }

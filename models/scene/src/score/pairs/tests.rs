@@ -432,3 +432,25 @@ fn a_course_is_looked_at_wherever_they_may_touch() {
 fn mover_at(mover: &Mover, step: usize) -> &MoverState {
     mover.moments[step].as_ref().unwrap()
 }
+
+#[test]
+fn time_to_collision_of_an_encounter_follows_the_turn() {
+    // It turns left by 30 degrees a second at 8 m/s: a circle of 15 m, on which the other stands.
+    let mut turning = car("a", 0.0, 0.0, 0.0, 8.0);
+    for (i, state) in turning.track.to_mut().states.iter_mut().flatten().enumerate() {
+        let turned = std::f64::consts::FRAC_PI_6 * i as f64 * STEP_S;
+        let radius = 8.0 / std::f64::consts::FRAC_PI_6;
+        (state.x_m, state.y_m) = (radius * turned.sin(), radius * (1.0 - turned.cos()));
+        (state.vx_mps, state.vy_mps) = (8.0 * turned.cos(), 8.0 * turned.sin());
+        state.heading_rad = turned;
+    }
+    let other = car("b", 15.3, 15.3, std::f64::consts::FRAC_PI_2, 0.0);
+    let (a, b) = (Mover::new(&turning, 0..91), Mover::new(&other, 0..91));
+    let at_start = |step| {
+        let (p, q) = (mover_at(&a, step), mover_at(&b, step));
+        (ttc(p, q, LOOK_AHEAD_S), Measures::of(&a, &b, step).ttc_s)
+    };
+    let (straight_on, as_it_turns) = at_start(5);
+    assert_eq!(straight_on, None);
+    assert!((as_it_turns.unwrap() - 2.0).abs() < 0.5, "{as_it_turns:?}");
+}
