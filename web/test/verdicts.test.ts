@@ -82,7 +82,16 @@ describe('verdicts', () => {
     expect(word(fault('collision', { with: '2' }))).toBe('hits Car 2');
     expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
     expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('near miss with Cyclist 14');
+    expect(word(fault('near_miss', { with: '14', extent: 0.02 }))).toBe('under 0.1 m to Cyclist 14');
     expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
+    expect(word(fault('speeding', { extent: 5 }))).toBe('18 km/h over the limit');
+    expect(word(fault('running', { extent: 3 }))).toBe('runs at 3.0 m/s');
+    expect(word(fault('askew', { extent: 0.52 }))).toBe('ends 30° askew');
+    expect(['off_map', 'on_carriageway', 'speeding'].map((k) => word(fault(k as never)))).toEqual([
+      'off the map',
+      'on the carriageway',
+      'speeding',
+    ]);
     expect(word(fault('goal_missed', { extent: 14.2 }))).toBe('14 m short');
     expect(['over_median', 'off_road', 'wrong_way', 'red_light'].map((k) => word(fault(k as never)))).toEqual([
       'over the median',

@@ -54,6 +54,11 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       ...stretches('off_road', s.off_road),
       ...stretches('over_median', s.over_median),
       ...stretches('wrong_way', s.wrong_way),
+      ...stretches('off_map', s.off_map),
+      ...stretches('on_carriageway', s.on_carriageway),
+      ...stretches('speeding', s.speeding),
+      ...stretches('running', s.running),
+      ...stretches('askew', s.askew),
       ...stretches('harsh_braking', s.harsh_braking),
       ...stretches('harsh_steering', s.harsh_steering),
       ...(s.red_lights ?? []).map((r) => ({

@@ -1389,7 +1389,7 @@ export interface components {
          * FaultKind
          * @description Kind of a fault, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "via_missed" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "off_map" | "on_carriageway" | "speeding" | "harsh_braking" | "harsh_steering" | "running" | "askew" | "near_miss" | "via_missed" | "goal_missed";
         /**
          * Features
          * @description A motion of one road user, or of several together, in such terms.
@@ -3933,6 +3933,7 @@ export interface components {
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
             speed_error_mps: number | null;
+            askew: components["schemas"]["Stretch"][]; off_map: components["schemas"]["Stretch"][]; on_carriageway: components["schemas"]["Stretch"][]; running: components["schemas"]["Stretch"][]; speeding: components["schemas"]["Stretch"][];
             /** @description Vehicles against the traffic. */
             wrong_way: components["schemas"]["Stretch"][];
             /**

@@ -91,6 +91,9 @@ export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText
 export const speedInUse = (mps: number, onFoot: boolean): string =>
   speedLabel(mps, onFoot ? walkingUnit(shown.value) : shown.value);
 
+/** An angle given in radians, in whole degrees. */
+export const degrees = (rad: number): string => `${num((rad * 180) / Math.PI, 0)}°`;
+
 /** Accelerations use the unit of lengths. */
 export const accelerationUnit = (): string => `${lengthUnit()}/s²`;
 /** An acceleration given in m/s², with its unit. */

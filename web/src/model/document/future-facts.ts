@@ -11,7 +11,10 @@ export interface Fault {
   readonly until: number;
   /** Position of the road user at the worst moment, in metres. */
   readonly at: Vec;
-  /** In the unit of its kind: m/s (collision, red light), m/s² (braking, steering), else metres. */
+  /**
+   * In the unit of its kind: m/s (collision, red light, speeding, running), m/s² (braking, steering), radians (askew),
+   * else metres.
+   */
   readonly extent: number | null;
   /** The other road user. */
   readonly with: string | null;
@@ -41,8 +44,13 @@ export const FAULT_KINDS: readonly FaultKind[] = [
   'wrong_way',
   'over_median',
   'off_road',
+  'off_map',
+  'on_carriageway',
+  'speeding',
   'harsh_braking',
   'harsh_steering',
+  'running',
+  'askew',
   'near_miss',
   'via_missed',
   'goal_missed',

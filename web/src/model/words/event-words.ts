@@ -5,7 +5,7 @@ import { nameIn, type Agent, type Scene } from '../document/scene';
 import { THRESHOLDS } from '../base/domain';
 import { wrapAngle, type Pose } from '../base/geometry';
 import { poseAt } from '../base/motion';
-import { acceleration, metres, num, seconds, speedLabel, walkingUnit, type SpeedUnit } from '../base/units';
+import { acceleration, degrees, metres, num, seconds, speedLabel, walkingUnit, type SpeedUnit } from '../base/units';
 import { counted, eventsIn, eventsOfFuture, type SceneEvent } from '../physics/events';
 import { motionOf } from '../physics/playback';
 import { placeWord } from './verdict-words';
@@ -43,6 +43,11 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   wrong_way: TEXTS.wrongWay,
   over_median: TEXTS.overTheMedian,
   off_road: TEXTS.offTheRoad,
+  off_map: TEXTS.offTheMap,
+  on_carriageway: TEXTS.onTheCarriageway,
+  speeding: TEXTS.speeding,
+  running: TEXTS.running,
+  askew: TEXTS.askew,
   harsh_braking: TEXTS.hardBraking,
   harsh_steering: TEXTS.hardSteering,
   near_miss: TEXTS.nearMiss,
@@ -62,10 +67,18 @@ function extentWords(r: SceneEvent, unit: SpeedUnit): string | null {
       return TEXTS.closingAt(speedLabel(r.extent, unit));
     case 'red_light':
       return TEXTS.at(speedLabel(r.extent, unit));
+    case 'speeding':
+      return TEXTS.over(speedLabel(r.extent, unit));
+    case 'running':
+      return TEXTS.at(speedLabel(r.extent, walkingUnit(unit)));
+    case 'askew':
+      return degrees(r.extent);
     case 'harsh_braking':
     case 'harsh_steering':
       return acceleration(r.extent);
     case 'wrong_way':
+    case 'off_map':
+    case 'on_carriageway':
     case 'goal_missed':
       return metres(r.extent);
     default:
@@ -110,17 +123,29 @@ function factsOf(scene: Scene, set: MotionSet, r: SceneEvent, unit: SpeedUnit): 
   if (r.ttc !== null) facts.push([TEXTS.ttcAlone, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null)
-    facts.push([fact, r.what === 'red_light' ? speedLabel(r.extent, unit) : extentWords(r, unit)!]);
+    facts.push([fact, SPEED_FACTS[r.what]?.(r.extent, unit) ?? extentWords(r, unit)!]);
   if (r.until > r.time + 0.15) facts.push([TEXTS.interval, TEXTS.to(num(r.time, 1), seconds(r.until))]);
   if (r.inLog) facts.push([TEXTS.source, TEXTS.inTheLogNotCounted]);
   return facts;
 }
+
+/** Facts that say a speed where the list says more. */
+const SPEED_FACTS: Partial<Record<FaultKind, (mps: number, unit: SpeedUnit) => string>> = {
+  red_light: speedLabel,
+  speeding: speedLabel,
+  running: (mps, unit) => speedLabel(mps, walkingUnit(unit)),
+};
 
 const FACTS: Partial<Record<FaultKind, string>> = {
   red_light: TEXTS.speedAtStopLine,
   wrong_way: TEXTS.distanceDriven,
   over_median: TEXTS.pastTheEdge,
   off_road: TEXTS.pastTheEdge,
+  off_map: TEXTS.fromTheLanes,
+  on_carriageway: TEXTS.distanceWalked,
+  speeding: TEXTS.overTheLimit,
+  running: TEXTS.speed,
+  askew: TEXTS.angleToTheLane,
   harsh_braking: TEXTS.braking,
   harsh_steering: TEXTS.lateral,
   via_missed: TEXTS.distanceToVia,

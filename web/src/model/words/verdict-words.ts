@@ -14,8 +14,11 @@ import { LETTERS, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
-import { acceleration, metres, seconds } from '../base/units';
+import { acceleration, degrees, metres, seconds, speedInUse } from '../base/units';
 import { TEXTS } from '../../texts/scene/verdicts';
+
+/** A gap that rounds to 0.0 m is not written as that. */
+const TOUCH_M = 0.05;
 
 export type NameOf = (id: string) => string | null;
 
@@ -34,11 +37,22 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return TEXTS.overTheMedian;
     case 'off_road':
       return TEXTS.offTheRoad;
+    case 'off_map':
+      return TEXTS.offTheMap;
+    case 'on_carriageway':
+      return TEXTS.onTheCarriageway;
+    case 'speeding':
+      return f.extent === null ? TEXTS.speeds : TEXTS.overTheLimit(speedInUse(f.extent, false));
+    case 'running':
+      return f.extent === null ? TEXTS.running : TEXTS.runsAt(speedInUse(f.extent, true));
+    case 'askew':
+      return f.extent === null ? TEXTS.askew : TEXTS.askewBy(degrees(f.extent));
     case 'harsh_braking':
       return f.extent === null ? TEXTS.brakesHard : TEXTS.brakes(acceleration(f.extent));
     case 'harsh_steering':
       return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent));
     case 'near_miss':
+      if (f.extent !== null && f.extent < TOUCH_M) return TEXTS.touchingly(somebody(f, nameOf));
       // Far apart, but at such a closing speed that the time was short.
       return f.extent === null || f.extent > THRESHOLDS.gap_m.usual
         ? TEXTS.nearMissWith(somebody(f, nameOf))
@@ -187,6 +201,16 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
       return group(worst.kind, TEXTS.crossTheMedian, TEXTS.crossesTheMedian);
     case 'off_road':
       return group(worst.kind, TEXTS.leaveTheRoad, TEXTS.leavesTheRoad);
+    case 'off_map':
+      return group(worst.kind, TEXTS.leaveTheMap, TEXTS.leavesTheMap);
+    case 'on_carriageway':
+      return group(worst.kind, TEXTS.walkOnTheCarriageway, TEXTS.walksOnTheCarriageway);
+    case 'speeding':
+      return group(worst.kind, TEXTS.exceedTheLimit, TEXTS.exceedsTheLimit);
+    case 'running':
+      return group(worst.kind, TEXTS.run, TEXTS.runs);
+    case 'askew':
+      return group(worst.kind, TEXTS.endAskew, TEXTS.endsAskew);
     case 'harsh_braking':
       return group(worst.kind, TEXTS.brakeHard, TEXTS.brakesHard);
     case 'harsh_steering':
@@ -243,4 +267,9 @@ const RULE_VERBS: Partial<Record<FaultKind, string>> = {
   wrong_way: TEXTS.goesTheWrongWay,
   over_median: TEXTS.crossesTheMedian,
   off_road: TEXTS.leavesTheRoad,
+  off_map: TEXTS.leavesTheMap,
+  on_carriageway: TEXTS.walksOnTheCarriageway,
+  speeding: TEXTS.exceedsTheLimit,
+  running: TEXTS.runs,
+  askew: TEXTS.endsAskew,
 };
