@@ -1309,6 +1309,67 @@ export interface components {
             name?: string | null;
         };
         /**
+         * Encounter
+         * @description A pair with a collision, an overlap or a near miss, and its surrogate safety measures.
+         */
+        Encounter: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Greatest deceleration to avoid the collision, m/s2.
+             */
+            drac_mps2: number | null;
+            /**
+             * Format: double
+             * @description Least gap, metres; below zero the boxes overlap.
+             */
+            gap_m: number | null;
+            /**
+             * Format: double
+             * @description Least time gap of the one that follows the other: gap over its speed, seconds.
+             */
+            headway_s: number | null;
+            /** @description As in the list. */
+            in_log: boolean;
+            /** @description The list that it is in. */
+            kind: components["schemas"]["EncounterKind"];
+            /** @description The worst values of the recording over the scored time; null without a recording of both. */
+            log: components["schemas"]["Measures"] | null;
+            /**
+             * Format: double
+             * @description Post-encroachment time of the whole motions, seconds.
+             */
+            pet_s: number | null;
+            /**
+             * Format: double
+             * @description Scene time of the event, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Least time to collision if both keep speed and turn rate, seconds; zero for a collision.
+             */
+            ttc_s: number | null;
+            /**
+             * Format: double
+             * @description Between the two at that time, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Between the two at that time, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * EncounterKind
+         * @description What a pair comes to.
+         */
+        EncounterKind: "collision" | "overlap" | "near_miss";
+        /**
          * Endpoint
          * @description Which step counts as the end of a future.
          */
@@ -1816,8 +1877,11 @@ export interface components {
              * @description Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
              *     absent have their defaults. They change no motion.
              * @default {
+             *       "along_lane_m": 3,
+             *       "askew_rad": 0.26,
              *       "closing_speed_mps": 1,
              *       "covered_share": 0.5,
+             *       "crosswalk_m": 15,
              *       "follow_brake_mps2": 3.35,
              *       "gap_m": 1,
              *       "goal_heading_rad": 0.02,
@@ -1827,8 +1891,14 @@ export interface components {
              *       "harsh_lateral_mps2": 4,
              *       "iou": 0,
              *       "moving_mps": 0.5,
+             *       "off_map_m": 5,
              *       "offroad_m": 0.1,
+             *       "pass_gap_m": 0.4,
+             *       "pass_mps": 3,
              *       "right_on_red": true,
+             *       "running_mps": 2.5,
+             *       "speeding_mps": 1.4,
+             *       "speeding_share": 0.1,
              *       "ttc_s": 1.5
              *     }
              */
@@ -2602,6 +2672,37 @@ export interface components {
             scene: components["schemas"]["SceneDoc"];
             /** @description Ways from lane to lane where roads meet at grade. */
             ways: components["schemas"]["Way2"][];
+        };
+        /**
+         * Measures
+         * @description The worst values of one encounter, up to its event; null where a measure does not apply.
+         */
+        Measures: {
+            /**
+             * Format: double
+             * @description Greatest deceleration to avoid the collision, m/s2.
+             */
+            drac_mps2: number | null;
+            /**
+             * Format: double
+             * @description Least gap, metres; below zero the boxes overlap.
+             */
+            gap_m: number | null;
+            /**
+             * Format: double
+             * @description Least time gap of the one that follows the other: gap over its speed, seconds.
+             */
+            headway_s: number | null;
+            /**
+             * Format: double
+             * @description Post-encroachment time of the whole motions, seconds.
+             */
+            pet_s: number | null;
+            /**
+             * Format: double
+             * @description Least time to collision if both keep speed and turn rate, seconds; zero for a collision.
+             */
+            ttc_s: number | null;
         };
         /**
          * Merge
@@ -3835,6 +3936,8 @@ export interface components {
              * @description Mean distance of the chosen future, metres.
              */
             ade_m: number | null;
+            /** @description Vehicles that end at an angle to their lane; `worst` in radians. */
+            askew: components["schemas"]["Stretch"][];
             /** @description The map has no drivable areas, and some lane widths were assumed by type. */
             assumed_width: boolean;
             /**
@@ -3850,6 +3953,8 @@ export interface components {
             collision_rate_with_log: number;
             /** @description By time, then by pair. */
             collisions: components["schemas"]["Collision"][];
+            /** @description The pairs of the three lists with their measures. By time, then by pair. */
+            encounters: components["schemas"]["Encounter"][];
             /** @description Which step counted as the end. */
             endpoint: components["schemas"]["Endpoint"];
             /** @description Means over the road users with fixed goal fields. */
@@ -3893,13 +3998,17 @@ export interface components {
              * @description Least distance at the end of any future, metres.
              */
             min_fde_m: number | null;
+            /** @description The pair with `min_ttc_s`. */
+            min_ttc_pair: string[] | null;
             /**
              * Format: double
-             * @description Least time to collision of any pair, seconds; none within the look-ahead.
+             * @description Least time to collision of any pair at constant velocity, seconds; none within the look-ahead.
              */
             min_ttc_s: number | null;
             /** @description By time, then by pair. */
             near_misses: components["schemas"]["NearMiss"][];
+            /** @description Wheels where the roads of the map have ended; `worst` in metres from the lanes. */
+            off_map: components["schemas"]["Stretch"][];
             /** @description Vehicles off the road, but for those over a median. */
             off_road: components["schemas"]["Stretch"][];
             /**
@@ -3912,6 +4021,8 @@ export interface components {
              * @description Share of vehicle steps with a corner off the road.
              */
             offroad_share: number | null;
+            /** @description Pedestrians along a lane, or across lanes beside a crosswalk; `worst` in metres walked. */
+            on_carriageway: components["schemas"]["Stretch"][];
             /** @description Vehicles over what divides two roads. */
             over_median: components["schemas"]["Stretch"][];
             /**
@@ -3928,12 +4039,15 @@ export interface components {
             pet_s: number | null;
             /** @description Stop lines crossed at red. */
             red_lights: components["schemas"]["RedLight"][];
+            /** @description Pedestrians that run; `worst` in m/s. */
+            running: components["schemas"]["Stretch"][];
             /**
              * Format: double
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
             speed_error_mps: number | null;
-            askew: components["schemas"]["Stretch"][]; off_map: components["schemas"]["Stretch"][]; on_carriageway: components["schemas"]["Stretch"][]; running: components["schemas"]["Stretch"][]; speeding: components["schemas"]["Stretch"][];
+            /** @description Vehicles above the speed limit; `worst` in m/s above it. */
+            speeding: components["schemas"]["Stretch"][];
             /** @description Vehicles against the traffic. */
             wrong_way: components["schemas"]["Stretch"][];
             /**
@@ -3986,8 +4100,11 @@ export interface components {
             /**
              * @description Numbers that decide what counts; those absent have their defaults.
              * @default {
+             *       "along_lane_m": 3,
+             *       "askew_rad": 0.26,
              *       "closing_speed_mps": 1,
              *       "covered_share": 0.5,
+             *       "crosswalk_m": 15,
              *       "follow_brake_mps2": 3.35,
              *       "gap_m": 1,
              *       "goal_heading_rad": 0.02,
@@ -3997,8 +4114,14 @@ export interface components {
              *       "harsh_lateral_mps2": 4,
              *       "iou": 0,
              *       "moving_mps": 0.5,
+             *       "off_map_m": 5,
              *       "offroad_m": 0.1,
+             *       "pass_gap_m": 0.4,
+             *       "pass_mps": 3,
              *       "right_on_red": true,
+             *       "running_mps": 2.5,
+             *       "speeding_mps": 1.4,
+             *       "speeding_share": 0.1,
              *       "ttc_s": 1.5
              *     }
              */
@@ -4159,8 +4282,9 @@ export interface components {
             until_s: number;
             /**
              * Format: double
-             * @description The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
-             *     metres driven against the traffic.
+             * @description The worst of it, in the unit of its list: metres off the road, off the map, driven against the traffic or
+             *     walked on the carriageway; m/s2 of braking or sideways; share of the limit for turns; m/s above the speed limit
+             *     or of running; radians askew.
              */
             worst: number | null;
             /**
@@ -4237,6 +4361,18 @@ export interface components {
         Thresholds: {
             /**
              * Format: double
+             * @description Walking along a lane for longer than this is walking on the carriageway, metres.
+             * @default 3
+             */
+            along_lane_m?: number;
+            /**
+             * Format: double
+             * @description Turned by more than this from every lane at its end is askew, radians.
+             * @default 0.26
+             */
+            askew_rad?: number;
+            /**
+             * Format: double
              * @description Near miss: only when the gap shrinks faster than this, m/s.
              * @default 1
              */
@@ -4248,6 +4384,12 @@ export interface components {
              * @default 0.5
              */
             covered_share?: number;
+            /**
+             * Format: double
+             * @description Crossing this near beside a crosswalk is walking on the carriageway, metres.
+             * @default 15
+             */
+            crosswalk_m?: number;
             /**
              * Format: double
              * @description Near miss of one that follows another: only when avoiding the collision needs more braking
@@ -4305,15 +4447,51 @@ export interface components {
             moving_mps?: number;
             /**
              * Format: double
+             * @description Off the map: no lane and no road edge within this, metres.
+             * @default 5
+             */
+            off_map_m?: number;
+            /**
+             * Format: double
              * @description A corner farther outside than this is off the road, metres.
              * @default 0.1
              */
             offroad_m?: number;
             /**
+             * Format: double
+             * @description Near miss of two that pass each other at more than `pass_mps`: gap below this, metres.
+             * @default 0.4
+             */
+            pass_gap_m?: number;
+            /**
+             * Format: double
+             * @description Near miss of two that pass each other: only when their relative speed is above this, m/s.
+             * @default 3
+             */
+            pass_mps?: number;
+            /**
              * @description Turning right at red after a stop is allowed.
              * @default true
              */
             right_on_red?: boolean;
+            /**
+             * Format: double
+             * @description A faster pedestrian runs, m/s.
+             * @default 2.5
+             */
+            running_mps?: number;
+            /**
+             * Format: double
+             * @description Speeding: see `speeding_share`, m/s.
+             * @default 1.4
+             */
+            speeding_mps?: number;
+            /**
+             * Format: double
+             * @description Speeding: above the lane's limit by more than this share of it and `speeding_mps` together.
+             * @default 0.1
+             */
+            speeding_share?: number;
             /**
              * Format: double
              * @description Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].

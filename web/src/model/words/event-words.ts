@@ -122,8 +122,7 @@ function factsOf(scene: Scene, set: MotionSet, r: SceneEvent, unit: SpeedUnit): 
   if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.gapThen, metres(r.extent, 1)]);
   if (r.ttc !== null) facts.push([TEXTS.ttcAlone, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
-  if (fact && r.extent !== null)
-    facts.push([fact, SPEED_FACTS[r.what]?.(r.extent, unit) ?? extentWords(r, unit)!]);
+  if (fact && r.extent !== null) facts.push([fact, SPEED_FACTS[r.what]?.(r.extent, unit) ?? extentWords(r, unit)!]);
   if (r.until > r.time + 0.15) facts.push([TEXTS.interval, TEXTS.to(num(r.time, 1), seconds(r.until))]);
   if (r.inLog) facts.push([TEXTS.source, TEXTS.inTheLogNotCounted]);
   return facts;
