@@ -13,7 +13,7 @@ pub use trace::{SharedGround, Trace, crossing};
 use crate::score::goal::goal_error;
 use crate::score::lane_rules::end_step;
 use crate::score::pairs::{Meeting, Mover};
-use crate::score::recorded::{self, Rule};
+use crate::score::recorded::{self, MotionRule};
 use crate::score::report::{RedLight, Stretch};
 use crate::score::road::{RoadScore, score_road};
 use crate::score::signals::{SignalStopLine, crossed_at_red, stop_lines};
@@ -105,15 +105,15 @@ impl<'a> Judge<'a> {
         };
         add(FaultKind::WrongWay, road.wrong_way, &against);
         let lasting = |s: &Stretch| s.until_s - s.time_s >= HARSH_S - 1e-6;
-        for rule in Rule::ALL {
+        for rule in MotionRule::ALL {
             let (kind, keeps): (_, &dyn Fn(&Stretch) -> bool) = match rule {
-                Rule::Braking => (FaultKind::HarshBraking, &lasting),
-                Rule::Steering => (FaultKind::HarshSteering, &lasting),
-                Rule::OffMap => (FaultKind::OffMap, &entered),
-                Rule::OnCarriageway => (FaultKind::OnCarriageway, &|_| true),
-                Rule::Speeding => (FaultKind::Speeding, &|_| true),
-                Rule::Running => (FaultKind::Running, &|_| true),
-                Rule::Askew => (FaultKind::Askew, &|_| true),
+                MotionRule::Braking => (FaultKind::HarshBraking, &lasting),
+                MotionRule::Steering => (FaultKind::HarshSteering, &lasting),
+                MotionRule::OffMap => (FaultKind::OffMap, &entered),
+                MotionRule::OnCarriageway => (FaultKind::OnCarriageway, &|_| true),
+                MotionRule::Speeding => (FaultKind::Speeding, &|_| true),
+                MotionRule::Running => (FaultKind::Running, &|_| true),
+                MotionRule::Askew => (FaultKind::Askew, &|_| true),
             };
             add(kind, rule.breaches(&self.input, actor), keeps);
         }

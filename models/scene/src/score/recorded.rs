@@ -55,7 +55,7 @@ pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut r
 
 /// A rule that one road user keeps or breaks whatever the others do, with a list of its own in the score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rule {
+pub(crate) enum MotionRule {
     Braking,
     Steering,
     OffMap,
@@ -65,7 +65,7 @@ pub(crate) enum Rule {
     Askew,
 }
 
-impl Rule {
+impl MotionRule {
     pub(crate) const ALL: [Self; 7] = [
         Self::Braking,
         Self::Steering,

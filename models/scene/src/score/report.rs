@@ -5,7 +5,7 @@ use super::goal::GoalError;
 use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
 use super::pairs::{Measures, PairScores, PairTotals};
-use super::recorded::Rule;
+use super::recorded::MotionRule;
 use crate::{AgentId, State};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -310,19 +310,19 @@ impl SceneScore {
         let by_time = |list: &mut Vec<Stretch>| list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         let roads = [&mut self.off_road, &mut self.over_median, &mut self.wrong_way];
         roads.into_iter().chain([&mut self.implausible_turns]).for_each(by_time);
-        Rule::ALL.into_iter().for_each(|rule| by_time(self.breaches_mut(rule)));
+        MotionRule::ALL.into_iter().for_each(|rule| by_time(self.breaches_mut(rule)));
     }
 
     /// The list of a rule.
-    pub(super) fn breaches_mut(&mut self, rule: Rule) -> &mut Vec<Stretch> {
+    pub(super) fn breaches_mut(&mut self, rule: MotionRule) -> &mut Vec<Stretch> {
         match rule {
-            Rule::Braking => &mut self.harsh_braking,
-            Rule::Steering => &mut self.harsh_steering,
-            Rule::OffMap => &mut self.off_map,
-            Rule::OnCarriageway => &mut self.on_carriageway,
-            Rule::Speeding => &mut self.speeding,
-            Rule::Running => &mut self.running,
-            Rule::Askew => &mut self.askew,
+            MotionRule::Braking => &mut self.harsh_braking,
+            MotionRule::Steering => &mut self.harsh_steering,
+            MotionRule::OffMap => &mut self.off_map,
+            MotionRule::OnCarriageway => &mut self.on_carriageway,
+            MotionRule::Speeding => &mut self.speeding,
+            MotionRule::Running => &mut self.running,
+            MotionRule::Askew => &mut self.askew,
         }
     }
 }

@@ -5,7 +5,7 @@ use super::goal::{GoalError, goal_error};
 use super::input::{Actor, ScoreInput};
 use super::kinematic::{Kinematic, score_kinematic};
 use super::pairs::PairTotals;
-use super::recorded::{self, Rule};
+use super::recorded::{self, MotionRule};
 use super::report::{AgentScore, RedLight, SceneScore, Stretch};
 use super::road::{RoadScore, score_road};
 use super::signals::{SignalStopLine, crossed_at_red};
@@ -16,8 +16,8 @@ pub(super) struct Single {
     road: RoadScore,
     kinematic: Option<Kinematic>,
     implausible_turns: Vec<Stretch>,
-    /// By rule, in the order of [`Rule::ALL`].
-    rules: [Vec<Stretch>; Rule::ALL.len()],
+    /// By rule, in the order of [`MotionRule::ALL`].
+    rules: [Vec<Stretch>; MotionRule::ALL.len()],
     red_lights: Vec<RedLight>,
     goal_error: Option<GoalError>,
     accuracy: Option<Accuracy>,
@@ -36,7 +36,7 @@ impl Single {
             road,
             kinematic,
             implausible_turns: turns.unwrap_or_default(),
-            rules: Rule::ALL.map(|rule| rule.breaches(input, actor)),
+            rules: MotionRule::ALL.map(|rule| rule.breaches(input, actor)),
             red_lights,
             goal_error: goal_error(actor),
             accuracy: accuracy(actor, input.steps.clone()),
@@ -47,7 +47,7 @@ impl Single {
     pub(super) fn add_to(self, scene: &mut SceneScore, totals: &PairTotals) -> AgentScore {
         let road = self.road;
         scene.implausible_turns.extend(self.implausible_turns);
-        for (rule, found) in Rule::ALL.into_iter().zip(self.rules) {
+        for (rule, found) in MotionRule::ALL.into_iter().zip(self.rules) {
             scene.breaches_mut(rule).extend(found);
         }
         scene.red_lights.extend(self.red_lights);

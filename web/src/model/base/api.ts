@@ -1350,7 +1350,7 @@ export interface components {
             time_s: number;
             /**
              * Format: double
-             * @description Least time to collision if both keep speed and turn rate, seconds; zero for a collision.
+             * @description Least time to collision if both keep speed and turn rate, seconds; zero once their boxes overlap at a step.
              */
             ttc_s: number | null;
             /**
@@ -2700,7 +2700,7 @@ export interface components {
             pet_s: number | null;
             /**
              * Format: double
-             * @description Least time to collision if both keep speed and turn rate, seconds; zero for a collision.
+             * @description Least time to collision if both keep speed and turn rate, seconds; zero once their boxes overlap at a step.
              */
             ttc_s: number | null;
         };

@@ -15,7 +15,7 @@ const FAR_M: f64 = 100.0;
 /// The worst values of one encounter, up to its event; null where a measure does not apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Measures {
-    /// Least time to collision if both keep speed and turn rate, seconds; zero for a collision.
+    /// Least time to collision if both keep speed and turn rate, seconds; zero once their boxes overlap at a step.
     pub ttc_s: Option<f64>,
     /// Post-encroachment time of the whole motions, seconds.
     pub pet_s: Option<f64>,

@@ -12,7 +12,7 @@ pub(super) const PARKED_M: f64 = 1.0;
 /// Beside pedestrians, slower vehicles crawl, m/s: a pedestrian keeps clear of them without haste.
 const CRAWL_MPS: f64 = 1.5;
 
-/// Made motion that passes a parked road user nearer than this all but brushes it, metres: recorded boxes are no better.
+/// A parked road user is passed nearer than others: cars stand beside every lane, metres.
 const BRUSH_M: f64 = 0.15;
 
 /// A gap counts as no less than this where it divides, metres.
@@ -109,8 +109,8 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
     let relative_mps = (a.moment.velocity - b.moment.velocity).norm();
     let pass_gap_m = if parked { BRUSH_M.min(limits.pass_gap_m) } else { limits.pass_gap_m };
-    let passes = gap.gap_m < pass_gap_m && relative_mps > limits.pass_mps && (made || !parked);
-    if passes && !(a.walks() && b.walks()) {
+    let passes = gap.gap_m < pass_gap_m && relative_mps > limits.pass_mps;
+    if made && passes && !(a.walks() && b.walks()) {
         return Some(NearMissKind::Gap);
     }
     if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {

@@ -444,7 +444,7 @@ fn time_to_collision_of_an_encounter_follows_the_turn() {
         (state.vx_mps, state.vy_mps) = (8.0 * turned.cos(), 8.0 * turned.sin());
         state.heading_rad = turned;
     }
-    let other = car("b", 15.3, 15.3, std::f64::consts::FRAC_PI_2, 0.0);
+    let other = car("b", 15.3, 15.3, FRAC_PI_2, 0.0);
     let (a, b) = (Mover::new(&turning, 0..91), Mover::new(&other, 0..91));
     let at_start = |step| {
         let (p, q) = (mover_at(&a, step), mover_at(&b, step));
