@@ -152,7 +152,8 @@ impl Drivable {
     /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
     /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on.
     fn is_beyond_map(&self, point: Vec2) -> bool {
-        self.beyond_end(point).is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b))
+        self.beyond_end(point)
+            .is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b, b.half_width_m))
     }
 
     /// Where a point lies that is ahead of the open end of its nearest lane.
@@ -168,16 +169,16 @@ impl Drivable {
         })
     }
 
-    /// In the width of the lane, or on the road if that went on.
-    fn is_straight_on(&self, point: Vec2, beyond: &BeyondEnd) -> bool {
-        let &BeyondEnd { out, ahead_m, away_m, half_width_m } = beyond;
+    /// At most so far beside the lane, or on the road, if these went on.
+    fn is_straight_on(&self, point: Vec2, beyond: &BeyondEnd, beside_lane_m: f64) -> bool {
+        let &BeyondEnd { out, ahead_m, away_m, .. } = beyond;
         let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
         let on_road = || self.outside_known_m(point - out * (ahead_m + BEFORE_END_M)) == Some(0.0);
-        beside_m <= half_width_m || on_road()
+        beside_m <= beside_lane_m || on_road()
     }
 
     /// How far a point is from the lanes, metres, where the roads of the map have ended: no lane, edge or area within
-    /// `reach_m`, and not straight on from the end of the nearest lane. `None` elsewhere.
+    /// `reach_m`, nor would the nearest lane be if it went on straight. `None` elsewhere.
     pub fn off_map_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
         let is_near = [&self.centers, &self.edges, &self.area_sides]
             .into_iter()
@@ -186,7 +187,7 @@ impl Drivable {
             return None;
         }
         let beyond = self.beyond_end(point)?;
-        let leads_off = beyond.ahead_m > 0.5 * beyond.away_m && !self.is_straight_on(point, &beyond);
+        let leads_off = beyond.ahead_m > 0.5 * beyond.away_m && !self.is_straight_on(point, &beyond, reach_m);
         leads_off.then_some(beyond.away_m)
     }
 

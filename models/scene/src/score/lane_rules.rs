@@ -218,6 +218,7 @@ mod tests {
             off_map(&input.actors[0], &input)
         };
         assert!(found(0.0).is_empty());
+        assert!(found(0.05).is_empty(), "drifting 4.5 m in 90");
         let aside = found(0.3);
         assert_eq!(aside.len(), 1);
         assert!(aside[0].time_s > 4.0 && aside[0].worst.unwrap() > 40.0, "{aside:?}");
