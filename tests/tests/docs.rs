@@ -300,8 +300,10 @@ fn thresholds(all: &Value) -> String {
 }
 
 fn motion_limits(all: &Value) -> String {
-    let columns =
-        ["accel_mps2", "brake_mps2", "lateral_mps2", "curvature_per_m", "speed_mps", "comfort_lateral_mps2"];
+    let columns = ["accel_mps2", "brake_mps2", "lateral_mps2", "curvature_per_m", "speed_mps"];
+    let manner = |limits: &Value| {
+        ["accel_mps2", "brake_mps2", "lateral_mps2"].map(|column| number(&limits[column])).join(" / ")
+    };
     let heading = [
         "type",
         "acceleration, m/s²",
@@ -309,11 +311,13 @@ fn motion_limits(all: &Value) -> String {
         "lateral, m/s²",
         "curvature, 1/m",
         "speed, m/s",
-        "comfortable lateral, m/s²",
+        "comfortable: acceleration / braking / lateral, m/s²",
+        "hurried",
     ];
     let row = |(name, limits): (&String, &Value)| {
         let cells = columns.iter().map(|column| number(&limits[column]));
-        std::iter::once(name.clone()).chain(cells).collect()
+        let manners = ["comfortable", "hurried"].map(|name| manner(&limits[name]));
+        std::iter::once(name.clone()).chain(cells).chain(manners).collect()
     };
     table(&heading, members(all).into_iter().map(row))
 }

@@ -1,12 +1,37 @@
-//! The one table of what each kind of road user can do. Projection, scoring and tests read it.
+//! The two tables of how each kind of road user moves: what is possible, and what drivers do. Planning, projection,
+//! scoring and tests read them.
 
 use crate::{AgentType, Subtype};
+use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Bounds of motion of one kind of road user. Hard limits are never broken by an answer; the
-/// comfortable ones are what scoring calls normal.
+/// Accelerations of a manner of moving.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct DrivingManner {
+    /// Greatest speeding up.
+    pub accel_mps2: f64,
+    /// Greatest braking, positive.
+    pub brake_mps2: f64,
+    /// Greatest sideways acceleration v^2 k.
+    pub lateral_mps2: f64,
+}
+
+impl DrivingManner {
+    /// The manner between this one (0) and another (1).
+    pub fn towards(self, other: Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + share * (b - a);
+        Self {
+            accel_mps2: mix(self.accel_mps2, other.accel_mps2),
+            brake_mps2: mix(self.brake_mps2, other.brake_mps2),
+            lateral_mps2: mix(self.lateral_mps2, other.lateral_mps2),
+        }
+    }
+}
+
+/// Bounds of motion of one kind of road user. An answer never breaks what is possible. It leaves the hurried manner
+/// only where a goal or another road user forces it, and takes the comfortable one where there is time.
 ///
-/// Hard limits follow the 99 % tails measured on recorded tracks, and the bounds that Waymax takes.
+/// What is possible follows the 99 % tails measured on recorded tracks, and the bounds that Waymax takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Greatest speeding up, m/s2.
@@ -19,8 +44,10 @@ pub struct Limits {
     pub curvature_per_m: f64,
     /// Top speed, m/s.
     pub speed_mps: f64,
-    /// Sideways acceleration that drivers choose in bends, m/s2.
-    pub comfort_lateral_mps2: f64,
+    /// Where there is time.
+    pub comfortable: DrivingManner,
+    /// Where time presses: recorded vehicles stay below 3.2 m/s2 sideways in 99 %.
+    pub hurried: DrivingManner,
     /// Reference point behind the box centre, in lengths.
     pub reference_offset: f64,
 }
@@ -31,7 +58,8 @@ const CAR: Limits = Limits {
     lateral_mps2: 6.0,
     curvature_per_m: 0.25,
     speed_mps: 40.0,
-    comfort_lateral_mps2: 2.2,
+    comfortable: DrivingManner { accel_mps2: 1.5, brake_mps2: 2.0, lateral_mps2: 2.2 },
+    hurried: DrivingManner { accel_mps2: 3.0, brake_mps2: 3.8, lateral_mps2: 3.5 },
     reference_offset: 0.3,
 };
 
@@ -45,7 +73,8 @@ impl Limits {
                 lateral_mps2: 2.0,
                 curvature_per_m: f64::INFINITY,
                 speed_mps: 6.0,
-                comfort_lateral_mps2: 1.0,
+                comfortable: DrivingManner { accel_mps2: 1.0, brake_mps2: 1.0, lateral_mps2: 1.0 },
+                hurried: DrivingManner { accel_mps2: 2.0, brake_mps2: 2.0, lateral_mps2: 2.0 },
                 reference_offset: 0.0,
             },
             (AgentType::Cyclist, _) => Self {
@@ -54,14 +83,30 @@ impl Limits {
                 lateral_mps2: 4.0,
                 curvature_per_m: 0.7,
                 speed_mps: 14.0,
-                comfort_lateral_mps2: 1.8,
+                comfortable: DrivingManner { accel_mps2: 1.0, brake_mps2: 1.5, lateral_mps2: 1.8 },
+                hurried: DrivingManner { accel_mps2: 2.0, brake_mps2: 3.0, lateral_mps2: 2.8 },
                 reference_offset: 0.2,
             },
             (_, Subtype::Motorcycle) => Self { curvature_per_m: 0.4, accel_mps2: 5.0, ..CAR },
-            (_, Subtype::Truck | Subtype::Bus | Subtype::Trailer) => {
-                Self { accel_mps2: 3.0, brake_mps2: 7.0, speed_mps: 32.0, ..CAR.long(length_m) }
-            }
+            (_, Subtype::Truck | Subtype::Bus | Subtype::Trailer) => Self {
+                accel_mps2: 3.0,
+                brake_mps2: 7.0,
+                speed_mps: 32.0,
+                comfortable: DrivingManner { accel_mps2: 1.0, ..CAR.comfortable },
+                hurried: DrivingManner { accel_mps2: 2.0, ..CAR.hurried },
+                ..CAR.long(length_m)
+            },
             _ => CAR.long(length_m),
+        }
+    }
+
+    /// The same limits without what a manner leaves out.
+    pub fn within(self, manner: DrivingManner) -> Self {
+        Self {
+            accel_mps2: self.accel_mps2.min(manner.accel_mps2),
+            brake_mps2: self.brake_mps2.min(manner.brake_mps2),
+            lateral_mps2: self.lateral_mps2.min(manner.lateral_mps2),
+            ..self
         }
     }
 

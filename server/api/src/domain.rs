@@ -5,7 +5,7 @@ use experts::request::{DEFAULTS, Defaults};
 use formats::native::Ranges;
 use scene::geometry::ttc::LOOK_AHEAD_S;
 use scene::judge::HARSH_S;
-use scene::limits::Limits;
+use scene::limits::{DrivingManner, Limits};
 use scene::score::kinematic::HARSH_STEPS;
 use scene::score::pairs::{SAME_GAP_M, SAME_S};
 use scene::score::pet::{LEAST_ANGLE_RAD, LEAST_TRAVEL_M};
@@ -32,8 +32,10 @@ pub struct MotionLimits {
     curvature_per_m: Option<f64>,
     /// Top speed.
     speed_mps: f64,
-    /// Sideways acceleration that drivers choose in bends: comfort, not a bound.
-    comfort_lateral_mps2: f64,
+    /// What a future does where there is time.
+    comfortable: DrivingManner,
+    /// What a future does where time presses. It does more only where a goal or another road user forces it.
+    hurried: DrivingManner,
 }
 
 impl MotionLimits {
@@ -46,7 +48,8 @@ impl MotionLimits {
             lateral_mps2: limits.lateral_mps2,
             curvature_per_m: Some(limits.curvature_per_m).filter(|c| c.is_finite()),
             speed_mps: limits.speed_mps,
-            comfort_lateral_mps2: limits.comfort_lateral_mps2,
+            comfortable: limits.comfortable,
+            hurried: limits.hurried,
         }
     }
 }

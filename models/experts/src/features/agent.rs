@@ -41,6 +41,8 @@ pub struct AgentPlan {
     pub lane_headings: [Option<f64>; MODES],
     /// Acceleration with which a standing agent sets off towards a goal, m/s2.
     pub easy_mps2: f64,
+    /// Step of the window up to which an agent at rest waits for the one ahead of it to move off.
+    pub departs: usize,
     /// Share of the learned offsets that is driven at each instant: less and less after a goal.
     pub aside_share: [f64; INSTANTS],
     /// Where it may drive: [`World::ground`].
@@ -113,6 +115,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         kerbs,
         lane_headings,
         easy_mps2,
+        departs: 0,
         aside_share: aside_share(&model, &target, world.tuning.anchors.after_goal_s),
         drivable,
         ground,

@@ -147,7 +147,7 @@ fn path_to(
         goal_heading_rad: goal.heading_rad,
         least_effort_m: None,
     };
-    let end = EndPose { position, heading_rad: goal.heading_rad };
+    let end = EndPose { position, heading_rad: goal.heading_rad, speed_mps: v0 };
     match routes_to_goal(&world.graph, &query).into_iter().next() {
         Some(found) => base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end)),
         None => straight(),

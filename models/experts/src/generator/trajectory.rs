@@ -14,8 +14,8 @@ use crate::tuning::fixed::trajectory::{
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
-    Gear, Knots, Limiting, MotionKind, MotionState, Projection, Reach, Sampled, Target, TargetError,
-    Trajectory, fit, project, refit_after,
+    Gear, Knots, Limiting, MotionKind, MotionModel, MotionState, Projection, Reach, Sampled, Target,
+    TargetError, Trajectory, fit, project, refit_after,
 };
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -70,6 +70,11 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
         // Progress never falls.
         last = along.max(last);
         *place = (last, across);
+    }
+    if plan.departs > 0 {
+        let waits = (plan.departs / PER_INSTANT).min(INSTANTS);
+        out.rotate_right(waits);
+        out[..waits].fill((0.0, 0.0));
     }
     at_lights(plan, slot, steer_to_vias(plan, slot, out))
 }
@@ -262,33 +267,50 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
 }
 
 /// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
-/// this slot.
+/// this slot: within the hurried manner where that meets the goal, else within what is possible.
 fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rollout {
     let samples = samples(plan, &places);
-    let knots = fit(&plan.model, &samples);
+    let hurried = plan.model.hurried();
+    let motion = through_within(plan, &hurried, slot, &places, &samples);
+    if motion.reach.is_reached() {
+        return motion.into();
+    }
+    let motion = through_within(plan, &plan.model, slot, &places, &samples);
+    if motion.reach.is_reached() {
+        return motion.into();
+    }
+    reversing(plan, &motion).unwrap_or_else(|| motion.into())
+}
+
+/// The motion of this model past these places.
+fn through_within(
+    plan: &AgentPlan,
+    model: &MotionModel,
+    slot: Slot,
+    places: &[(Vec2, f64); INSTANTS],
+    samples: &[Sampled],
+) -> Projection {
+    let knots = fit(model, samples);
     let target = projected_onto(plan);
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };
-        let motion = projected(plan, &knots, &along);
+        let motion = projected(plan, model, &knots, &along);
         let off = |(i, (place, _)): (usize, &(Vec2, f64))| {
             (motion.trajectory[(i + 1) * PER_INSTANT].position - place).norm()
         };
         let due = target.step / PER_INSTANT;
         let off_m = places.iter().enumerate().take(due).map(off).fold(0.0, f64::max);
         if motion.reach.is_reached() && off_m < ALONG_LANE_M {
-            return on_after(plan, motion, &samples).into();
+            return on_after(plan, model, motion, samples);
         }
     }
-    let motion = projected(plan, &knots, &target);
-    if motion.reach.is_reached() {
-        return on_after(plan, motion, &samples).into();
-    }
-    reversing(plan, &motion).unwrap_or_else(|| motion.into())
+    let motion = projected(plan, model, &knots, &target);
+    if motion.reach.is_reached() { on_after(plan, model, motion, samples) } else { motion }
 }
 
 /// The same motion to the goal, and from there on past the places after it.
-fn on_after(plan: &AgentPlan, motion: Projection, samples: &[Sampled]) -> Projection {
-    let (model, step) = (&plan.model, plan.target.step);
+fn on_after(plan: &AgentPlan, model: &MotionModel, motion: Projection, samples: &[Sampled]) -> Projection {
+    let step = plan.target.step;
     if projected_onto(plan).is_free() {
         return motion;
     }

@@ -5,7 +5,7 @@ use super::slot::Slot;
 use crate::features::agent::AgentPlan;
 use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::tuning::fixed::via_steering::{KEEPS, NARROWS, PAST_M, SURE};
-use scene::motion::{Knots, Pass, Projection, Target, TargetError, project, project_through};
+use scene::motion::{Knots, MotionModel, Pass, Projection, Target, TargetError, project, project_through};
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
@@ -85,8 +85,8 @@ pub(super) fn vias_missed(plan: &AgentPlan, states: &[scene::motion::MotionState
 
 /// The motion nearest to these knots that meets the target and passes the plan's via points, as far as the limits
 /// allow.
-pub(super) fn projected(plan: &AgentPlan, knots: &Knots, target: &Target) -> Projection {
-    let first = project(&plan.model, knots, target, None);
+pub(super) fn projected(plan: &AgentPlan, model: &MotionModel, knots: &Knots, target: &Target) -> Projection {
+    let first = project(model, knots, target, None);
     if plan.vias.is_empty() || !plan.projected {
         return first;
     }
@@ -96,7 +96,7 @@ pub(super) fn projected(plan: &AgentPlan, knots: &Knots, target: &Target) -> Pro
         if now.sure {
             return now.motion;
         }
-        let next = project_through(&plan.model, knots, &now.motion.knots, target, &now.passes);
+        let next = project_through(model, knots, &now.motion.knots, target, &now.passes);
         let next = Tried::of(plan, next, target);
         let before = std::mem::replace(&mut now, next);
         if best.as_ref().is_none_or(|best| before.cost < best.cost) {

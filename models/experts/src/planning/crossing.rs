@@ -1,7 +1,7 @@
 //! Walkers and carriageways: where a path steps onto the lanes, the way by a crosswalk, and waiting at the kerb while
 //! the lanes that are crossed have green.
 
-use super::profile::{Caps, Progress, approaching, arriving, speed_at};
+use super::profile::{Caps, Progress, TimedLeg, approaching, speed_at};
 use super::stop_line::{Steps, StopLine};
 use super::way::{PathKind, UntimedPath};
 use super::world::{AgentAtStart, World};
@@ -210,8 +210,10 @@ fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
     let seconds = target.step as f64 * STEP_S;
     // An agent that is to arrive at a speed changes to it over all of the way.
     Some(match target.speed_mps {
-        Some(_) => arriving(v0, length_m, seconds, target.speed_mps, SETTING_OFF_MPS2),
         None => even,
+        end_mps => {
+            TimedLeg { v0, from_m: 0.0, length_m, seconds, end_mps, easy_mps2: SETTING_OFF_MPS2 }.arriving()
+        }
     })
 }
 

@@ -1,6 +1,6 @@
 //! Red lights on a path: the stop lines that it crosses, and progress along it that waits at them.
 
-use super::profile::{Caps, Progress, arriving, speed_at};
+use super::profile::{Caps, Progress, TimedLeg, speed_at};
 use super::stop_line::{Steps, StopLine};
 use super::world::{AgentAtStart, World};
 use crate::tuning::fixed::lights::{
@@ -240,20 +240,26 @@ impl Waiting<'_> {
             let before = if stands {
                 self.braking(stop_m, green, wanted)
             } else {
-                arriving(self.v0, stop_m + NEAR_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
+                self.arriving(self.v0, 0.0, stop_m + NEAR_LINE_M, seconds(green), Some(*rolling))
             };
             let (from_m, from_mps) = (before[green], if stands { 0.0 } else { *rolling });
             if from_m > stop_m + BEFORE_LINE_M - 0.1 {
                 return None;
             }
             let left_m = wanted[due] - from_m;
-            let after = arriving(from_mps, left_m, seconds(due - green), end_mps, self.easy_mps2);
+            let after = self.arriving(from_mps, from_m, left_m, seconds(due - green), end_mps);
             let mut out = before;
             for i in green + 1..=HORIZON_STEPS {
                 out[i] = from_m + after[i - green];
             }
             ((out[due] - wanted[due]).abs() < 0.3 && self.is_possible(&out, due)).then_some(out)
         })
+    }
+
+    fn arriving(&self, v0: f64, from_m: f64, length_m: f64, seconds: f64, end_mps: Option<f64>) -> Progress {
+        let leg = TimedLeg { v0, from_m, length_m, seconds, end_mps, easy_mps2: self.easy_mps2 };
+        let rates = (PRESSED_SHARE * self.limits.accel_mps2, HARDEST_MPS2);
+        leg.arriving_in_comfort([(self.caps.clone(), rates)])
     }
 
     /// Along with what is wanted until the line must be braked for, standing by `green`.

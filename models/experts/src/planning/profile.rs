@@ -1,6 +1,6 @@
 //! Progress along a path over time: the base of an anchor.
 
-use crate::tuning::fixed::profile::EASING_MPS2;
+use crate::tuning::fixed::profile::{EASING_MPS2, OVER_CAP};
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S};
 
 /// Metres along a path at every step, the first zero.
@@ -19,6 +19,12 @@ impl<'a> Caps<'a> {
         Self { arc_m, caps_mps }
     }
 
+    /// The highest cap at which a progress is faster than it, as a share; one or less where all hold up to `step`.
+    fn excess(&self, from_m: f64, progress: &Progress, step: usize) -> f64 {
+        let share = |i: usize| speed_at(progress, i) / self.at(from_m + progress[i - 1]).max(0.1);
+        (1..=step.min(HORIZON_STEPS)).map(share).fold(0.0, f64::max)
+    }
+
     /// Cap at `s_m`; the last one beyond the end.
     pub fn at(&self, s_m: f64) -> f64 {
         let i = self.arc_m.partition_point(|a| *a < s_m);
@@ -28,12 +34,17 @@ impl<'a> Caps<'a> {
 
 /// Integrates a speed wish under the caps; slowing for a cap takes at most `brake` m/s2.
 fn integrate(v0: f64, caps: &Caps<'_>, brake: f64, wish: impl Fn(f64) -> f64) -> Progress {
+    driven(v0, |s| caps.at(s), (f64::INFINITY, brake), wish)
+}
+
+/// Integrates a speed wish under a cap at each progress, within rates of speeding up and of braking, m/s2.
+fn driven(v0: f64, cap: impl Fn(f64) -> f64, (up, down): (f64, f64), wish: impl Fn(f64) -> f64) -> Progress {
     let mut out = [0.0; HORIZON_STEPS + 1];
     let mut speed = v0;
     for i in 0..HORIZON_STEPS {
         let t = (i + 1) as f64 * STEP_S;
-        let capped = wish(t).min(caps.at(out[i])).max(0.0);
-        let next = capped.max(speed - brake * STEP_S);
+        let capped = wish(t).min(cap(out[i])).max(0.0);
+        let next = capped.clamp(speed - down * STEP_S, speed + up * STEP_S);
         out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
         speed = next;
     }
@@ -107,30 +118,94 @@ fn setting_off(length_m: f64, seconds: f64, easy_mps2: f64) -> Progress {
     })
 }
 
-/// Covers `length_m` in `seconds`, ending at `end_mps` when that is given, with the smoothest speed of a
-/// one-parameter family (linear acceleration that fades out, or a parabola through both speeds). A standing
-/// agent with a free end speed leaves as late as `easy_mps2` allows.
-pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>, easy_mps2: f64) -> Progress {
-    if v0 < STANDING_MPS && end_mps.is_none() && length_m > 0.0 {
-        return setting_off(length_m, seconds, easy_mps2);
+/// A distance to cover in a time.
+#[derive(Clone, Copy, Debug)]
+pub struct TimedLeg {
+    /// Speed at its beginning, m/s.
+    pub v0: f64,
+    /// Where it begins along the path, metres.
+    pub from_m: f64,
+    /// Its length, metres.
+    pub length_m: f64,
+    /// Its time.
+    pub seconds: f64,
+    /// Speed at its end, m/s; `None` leaves it free.
+    pub end_mps: Option<f64>,
+    /// Rate at which a standing agent sets off where it has time, m/s2.
+    pub easy_mps2: f64,
+}
+
+impl TimedLeg {
+    fn step(&self) -> usize {
+        (self.seconds / STEP_S).round().clamp(1.0, HORIZON_STEPS as f64) as usize
     }
-    let step = (seconds / STEP_S).round().clamp(1.0, HORIZON_STEPS as f64) as usize;
-    let wish = |shape: f64| {
-        move |t: f64| {
-            let t = t.min(seconds);
-            match end_mps {
-                Some(end) => v0 + (end - v0) * t / seconds + shape * t * (seconds - t),
-                None => v0 + shape * (t - t * t / (2.0 * seconds)),
-            }
+
+    /// It begins at rest and may end at any speed.
+    fn sets_off(&self) -> bool {
+        self.v0 < STANDING_MPS && self.end_mps.is_none() && self.length_m > 0.0
+    }
+
+    /// Speed at a time, of a one-parameter family: linear acceleration that fades out, or a parabola through both
+    /// speeds.
+    fn wish(&self, shape: f64, t: f64) -> f64 {
+        let Self { v0, seconds, .. } = *self;
+        let t = t.min(seconds);
+        match self.end_mps {
+            Some(end) => v0 + (end - v0) * t / seconds + shape * t * (seconds - t),
+            None => v0 + shape * (t - t * t / (2.0 * seconds)),
         }
-    };
-    let free = Caps::new(&[0.0], &[f64::INFINITY]);
-    let (mut low, mut high) = (-30.0, 30.0);
-    for _ in 0..26 {
-        let middle = 0.5 * (low + high);
-        if integrate(v0, &free, 8.0, wish(middle))[step] < length_m { low = middle } else { high = middle }
     }
-    integrate(v0, &free, 8.0, wish(high))
+
+    /// Covers the length with the smoothest speed of the family, whatever the way bends. A standing agent with a free
+    /// end speed leaves as late as its easy rate allows.
+    pub fn arriving(&self) -> Progress {
+        if self.sets_off() {
+            return setting_off(self.length_m, self.seconds, self.easy_mps2);
+        }
+        let go =
+            |shape: f64| driven(self.v0, |_| f64::INFINITY, (f64::INFINITY, 8.0), |t| self.wish(shape, t));
+        self.reached((-30.0, 30.0), go)
+    }
+
+    /// The parameter within `range` at which the length is covered; progress rises with it.
+    fn reached(&self, (mut low, mut high): (f64, f64), go: impl Fn(f64) -> Progress) -> Progress {
+        for _ in 0..26 {
+            let middle = 0.5 * (low + high);
+            if go(middle)[self.step()] < self.length_m { low = middle } else { high = middle }
+        }
+        go(high)
+    }
+
+    /// The same under caps of speed and within rates of speeding up and braking; `None` where the time is too short for
+    /// that.
+    fn arriving_under(&self, caps: &Caps<'_>, rates: (f64, f64)) -> Option<Progress> {
+        let cap = |s: f64| caps.at(self.from_m + s);
+        if driven(self.v0, cap, rates, |_| f64::INFINITY)[self.step()] < self.length_m {
+            return None;
+        }
+        if self.sets_off() {
+            let up = rates.0.max(self.easy_mps2);
+            let go =
+                |early: f64| driven(0.0, cap, (up, rates.1), |t| up * (t + early - self.seconds).max(0.0));
+            return Some(self.reached((0.0, self.seconds), go));
+        }
+        Some(self.reached((-30.0, 30.0), |shape| driven(self.v0, cap, rates, |t| self.wish(shape, t))))
+    }
+
+    /// Covers the length as comfortably as the time allows: each manner in turn has its caps and its rates of speeding
+    /// up and of braking, m/s2. Without any that arrives, as [`TimedLeg::arriving`].
+    pub fn arriving_in_comfort<'a>(
+        &self,
+        manners: impl IntoIterator<Item = (Caps<'a>, (f64, f64))>,
+    ) -> Progress {
+        let straight = self.arriving();
+        let mut manners = manners.into_iter();
+        let found = manners.find_map(|(caps, rates)| {
+            let holds = caps.excess(self.from_m, &straight, self.step()) <= OVER_CAP;
+            if holds { Some(straight) } else { self.arriving_under(&caps, rates) }
+        });
+        found.unwrap_or(straight)
+    }
 }
 
 /// A progress that is free from a step on: it goes on as fast as it is then, under the caps.
@@ -154,6 +229,34 @@ pub fn speed_at(progress: &Progress, step: usize) -> f64 {
 mod tests {
     use super::*;
 
+    fn leg(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>) -> TimedLeg {
+        TimedLeg { v0, from_m: 0.0, length_m, seconds, end_mps, easy_mps2: 1.1 }
+    }
+
+    #[test]
+    fn a_bend_on_the_way_is_slowed_for_while_there_is_time() {
+        let arc: Vec<f64> = (0..200).map(f64::from).collect();
+        // A bend from 30 to 45 m that comfort takes at 5 m/s and hurry at 7.
+        let capped = |bend: f64, brake: f64| -> Vec<f64> {
+            let before = |s: f64| (bend * bend + 2.0 * brake * (30.0 - s).max(0.0)).sqrt();
+            arc.iter().map(|s| if *s < 45.0 { before(*s) } else { 30.0 }).collect()
+        };
+        let (comfort, hurry) = (capped(5.0, 2.0), capped(7.0, 3.0));
+        let manners = || [(Caps::new(&arc, &comfort), (1.5, 2.0)), (Caps::new(&arc, &hurry), (2.5, 3.0))];
+        let slowest = |p: &Progress| {
+            let inside = (1..=90).filter(|i| (31.0..44.0).contains(&p[*i]));
+            inside.map(|i| speed_at(p, i)).fold(0.0, f64::max)
+        };
+        for (v0, length, fastest) in [(10.0, 60.0, 5.1), (10.0, 75.0, 7.1), (0.0, 40.0, 5.1)] {
+            let p = leg(v0, length, 9.0, None).arriving_in_comfort(manners());
+            assert!((p[90] - length).abs() < 0.2, "{} for {length}", p[90]);
+            assert!(slowest(&p) < fastest, "{} for {length}", slowest(&p));
+        }
+        // Nothing but haste leads there.
+        let far = leg(10.0, 120.0, 9.0, None);
+        assert_eq!(far.arriving_in_comfort(manners()), far.arriving());
+    }
+
     #[test]
     fn arrives_where_and_when_asked() {
         for (v0, length, seconds, end) in [
@@ -164,7 +267,7 @@ mod tests {
             (0.0, 12.0, 9.0, None),
             (0.1, 90.0, 6.0, None),
         ] {
-            let p = arriving(v0, length, seconds, end, 1.1);
+            let p = leg(v0, length, seconds, end).arriving();
             let step = (seconds / STEP_S).round() as usize;
             assert!((p[step] - length).abs() < 0.1, "{} for {length}", p[step]);
             assert!(p.windows(2).all(|w| w[1] >= w[0]));
@@ -176,12 +279,12 @@ mod tests {
 
     #[test]
     fn who_stands_leaves_when_it_must() {
-        let near = arriving(0.0, 5.0, 9.0, None, 1.1);
+        let near = leg(0.0, 5.0, 9.0, None).arriving();
         assert!(near[50] < 0.01 && (near[90] - 5.0).abs() < 1e-9);
-        let far = arriving(0.0, 60.0, 9.0, None, 1.1);
+        let far = leg(0.0, 60.0, 9.0, None).arriving();
         assert!(far[10] > 0.5 && (far[90] - 60.0).abs() < 1e-9);
         // A goal that is met before the end is driven past.
-        let early = arriving(0.0, 5.0, 6.0, None, 1.1);
+        let early = leg(0.0, 5.0, 6.0, None).arriving();
         assert!(early[90] > early[60] + 3.0 * 0.9 * speed_at(&early, 60));
     }
 

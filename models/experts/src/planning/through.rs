@@ -2,12 +2,12 @@
 //! each via point at its time.
 
 use super::coordinates::MODES;
-use super::profile::{Caps, Progress, arriving, cruising_from, going_on, speed_at};
+use super::profile::{Caps, Progress, TimedLeg, cruising_from, going_on, speed_at};
 use super::to_goal::{GOAL_SLOTS, MOST_WAYS, goal_progress, paths_to_goal};
 use super::way::{Anchor, SLOTS, UntimedPath, assumed_speed, paths_ahead};
 use super::world::{AgentAtStart, Waypoint, World};
 use crate::tuning::fixed::through::PRESSED;
-use scene::motion::{MotionModel, Target};
+use scene::motion::{MotionKind, MotionModel, Target};
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
 /// Ways to a via point from which the next leg begins; the last leg has as many as there are slots for.
@@ -178,7 +178,7 @@ fn to_goal(
     let mut places = dated(vias, found);
     places.push((target.step, goal_m));
     let easy_mps2 = world.tuning.anchors.setting_off_mps2;
-    let base = paced(model.start_speed_mps(), &places, target.speed_mps, easy_mps2);
+    let base = paced(model, &found.way, &places, target.speed_mps, easy_mps2);
     going_on(base, target.step, &Caps::new(found.way.path.arc_m(), &found.way.caps_mps))
 }
 
@@ -203,7 +203,7 @@ fn ahead(
         // As fast as now at the least: a via point is there to be driven through.
         None => v0.min(limit_mps) + share * (limit_mps - v0).max(0.0),
     };
-    let start = paced(v0, &dated, None, world.tuning.anchors.setting_off_mps2);
+    let start = paced(model, way, &dated, None, world.tuning.anchors.setting_off_mps2);
     let goes = |speed_mps: f64| {
         cruising_from(&start, from, if from == 0 { v0 } else { speed_at(&start, from) }, speed_mps, &caps)
     };
@@ -221,19 +221,28 @@ fn dated(vias: &[Waypoint], found: &Through) -> Vec<(usize, f64)> {
 }
 
 /// Progress through these places at these steps, rising; the speed at each is between those before and after it.
-fn paced(v0: f64, places: &[(usize, f64)], end_mps: Option<f64>, easy_mps2: f64) -> Progress {
+fn paced(
+    model: &MotionModel,
+    way: &UntimedPath,
+    places: &[(usize, f64)],
+    end_mps: Option<f64>,
+    easy_mps2: f64,
+) -> Progress {
     let mean_mps = |k: usize| {
         let (step, at_m) = places[k];
         let (before, from_m) = if k == 0 { (0, 0.0) } else { places[k - 1] };
         (at_m - from_m).max(0.0) / (step.saturating_sub(before).max(1) as f64 * STEP_S)
     };
     let mut out = [0.0; HORIZON_STEPS + 1];
-    let (mut from, mut from_m, mut speed_mps) = (0, 0.0, v0);
+    let (mut from, mut from_m, mut speed_mps) = (0, 0.0, model.start_speed_mps());
     for (k, (step, at_m)) in places.iter().enumerate() {
         let last = k + 1 == places.len();
         let end = if last { end_mps } else { Some(0.5 * (mean_mps(k) + mean_mps(k + 1))) };
         let seconds = step.saturating_sub(from).max(1) as f64 * STEP_S;
-        let leg = arriving(speed_mps, (at_m - from_m).max(0.0), seconds, end, easy_mps2);
+        let length_m = (at_m - from_m).max(0.0);
+        let leg = TimedLeg { v0: speed_mps, from_m, length_m, seconds, end_mps: end, easy_mps2 };
+        let leg =
+            if model.kind == MotionKind::Walk { leg.arriving() } else { way.arriving(&leg, &model.limits) };
         for i in from..=HORIZON_STEPS {
             out[i] = from_m + leg[i - from];
         }

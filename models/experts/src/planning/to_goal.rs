@@ -3,7 +3,7 @@
 use super::coordinates::MODES;
 use super::crossing::by_crosswalk;
 use super::legal::broken_m;
-use super::profile::{Caps, arriving, fastest, going_on, slowest};
+use super::profile::{Caps, TimedLeg, fastest, going_on, slowest};
 use super::way::{Anchor, PathKind, UntimedPath, identity_of};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
@@ -37,15 +37,20 @@ pub(super) fn anchors_to_goal(
     let mut out = Vec::with_capacity(MODES);
     let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
     for (candidate, count) in candidates.into_iter().zip(slots) {
-        // An agent that must arrive in time takes bends as fast as that needs.
         let base = candidate.pace.unwrap_or_else(|| {
-            arriving(
+            let leg = TimedLeg {
                 v0,
-                goal_progress(&candidate.path, goal),
+                from_m: 0.0,
+                length_m: goal_progress(&candidate.path, goal),
                 seconds,
-                target.speed_mps,
-                world.tuning.anchors.setting_off_mps2,
-            )
+                end_mps: target.speed_mps,
+                easy_mps2: world.tuning.anchors.setting_off_mps2,
+            };
+            if model.kind == MotionKind::Walk {
+                leg.arriving()
+            } else {
+                candidate.arriving(&leg, &model.limits)
+            }
         });
         let caps = Caps::new(candidate.path.arc_m(), &candidate.caps_mps);
         let base = going_on(base, target.step, &caps);
@@ -92,14 +97,16 @@ pub(super) fn paths_to_goal(
         let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
         return by_crosswalk.into_iter().chain([straight]).collect();
     }
-    let least = project(model, &model.coasting(), target, None);
+    let hurried = project(&model.hurried(), &model.coasting(), target, None);
+    let least =
+        if hurried.reach.is_reached() { hurried } else { project(model, &model.coasting(), target, None) };
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
     let v0 = model.start_speed_mps();
     let pace_mps = (goal - who.start.position()).norm() / (target.step as f64 * STEP_S);
     let query = GoalQuery {
         pose: who.pose(),
-        // An agent with time to spare changes lanes over a shorter way than one that keeps its speed.
-        speed_mps: v0.min(0.5 * (v0 + pace_mps)),
+        // An agent with time to spare changes lanes over a shorter way than one that hurries.
+        speed_mps: 0.5 * (v0 + pace_mps),
         agent_type: who.agent_type,
         goal,
         goal_heading_rad: target.heading_rad,
@@ -166,9 +173,12 @@ impl GoalTrip<'_, '_> {
     }
 
     fn along(&self, found: GoalRoute) -> UntimedPath {
-        let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad };
         let GoalQuery { pose, agent_type, .. } = self.query;
         let v0 = self.model.start_speed_mps();
+        let pace_mps = found.route.path.length_m() / (self.target.step as f64 * STEP_S);
+        // Where the speed changes evenly, the last half of the way is driven at this speed.
+        let speed_mps = self.target.speed_mps.unwrap_or((1.5 * pace_mps - 0.5 * v0).max(0.0));
+        let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad, speed_mps };
         let path = base_path(&found.route.path, pose, v0, agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);

@@ -1,10 +1,12 @@
 //! Ways: paths that an agent may take, before and after they have a timing.
 
 use super::coordinates::MODES;
-use super::profile::Progress;
+use super::profile::{Caps, Progress, TimedLeg};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
+use crate::tuning::fixed::profile::HURRY;
 use scene::geometry::direction;
+use scene::limits::Limits;
 use scene::motion::{MotionKind, MotionModel};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{AgentType, HORIZON_STEPS, Vec2};
@@ -60,6 +62,10 @@ pub(super) const SLOTS: [[usize; MODES]; MODES] = [
 pub(super) struct UntimedPath {
     pub(super) path: Polyline,
     pub(super) caps_mps: Vec<f64>,
+    /// Curvature at the path's points, 1/m.
+    pub(super) curvatures_per_m: Vec<f64>,
+    /// Speed limits at the path's points with what is usual over them, m/s.
+    pub(super) limits_mps: Vec<f64>,
     pub(super) limit_mps: f64,
     pub(super) kind: PathKind,
     pub(super) route: Option<Route>,
@@ -90,7 +96,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
         let path = base_path(&route.path, who.pose(), v0, who.agent_type, None);
         let limit = route.limits_mps.first().copied().unwrap_or(model.limits.speed_mps);
         let identity = identity_of(&route);
-        let comfort = model.limits.comfort_lateral_mps2;
+        let comfort = model.limits.comfortable.lateral_mps2;
         out.push(UntimedPath::new(
             path,
             comfort,
@@ -137,7 +143,7 @@ fn bent(
             here
         })
         .collect();
-    let comfort = model.limits.comfort_lateral_mps2;
+    let comfort = model.limits.comfortable.lateral_mps2;
     let identity = if bend > 0.0 { 4 } else { 5 };
     UntimedPath::new(
         Polyline::new(points),
@@ -170,7 +176,7 @@ impl UntimedPath {
         tuning: &AnchorTuning,
     ) -> Self {
         let over_limit = tuning.over_limit;
-        let limits: Vec<f64> = match (&route, limit_mps.is_finite()) {
+        let limits_mps: Vec<f64> = match (&route, limit_mps.is_finite()) {
             (Some(route), true) => path
                 .arc_m()
                 .iter()
@@ -183,15 +189,20 @@ impl UntimedPath {
             _ => vec![if limit_mps.is_finite() { over_limit * limit_mps } else { 60.0 }; path.points().len()],
         };
         let rules = SpeedRules { lateral_mps2, ..SpeedRules::default() };
-        let caps_mps = speed::speed_caps(&path, &limits, rules);
+        let curvatures_per_m = speed::curvatures_per_m(&path);
+        let caps_mps = speed::caps_of_bends(path.arc_m(), &curvatures_per_m, &limits_mps, rules);
         let limit_mps = if limit_mps.is_finite() { limit_mps } else { 15.0 };
-        Self { path, caps_mps, limit_mps, kind, route, identity, pace: None }
+        Self { path, caps_mps, curvatures_per_m, limits_mps, limit_mps, kind, route, identity, pace: None }
     }
 
     /// Goes on along another path, which begins where this one ends, at ease and no faster than `limit_mps`.
     pub(super) fn extend(&mut self, onward: &Polyline, limit_mps: f64) {
-        let caps = speed::speed_caps(onward, &[limit_mps], SpeedRules::default());
+        let curvatures = speed::curvatures_per_m(onward);
+        let rules = SpeedRules::default();
+        let caps = speed::caps_of_bends(onward.arc_m(), &curvatures, &[limit_mps], rules);
         self.caps_mps.extend(caps.into_iter().skip(1));
+        self.limits_mps.extend(vec![limit_mps; curvatures.len().saturating_sub(1)]);
+        self.curvatures_per_m.extend(curvatures.into_iter().skip(1));
         let points = self.path.points().iter().chain(onward.points().iter().skip(1));
         self.path = Polyline::new(points.copied());
     }
@@ -202,13 +213,29 @@ impl UntimedPath {
         let kind = if self.kind == leg.kind { self.kind } else { PathKind::Joined };
         Self {
             path: Polyline::new(points.copied()),
-            caps_mps: self.caps_mps.iter().chain(leg.caps_mps.iter().skip(1)).copied().collect(),
+            caps_mps: joined(&self.caps_mps, &leg.caps_mps),
+            curvatures_per_m: joined(&self.curvatures_per_m, &leg.curvatures_per_m),
+            limits_mps: joined(&self.limits_mps, &leg.limits_mps),
             limit_mps: leg.limit_mps,
             kind,
             route: self.route.clone(),
             identity: self.identity.wrapping_mul(1_000_003).wrapping_add(leg.identity),
             pace: None,
         }
+    }
+
+    /// Progress over a leg of this way, as comfortable as its time allows.
+    pub(super) fn arriving(&self, leg: &TimedLeg, limits: &Limits) -> Progress {
+        let manners = HURRY.map(|share| {
+            let manner = limits.comfortable.towards(limits.hurried, share);
+            let rules = SpeedRules { lateral_mps2: manner.lateral_mps2, brake_mps2: manner.brake_mps2 };
+            let caps =
+                speed::caps_of_bends(self.path.arc_m(), &self.curvatures_per_m, &self.limits_mps, rules);
+            (caps, (manner.accel_mps2, manner.brake_mps2))
+        });
+        leg.arriving_in_comfort(
+            manners.iter().map(|(caps, rates)| (Caps::new(self.path.arc_m(), caps), *rates)),
+        )
     }
 
     pub(super) fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
@@ -223,6 +250,11 @@ impl UntimedPath {
             passes_m: Vec::new(),
         }
     }
+}
+
+/// Values at the points of a way and of the leg that follows it, whose first point is the way's last.
+fn joined(way: &[f64], leg: &[f64]) -> Vec<f64> {
+    way.iter().chain(leg.iter().skip(1)).copied().collect()
 }
 
 /// Lanes of a route folded into one number.

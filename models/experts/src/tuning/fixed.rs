@@ -17,6 +17,11 @@ numbers! {
         /// An agent stays where it is above this probability of it.
         STAYS_ABOVE: f64 = 0.5;
     }
+    /// Of the joint choice.
+    choice {
+        /// A near miss that lasts for so many compared moments costs all of its price.
+        MOST_MOMENTS: f64 = 2.0;
+    }
     /// Of swerving and stopping for what is in the way.
     replan {
         /// Metres aside that a vehicle gets on a metre of way.
@@ -33,6 +38,15 @@ numbers! {
         BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
         /// Harder braking must lead so much farther, metres.
         HARDER_M: f64 = 2.0;
+    }
+    /// Of agents at rest that move off.
+    moving_off {
+        /// An agent so near to a red line waits there, metres.
+        AT_LINE_M: f64 = 5.0;
+        /// An agent with so much room to one at rest ahead is in its queue, metres.
+        IN_QUEUE_M: f64 = 8.0;
+        /// A slower agent does not roll, m/s. Recorded vehicles that stay have a speed of exactly zero.
+        ROLLS_MPS: f64 = 1e-4;
     }
     /// Of warnings.
     report {
@@ -125,6 +139,17 @@ numbers! {
         /// Least and greatest rate at which a late agent takes up its own speed again, m/s2.
         TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
     }
+    /// Of staying behind another agent.
+    following {
+        /// Braking that is tried, from easy to hard: shares of the hardest.
+        BRAKES: [f64; 3] = [0.25, 0.45, 0.9];
+        /// Distance to what is ahead, metres.
+        GAP_M: f64 = 2.0;
+        /// And time at its own speed, seconds.
+        HEADWAY_S: f64 = 0.8;
+        /// Speeding up again, m/s2.
+        ACCELERATES_MPS2: f64 = 1.5;
+    }
     /// Of giving way.
     giving_way {
         /// Braking of vehicles, from easy to what is possible: shares of the hardest.
@@ -132,7 +157,9 @@ numbers! {
         /// The same of people on foot and riders.
         OTHER_BRAKES: [f64; 3] = [0.4, 0.65, 0.93];
         /// The distance that a vehicle keeps with each of them, metres.
-        VEHICLE_GAPS_M: [f64; 5] = [1.5, 1.5, 1.0, 0.5, 0.1];
+        VEHICLE_GAPS_M: [f64; 5] = [2.0, 2.0, 2.0, 1.5, 1.0];
+        /// And the time at its own speed, seconds.
+        VEHICLE_HEADWAYS_S: [f64; 5] = [0.6, 0.4, 0.2, 0.0, 0.0];
         /// The same of people on foot and riders, metres.
         OTHER_GAPS_M: [f64; 3] = [0.8, 0.4, 0.1];
         /// Speeds of an agent that goes first: shares of its own.
@@ -157,6 +184,16 @@ numbers! {
     yielding {
         /// An agent that stands does not set off for less than this, metres.
         WORTH_GOING_M: f64 = 1.0;
+        /// Change of acceleration in giving way, m/s3.
+        JERK_MPS3: f64 = 5.0;
+        /// The same where it brakes hard: below the kinematic limit of scores.
+        HARD_JERK_MPS3: f64 = 14.0;
+        /// Time in which the speed of a moment later is reached, seconds.
+        TRACKS_S: f64 = 0.4;
+        /// What is slower where it must stand halts, m/s.
+        HALTS_MPS: f64 = 0.1;
+        /// Harder braking is hard, m/s2.
+        HARD_MPS2: f64 = 3.5;
     }
     /// Of walkers and carriageways.
     crossing {
@@ -237,6 +274,11 @@ numbers! {
     profile {
         /// Braking for a bend beyond the goal, m/s2.
         EASING_MPS2: f64 = 3.0;
+        /// A speed over its cap by this factor holds it.
+        OVER_CAP: f64 = 1.03;
+        /// Manners of driving to a goal in the order of trying, from comfortable (0) to hurried (1). Recorded drivers are
+        /// less patient than comfort alone.
+        HURRY: [f64; 3] = [0.4, 0.7, 1.0];
     }
     /// Of ways through via points.
     through {

@@ -128,6 +128,12 @@ tuning! {
         /// drivers is surer than recorded ones warrant. Log loss on the 71 scenes: 1.96 without, 1.78 with
         /// it. 2026-11-22.
         temperature = 2.5, off 1.0;
+        /// Temperature of what an answer says without a goal position, besides [`ProbabilityTuning::temperature`].
+        /// Log loss of vehicles on the 71 scenes. 2026-11-27.
+        answer_temperature = 1.5, off 1.0;
+        /// Share of the probability that is spread evenly over the futures of an answer with a goal position. Log loss of
+        /// vehicles on the 71 scenes. 2026-11-27.
+        spread_with_goal = 0.5, off 0.0;
         /// What it costs a future to break rules ([`ChoiceTuning`]), in the logarithm of its probability. Error of the
         /// likeliest future of vehicles on the 71 scenes: 6.90 m without a goal, 6.77 m with it, with a speed as goal
         /// 4.98 m and 4.72 m; log loss 1.68 and 1.67, 1.80 and 1.78. Half is as near and surer than it may be.
@@ -215,6 +221,9 @@ tuning! {
         overlap = 5.0, off 0.0;
         /// Two boxes closer than half a metre. Set by hand. 2026-11-21.
         close = 1.5, off 0.0;
+        /// Two motions that would soon touch if both went on as they do, at two moments or more: a near miss. Set by
+        /// hand. 2026-11-27.
+        near_miss = 1.5, off 0.0;
         /// A vehicle that is away from every lane all the time, by the share of the time. Set by hand.
         /// 2026-11-21.
         off_lanes = 8.0, off 0.0;
@@ -250,6 +259,9 @@ tuning! {
         switching_m = 1.0;
         /// Another mode than the one shown last, however near. Set by hand. 2026-11-22.
         other_mode = 0.1, off 0.0;
+        /// An agent that stays at rest and is moved after all: more than an overlap, which the other agent avoids. Set
+        /// by hand. 2026-11-27.
+        leaving_rest = 7.0, off 0.0;
         /// A reacting road user that gives up the motion it has. Set by hand. 2026-11-21.
         deviating = 0.6, off 0.0;
         /// Mean distance from the motion that it has which costs as much as 1, metres. Set by hand.
@@ -262,6 +274,10 @@ tuning! {
         lawful_by = 0.6;
         /// Most that a motion that swerves costs for being another than what was meant. Set by hand. 2026-11-24.
         most_swerving = 3.0, off 1e9;
+        /// A motion that stays behind another agent, besides a goal that it misses. Set by hand. 2026-11-27.
+        following = 0.8, off 0.0;
+        /// Most that a mode costs for being another than what was meant: less than a meeting. Set by hand. 2026-11-27.
+        most_central = 3.0, off 1e9;
         /// A motion that stops before what is in the way, besides a goal that it misses. Set by hand. 2026-11-24.
         stopping = 1.0, off 0.0;
         /// Extra weight of the mode that a scene is built around; the probabilities of all modes sum to 1.

@@ -59,6 +59,12 @@ numbers! {
         LONG_M: f64 = 6.0;
         /// Nose and tail of a long vehicle turn from their lane by this at most, radians.
         LONG_TURN_RAD: f64 = 0.5;
+        /// Nobody is on foot so far before a driver's nose, metres.
+        BEFORE_M: f64 = 3.0;
+        /// The same beside a driver, metres.
+        WALK_SIDE_M: f64 = 1.0;
+        /// Nobody on a pavement heads for a lane that is nearer than this, metres.
+        WALK_AHEAD_M: f64 = 4.0;
         /// Share of a lane's half width that stays free of parked and standing agents.
         BAND: f64 = 0.9;
     }
@@ -115,25 +121,48 @@ numbers! {
         /// Driveways farther away have nothing to do with a place, metres.
         NEAR_M: f64 = 30.0;
         /// Faster roads have no parked cars along them, m/s.
-        FAST_MPS: f64 = 17.0;
+        FAST_MPS: f64 = 14.0;
         /// Share of the cars in bays that stand with the nose in.
         NOSE_IN: f64 = 0.7;
     }
     /// Of `placement::pose`.
     pose {
+        /// From a driver's box to its lane's border, metres.
+        LANE_SIDE_M: f64 = 0.3;
+        /// Straight on for this, a driver stays in its lane, metres.
+        STRAIGHT_M: f64 = 6.0;
         /// Room between a driveway's end and a car's, metres.
         DRIVEWAY_END_M: f64 = 0.3;
         /// In a strip narrower than this parked vehicles keep to the kerb, in a wider one to the lane, metres.
         NARROW_KERB_M: f64 = 3.5;
     }
+    /// Of `placement::room`.
+    room {
+        /// Braking begins so long after the start, seconds.
+        REACTION_S: f64 = 0.8;
+        /// Room that stays to a road user ahead, metres.
+        STANDING_GAP_M: f64 = 2.0;
+        /// Room that stays to the way of another, metres.
+        BEFORE_M: f64 = 1.0;
+        /// Two pass the place where their ways cross one so long after the other, unless one can stop, seconds.
+        APART_S: f64 = 2.0;
+        /// Room beside a driver on its way, metres.
+        SIDE_M: f64 = 0.2;
+        /// Headings that differ by less (cosine) lead the same way.
+        SAME_WAY: f64 = 0.85;
+        /// Middles of ways that lead the same way or against each other conflict when nearer than this, metres.
+        SAME_LINE_M: f64 = 1.5;
+        /// Drivers stop for where a walker is so soon, seconds.
+        WALK_AHEAD_S: f64 = 3.0;
+        /// Room about a walker, metres.
+        WALK_SIDE_M: f64 = 0.6;
+        /// Nobody looks farther ahead, metres.
+        LONGEST_M: f64 = 200.0;
+    }
     /// Of `placement::speeds`.
     speeds {
-        /// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.
-        BRAKE_MPS2: f64 = 3.0;
-        /// Braking for a leader, m/s2.
-        FOLLOW_MPS2: f64 = 2.0;
-        /// It begins so long after the start, seconds: an agent that must brake at once goes round where it can.
-        FOLLOW_AFTER_S: f64 = 0.5;
+        /// Nobody stands on a free road: not without a road user so near ahead, metres.
+        QUEUE_M: f64 = 15.0;
         /// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
         UNKNOWN_LEADER_MPS: f64 = 5.0;
     }

@@ -133,6 +133,14 @@ impl MotionModel {
         Self { gear, ..self }
     }
 
+    /// The same model of a hurried agent, which leaves out what only an emergency asks for. On foot nothing is left out.
+    pub fn hurried(self) -> Self {
+        match self.kind {
+            MotionKind::Drive => Self { limits: self.limits.within(self.limits.hurried), ..self },
+            MotionKind::Walk => self,
+        }
+    }
+
     /// Speed at the start in the direction of travel, m/s, not negative.
     pub fn start_speed_mps(&self) -> f64 {
         let along = self.start.velocity().dot(&direction(self.start.heading_rad));

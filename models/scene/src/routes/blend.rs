@@ -40,6 +40,8 @@ pub struct EndPose {
     pub position: Vec2,
     /// Radians; along the path when free.
     pub heading_rad: Option<f64>,
+    /// Speed on the last part of the way, m/s: an offset there fades in over as long a way as that asks for.
+    pub speed_mps: f64,
 }
 
 /// Offset across a path that fades out over a length, with its slope, as a quintic.
@@ -98,8 +100,7 @@ impl BlendLimits {
 /// exactly there. Vehicles keep to the inside of bends.
 ///
 /// The road user's offset and heading fade onto the path over about 3 s of travel, a lane's width over as much as its
-/// speed asks for, and the goal's fade in
-/// over the last part, both as quintics across the path, so that curvature stays continuous. Where an
+/// speed asks for, and the goal's fade in over the last part, both as quintics across the path, so that curvature stays continuous. Where an
 /// offset is too large for that (a heading far off the path's, a tight bend on the inner side), a cubic
 /// leads onto the path or off it. A goal beyond the path's end extends it straight on; a goal that is
 /// behind is met by one cubic. Points are at most 1 m apart.
@@ -127,7 +128,7 @@ pub fn base_path(
     let half = 0.5 * between.length_m();
     let entered = onto(&between, start, manner, half.max(manner.min_blend_m));
     let room = (entered.length_m() - manner.min_blend_m.min(half)).max(half);
-    let bent = ended(&entered, goal, manner, room);
+    let bent = ended(&entered, goal, BlendLimits::of(agent_type, goal.speed_mps), room);
     let met = (bent.first().position - start.position).norm() < 1e-6;
     if met { bent.resample(manner.step_m) } else { direct(start, goal, manner) }
 }
@@ -156,8 +157,8 @@ fn ended(path: &Polyline, goal: EndPose, manner: BlendLimits, room_m: f64) -> Po
 }
 
 /// A lane path that ends beside `goal`, bent so that it ends there, as [`base_path`] does.
-pub(super) fn ending_at(path: &Polyline, goal: EndPose, speed_mps: f64, agent_type: AgentType) -> Polyline {
-    let manner = BlendLimits::of(agent_type, speed_mps);
+pub(super) fn ending_at(path: &Polyline, goal: EndPose, agent_type: AgentType) -> Polyline {
+    let manner = BlendLimits::of(agent_type, goal.speed_mps);
     ended(path, goal, manner, path.length_m()).resample(manner.step_m)
 }
 

@@ -108,9 +108,9 @@ fn lead_in(graph: &LaneGraph, query: &GoalQuery, backwards: &[(usize, f64)]) -> 
         length += to_m;
     }
     let centre = Polyline::new(points).resample(1.0).smoothed(2.0);
-    let goal = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
     // Leads in at walking pace: the shortest bend that is comfortable leaves most room for the join.
-    LeadIn { legs, path: blend::ending_at(&centre, goal, 0.0, query.agent_type) }
+    let goal = EndPose { position: query.goal, heading_rad: query.goal_heading_rad, speed_mps: 0.0 };
+    LeadIn { legs, path: blend::ending_at(&centre, goal, query.agent_type) }
 }
 
 /// Cheapest cubic onto `path`: cost with the rest of the path, arc length where it joins, the cubic.

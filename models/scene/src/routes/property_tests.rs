@@ -102,7 +102,7 @@ proptest! {
             prop_assert!(routes.len() <= MAX_GOAL_ROUTES);
             for found in &routes {
                 assert_route(&found.route)?;
-                let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
+                let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad, speed_mps: 10.0 };
                 let path = base_path(&found.route.path, pose, speed, agent_type, Some(end));
                 prop_assert!((path.first().position - pose.position).norm() < 1e-6);
                 prop_assert!((path.last().position - query.goal).norm() < 1e-6);
@@ -154,7 +154,7 @@ proptest! {
         };
         let routes = routes_to_goal(&graph, &query);
         prop_assert!(!routes.is_empty());
-        let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
+        let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad, speed_mps: 10.0 };
         let path = base_path(&routes[0].route.path, pose, speed, AgentType::Vehicle, Some(end));
         assert_continuous(&path)?;
         prop_assert!((path.first().position - pose.position).norm() < 1e-6);

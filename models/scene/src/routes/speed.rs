@@ -75,22 +75,33 @@ pub struct LaneSignal {
     pub stop: Option<Vec2>,
 }
 
+/// Curvature at every point of `path`, 1/m, without its sign.
+pub fn curvatures_per_m(path: &Polyline) -> Vec<f64> {
+    path.arc_m().iter().map(|s| path.curvature_at(*s, CURVATURE_WINDOW_M).abs()).collect()
+}
+
 /// Speed cap at every point of `path`, m/s: the limit there, sqrt(lateral / curvature) in bends, and
 /// braking looked back from everything slower ahead. Points beyond the end of `limits_mps` have its last
 /// value, without any they have no limit.
 ///
 /// Look-back holds for the limits too: a cap can be met from the cap before it by braking comfortably.
 pub fn speed_caps(path: &Polyline, limits_mps: &[f64], rules: SpeedRules) -> Vec<f64> {
+    caps_of_bends(path.arc_m(), &curvatures_per_m(path), limits_mps, rules)
+}
+
+/// [`speed_caps`] where the curvature at each arc length is known.
+pub fn caps_of_bends(
+    arc_m: &[f64],
+    curvatures_per_m: &[f64],
+    limits_mps: &[f64],
+    rules: SpeedRules,
+) -> Vec<f64> {
     let last = limits_mps.last().copied().unwrap_or(TOP_SPEED_MPS);
-    let arc = path.arc_m();
-    let in_bend = |s: f64| {
-        let curvature = path.curvature_at(s, CURVATURE_WINDOW_M).abs();
-        (rules.lateral_mps2 / curvature.max(1e-6)).sqrt().min(TOP_SPEED_MPS)
-    };
-    let cap = |(i, s): (usize, &f64)| in_bend(*s).min(limits_mps.get(i).copied().unwrap_or(last));
-    let mut caps: Vec<f64> = arc.iter().enumerate().map(cap).collect();
+    let in_bend = |curvature: f64| (rules.lateral_mps2 / curvature.max(1e-6)).sqrt().min(TOP_SPEED_MPS);
+    let cap = |(i, k): (usize, &f64)| in_bend(*k).min(limits_mps.get(i).copied().unwrap_or(last));
+    let mut caps: Vec<f64> = curvatures_per_m.iter().enumerate().map(cap).collect();
     for i in (1..caps.len()).rev() {
-        let reachable = (caps[i] * caps[i] + 2.0 * rules.brake_mps2 * (arc[i] - arc[i - 1])).sqrt();
+        let reachable = (caps[i] * caps[i] + 2.0 * rules.brake_mps2 * (arc_m[i] - arc_m[i - 1])).sqrt();
         caps[i - 1] = caps[i - 1].min(reachable);
     }
     caps

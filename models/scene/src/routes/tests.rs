@@ -147,7 +147,11 @@ fn base_paths_begin_and_end_where_asked() {
         assert!(path.max_curvature(0.0, 1e3, 2.0) < 0.2, "{}", path.max_curvature(0.0, 1e3, 2.0));
         let aim = route.path.sample(50.0);
         let left = Vec2::new(-aim.direction().y, aim.direction().x);
-        let goal = EndPose { position: aim.position + 1.2 * left, heading_rad: Some(aim.heading_rad - 0.1) };
+        let goal = EndPose {
+            position: aim.position + 1.2 * left,
+            heading_rad: Some(aim.heading_rad - 0.1),
+            speed_mps: 10.0,
+        };
         let path = base_path(&route.path, pose, 8.0, AgentType::Vehicle, Some(goal));
         assert_continuous(&path);
         assert!((path.first().position - pose.position).norm() < 1e-9);
@@ -170,7 +174,7 @@ fn query(pose: Pose, goal: Vec2, heading: Option<f64>) -> GoalQuery {
 
 fn assert_reached(route: &GoalRoute, query: &GoalQuery) {
     assert_continuous(&route.route.path);
-    let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
+    let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad, speed_mps: 10.0 };
     let path = base_path(&route.route.path, query.pose, query.speed_mps, query.agent_type, Some(end));
     assert_continuous(&path);
     assert!((path.first().position - query.pose.position).norm() < 1e-9);
@@ -249,7 +253,7 @@ fn lane_changes_are_as_long_as_the_speed_asks() {
         let (pose, goal) = (Pose::xyh(-150.0, 0.0, 0.0), v(-150.0 + 7.0 * speed_mps, 3.5));
         let asked = GoalQuery { speed_mps, ..query(pose, goal, Some(0.0)) };
         let routes = routes_to_goal(&graph, &asked);
-        let end = EndPose { position: goal, heading_rad: Some(0.0) };
+        let end = EndPose { position: goal, heading_rad: Some(0.0), speed_mps: 10.0 };
         let path = base_path(&routes[0].route.path, pose, speed_mps, AgentType::Vehicle, Some(end));
         let sharpest = path.curvatures(2.0).into_iter().map(f64::abs).fold(0.0, f64::max);
         let sideways_mps2 = sharpest * speed_mps * speed_mps;
@@ -287,7 +291,7 @@ fn recorded_sides_hold_over_their_ranges() {
 #[test]
 fn a_goal_beyond_the_last_lane_is_met_straight_on() {
     let path = Polyline::new(line(v(0.0, 0.0), v(30.0, 0.0)));
-    let goal = EndPose { position: v(45.0, 1.0), heading_rad: None };
+    let goal = EndPose { position: v(45.0, 1.0), heading_rad: None, speed_mps: 10.0 };
     let bent = base_path(&path, Pose::xyh(2.0, 0.5, 0.0), 5.0, AgentType::Vehicle, Some(goal));
     assert_eq!(bent.last().position, goal.position);
     assert!(bent.last().heading_rad.abs() < 0.02 && bent.max_curvature(0.0, 99.0, 2.0) < 0.05);
@@ -296,7 +300,7 @@ fn a_goal_beyond_the_last_lane_is_met_straight_on() {
 #[test]
 fn a_goal_behind_is_met_by_one_cubic() {
     let path = Polyline::new(line(v(0.0, 0.0), v(30.0, 0.0)));
-    let goal = EndPose { position: v(-12.0, 6.0), heading_rad: Some(3.0) };
+    let goal = EndPose { position: v(-12.0, 6.0), heading_rad: Some(3.0), speed_mps: 10.0 };
     let bent = base_path(&path, Pose::xyh(2.0, 0.0, 0.0), 5.0, AgentType::Vehicle, Some(goal));
     assert!((bent.last().position - goal.position).norm() < 1e-9);
     assert!((bent.first().heading_rad).abs() < 0.1);

@@ -1298,6 +1298,27 @@ export interface components {
             polygon_m: components["schemas"]["Points"];
         };
         /**
+         * DrivingManner
+         * @description Accelerations of a manner of moving.
+         */
+        DrivingManner: {
+            /**
+             * Format: double
+             * @description Greatest speeding up.
+             */
+            accel_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest braking, positive.
+             */
+            brake_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest sideways acceleration v^2 k.
+             */
+            lateral_mps2: number;
+        };
+        /**
          * DuplicateRequest
          * @description Name of the copy.
          */
@@ -2854,17 +2875,16 @@ export interface components {
              * @description Greatest braking, positive.
              */
             brake_mps2: number;
-            /**
-             * Format: double
-             * @description Sideways acceleration that drivers choose in bends: comfort, not a bound.
-             */
-            comfort_lateral_mps2: number;
+            /** @description What a future does where there is time. */
+            comfortable: components["schemas"]["DrivingManner"];
             /**
              * Format: double
              * @description Greatest curvature; null on foot, where turning has no bound. Vehicles longer than the kind's
              *     usual ones turn wider.
              */
             curvature_per_m: number | null;
+            /** @description What a future does where time presses. It does more only where a goal or another road user forces it. */
+            hurried: components["schemas"]["DrivingManner"];
             /**
              * Format: double
              * @description Greatest sideways acceleration.

@@ -9,7 +9,14 @@ export interface Typed {
   readonly subtype: string | null;
 }
 
-/** Hard limits of motion: every answer respects them. `comfort_…` are the usual values, not the possible ones. */
+/** Accelerations of a manner of moving. */
+interface Manner {
+  readonly accel_mps2: number;
+  readonly brake_mps2: number;
+  readonly lateral_mps2: number;
+}
+
+/** Hard limits of motion: every answer respects them. A future keeps the manners where it can. */
 export interface Limits {
   readonly accel_mps2: number;
   readonly brake_mps2: number;
@@ -17,7 +24,8 @@ export interface Limits {
   /** Of the tightest circle, 1/m; null for pedestrians. Vehicles longer than a car turn wider still. */
   readonly curvature_per_m: number | null;
   readonly speed_mps: number;
-  readonly comfort_lateral_mps2: number;
+  readonly comfortable: Manner;
+  readonly hurried: Manner;
 }
 
 type Range = readonly [min: number, max: number];
