@@ -214,6 +214,7 @@ const LAB_COMMANDS: &[&str] = &[
     "train",
     "train-placement",
     "eval-place",
+    "eval-filled",
     "eval",
     "reproduce",
     "bench",

@@ -4,7 +4,9 @@ use super::cells::{CellKind, Cells};
 use super::placed::PlacedAgent;
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 pub(super) use crate::tuning::placing::checks::END_M;
-use crate::tuning::placing::checks::{BAND, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M};
+use crate::tuning::placing::checks::{
+    BAND, BEFORE_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M, WALK_SIDE_M,
+};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::speed::Obstacle;
@@ -12,39 +14,73 @@ use scene::routes::{GraphLane, LaneGraph};
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_4;
 
+/// Type of a road user that is there, with its lane and how far along it stands, metres.
+pub(super) type KindOnLane = (AgentType, Option<(usize, f64)>);
+
 /// The boxes that a new one keeps clear of.
 #[derive(Default)]
 pub(super) struct Neighbours {
     /// Kept road users, then placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
-    /// Whether each of them drives on a lane.
-    driving: Vec<bool>,
+    /// Type, and lane and arc length of each that drives.
+    pub(super) kinds: Vec<KindOnLane>,
+    /// Where kept road users are in the next moments.
+    pub(super) next: Vec<OrientedBox>,
 }
 
 impl Neighbours {
     /// Adds one.
-    pub(super) fn push(&mut self, obstacle: Obstacle, drives: bool) {
+    pub(super) fn push(&mut self, obstacle: Obstacle, agent_type: AgentType, lane: Option<(usize, f64)>) {
         self.obstacles.push(obstacle);
-        self.driving.push(drives);
+        self.kinds.push((agent_type, lane));
     }
 
-    /// No obstacle is too near; `min_gap_m` is the room along the lane between drivers of the same direction.
+    /// No obstacle is too near; `min_gap_m` is the room along the lane between drivers of the same direction. Drivers
+    /// that pass each other keep a gap, and nobody is on foot right before a driver.
     pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
         let outline = placed.outline();
         let near = outline.grown(MARGIN_M);
         let gap_m = min_gap_m.max(MARGIN_M);
-        let long = OrientedBox::new(
-            outline.center(),
-            outline.half_length_m() + gap_m,
-            outline.half_width_m() + SIDE_M,
-            outline.heading_rad(),
-        );
-        self.obstacles.iter().zip(&self.driving).all(|(other, driving)| {
+        let wide = |outline: &OrientedBox, gap_m: f64| {
+            let (length_m, width_m) = (outline.half_length_m() + gap_m, outline.half_width_m() + SIDE_M);
+            OrientedBox::new(outline.center(), length_m, width_m, outline.heading_rad())
+        };
+        let (long, beside) = (wide(&outline, gap_m), wide(&outline, MARGIN_M));
+        let in_the_way = |next: &OrientedBox| overlaps(&near, next, 0.0);
+        let apart = |(other, kept): (&Obstacle, &KindOnLane)| {
+            let (agent_type, lane) = kept;
             let turn = wrap_angle(other.outline.heading_rad() - outline.heading_rad()).abs();
-            let follows = *driving && placed.lane.is_some() && turn < FRAC_PI_4;
-            !overlaps(if follows { &long } else { &near }, &other.outline, 0.0)
-        })
+            let other = &other.outline;
+            match (placed.lane.is_some(), lane.is_some()) {
+                (true, true) if turn < FRAC_PI_4 => !overlaps(&long, other, 0.0),
+                (true, true) if turn > 3.0 * FRAC_PI_4 => !overlaps(&beside, other, 0.0),
+                (true, false) if *agent_type != AgentType::Vehicle => {
+                    !overlaps(&before(&outline), other, 0.0)
+                }
+                (true, false) => !overlaps(&beside, other, 0.0),
+                (false, true) if placed.agent_type != AgentType::Vehicle => {
+                    !overlaps(&before(other), &outline, 0.0)
+                }
+                (false, true) => !overlaps(&near, &wide(other, MARGIN_M), 0.0),
+                (false, false)
+                    if turn > FRAC_PI_4
+                        && ![placed.agent_type, *agent_type].contains(&AgentType::Vehicle) =>
+                {
+                    !overlaps(&outline.grown(WALK_SIDE_M), other, 0.0)
+                }
+                _ => !overlaps(&near, other, 0.0),
+            }
+        };
+        self.obstacles.iter().zip(&self.kinds).all(apart) && !self.next.iter().any(in_the_way)
     }
+}
+
+/// Where nobody is on foot: a driver's box, what is beside it, and its next metres.
+fn before(driver: &OrientedBox) -> OrientedBox {
+    let center = driver.center() + driver.forward() * (0.5 * BEFORE_M);
+    let (half_length_m, half_width_m) =
+        (driver.half_length_m() + 0.5 * BEFORE_M, driver.half_width_m() + WALK_SIDE_M);
+    OrientedBox::new(center, half_length_m, half_width_m, driver.heading_rad())
 }
 
 /// Drivers wait at red lights, parked vehicles stay off the lanes, and pedestrians stand on the pavement.
@@ -60,10 +96,13 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
         }
         CellKind::Kerb | CellKind::Driveway => {
             let nose = outline.forward() * outline.half_length_m();
-            let points = [outline.center() + nose, outline.center(), outline.center() - nose];
-            points.iter().all(|p| !on_lane(*p, cells.graph))
+            let points = around(&outline).chain([outline.center() + nose, outline.center() - nose]);
+            points.chain([outline.center()]).all(|p| !on_lane(p, cells.graph))
         }
-        CellKind::Pavement => !on_lane(outline.center(), cells.graph),
+        CellKind::Pavement => {
+            let ahead = outline.center() + outline.forward() * WALK_AHEAD_M;
+            [outline.center(), ahead].iter().all(|p| !on_lane(*p, cells.graph))
+        }
         CellKind::Crosswalk => true,
     }
 }
@@ -91,6 +130,12 @@ fn is_along(point: Vec2, heading_rad: f64, graph: &LaneGraph) -> bool {
         let half_m = 0.5 * graph.lanes()[hit.lane].width_m;
         hit.distance_m < BAND * half_m && wrap_angle(hit.heading_rad - heading_rad).abs() < LONG_TURN_RAD
     })
+}
+
+/// Corners, and the middles of the long sides.
+pub(super) fn around(outline: &OrientedBox) -> impl Iterator<Item = Vec2> {
+    let left = outline.left() * outline.half_width_m();
+    outline.corners().into_iter().chain([outline.center() + left, outline.center() - left])
 }
 
 /// The point lies on the band that traffic of some lane uses.
@@ -124,8 +169,54 @@ mod tests {
 
     fn beside(other: &PlacedAgent, drives: bool) -> Neighbours {
         let mut neighbours = Neighbours::default();
-        neighbours.push(Obstacle { outline: other.outline(), speed_mps: 0.0 }, drives);
+        let lane = drives.then_some((0, other.pose.s_m));
+        neighbours.push(Obstacle { outline: other.outline(), speed_mps: 0.0 }, other.agent_type, lane);
         neighbours
+    }
+
+    fn on_foot(x_m: f64, y_m: f64, heading_rad: f64) -> PlacedAgent {
+        let (agent_type, subtype) = (AgentType::Pedestrian, Subtype::Adult);
+        let size = Size { length_m: 0.5, width_m: 0.5, height_m: None };
+        PlacedAgent { agent_type, subtype, size, ..car(x_m, y_m, heading_rad, CellKind::Pavement) }
+    }
+
+    #[test]
+    fn nobody_is_on_foot_before_or_beside_a_driver() {
+        let driver = car(10.0, 0.0, 0.0, CellKind::Lane);
+        let parked = car(10.0, 0.0, 0.0, CellKind::Kerb);
+        let free = |other: &PlacedAgent, drives: bool, walker: &PlacedAgent| {
+            let other_way = drives && !beside(walker, false).is_free(other, 2.0);
+            let free = beside(other, drives).is_free(walker, 2.0);
+            assert!(!drives || free != other_way, "the order of placing does not matter");
+            free
+        };
+        // The nose is at 12 m, the side at 1 m.
+        assert!(
+            !free(&driver, true, &on_foot(14.0, 0.0, 0.0)) && free(&driver, true, &on_foot(16.0, 0.0, 0.0))
+        );
+        assert!(
+            !free(&driver, true, &on_foot(10.0, 1.8, 0.0)) && free(&driver, true, &on_foot(10.0, 2.4, 0.0))
+        );
+        assert!(free(&driver, true, &on_foot(7.0, 0.0, 0.0)), "behind it");
+        assert!(free(&parked, false, &on_foot(12.5, 0.0, 0.0)), "a parked car stays");
+        let walker = on_foot(0.0, 0.0, 0.0);
+        assert!(beside(&walker, false).is_free(&on_foot(0.0, 0.7, 0.0), 2.0), "in company");
+        assert!(!beside(&walker, false).is_free(&on_foot(1.0, 0.0, 3.1), 2.0), "towards each other");
+    }
+
+    #[test]
+    fn drivers_pass_each_other_with_a_gap() {
+        let driver = car(10.0, 0.0, 0.0, CellKind::Lane);
+        for heading_rad in [0.0, std::f64::consts::PI] {
+            let at = |y_m| car(10.0, y_m, heading_rad, CellKind::Lane);
+            assert!(
+                !beside(&driver, true).is_free(&at(2.3), 0.0) && beside(&driver, true).is_free(&at(2.5), 0.0)
+            );
+        }
+        let parked = car(10.0, 2.3, 0.0, CellKind::Kerb);
+        assert!(
+            !beside(&parked, false).is_free(&driver, 0.0) && !beside(&driver, true).is_free(&parked, 0.0)
+        );
     }
 
     #[test]
@@ -135,7 +226,7 @@ mod tests {
         // Bumper to bumper there are 10 - x - 4 metres.
         assert!(beside(&leader, true).is_free(&at(3.9), 2.0));
         assert!(!beside(&leader, true).is_free(&at(4.1), 2.0));
-        assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap");
+        assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap along the lane");
         assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
         let across = car(10.0, 0.0, 1.0, CellKind::Lane);
         assert!(beside(&across, true).is_free(&at(4.5), 2.0), "a crossing vehicle has no follower");
@@ -164,5 +255,9 @@ mod tests {
         assert!(is_sensible(&car(30.0, 3.0, 0.0, CellKind::Kerb), &cells));
         assert!(!is_sensible(&car(30.0, 1.0, 0.0, CellKind::Kerb), &cells));
         assert!(!is_sensible(&car(30.0, 3.0, 1.5, CellKind::Driveway), &cells), "its nose is on the lane");
+        assert!(!is_sensible(&car(30.0, 2.2, 0.4, CellKind::Kerb), &cells), "its corner is on the lane");
+        assert!(is_sensible(&on_foot(30.0, 3.0, 0.0), &cells));
+        assert!(!is_sensible(&on_foot(30.0, 3.0, -1.5), &cells), "it heads for the lane");
+        assert!(is_sensible(&on_foot(30.0, 3.0, 1.5), &cells), "it heads away");
     }
 }

@@ -23,6 +23,7 @@ mod pose;
 mod random;
 mod region;
 mod request;
+mod room;
 mod speeds;
 mod stop_lines;
 

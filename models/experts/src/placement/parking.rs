@@ -2,7 +2,7 @@
 //! the street: clear of everything that is driven, walked or ridden on, of junctions, crosswalks and driveways.
 
 use super::cells::{CellKind, MapCell};
-use super::checks::on_lane;
+use super::checks::{around, on_lane};
 use super::place::Sampler;
 use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_size};
@@ -14,7 +14,6 @@ use crate::tuning::placing::parking::{
     ASKEW_RAD, BAY_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, FAST_MPS, KERB_M, LONGEST_M, NEAR_M, NOSE_IN,
     PLACE_M, ROOM_M, WIDEST_M,
 };
-use scene::geometry::obb::OrientedBox;
 use scene::map::LaneType;
 use scene::random::Stream;
 use scene::routes::graph::{GraphLane, LaneSource};
@@ -279,10 +278,4 @@ impl Sampler<'_> {
             low - DRIVEWAY_SIDE_M < start_m + PLACE_M && high + DRIVEWAY_SIDE_M > start_m
         })
     }
-}
-
-/// Corners, and the middles of the long sides.
-fn around(outline: &OrientedBox) -> impl Iterator<Item = Vec2> {
-    let left = outline.left() * outline.half_width_m();
-    outline.corners().into_iter().chain([outline.center() + left, outline.center() - left])
 }

@@ -8,9 +8,12 @@ use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_pose, draw_size};
 use super::random::{self, WeightTree, stream_name};
 use super::request::{PlaceRequest, Placement, PlacementMethod, counted, reason};
+use super::room::{self, DrivenBox};
 use super::speeds::StartSpeeds;
 use crate::planning::world::AgentAtStart;
 use crate::request::{Cancel, GenerateError};
+use crate::tuning::placing::parking::FAST_MPS;
+use scene::geometry::obb::OrientedBox;
 use scene::geometry::wrap_angle;
 use scene::random::Stream;
 use scene::routes::LaneGraph;
@@ -23,6 +26,9 @@ use std::f64::consts::PI;
 const TRIES: usize = 128;
 /// Draws of a pose in one cell that may fail before the cell counts as full.
 const CELL_TRIES: u8 = 4;
+
+/// Steps of a recording after the start in which nobody is put in a kept road user's way.
+const NEXT_STEPS: usize = 30;
 
 /// Draws cells in proportion to rates that each placed agent changes.
 pub(super) struct Sampler<'a> {
@@ -75,12 +81,15 @@ pub fn place(
             unplaced.insert(agent_type, count - done);
         }
     }
-    let speeds = sampler.speeds();
+    let (speeds, no_room) = sampler.speeds();
+    for (agent_type, count) in &no_room {
+        *unplaced.entry(*agent_type).or_default() += count;
+    }
     let mut ids = request.free_ids();
     let mut agents = sampler.agents(&speeds, &mut ids);
     agents.extend(sampler.late_comers(&mut traffic, &speeds, &kept, &mut ids, cancel)?);
     let mut reasons: Vec<String> = reason(&unplaced, full).into_iter().collect();
-    let too_slow = speeds.iter().filter(|speed| speed.is_none()).count();
+    let too_slow = speeds.iter().filter(|speed| speed.is_none()).count() - no_room.values().sum::<usize>();
     if let (1.., Some(range)) = (too_slow, request.speeds) {
         let who = counted(too_slow, AgentType::Vehicle);
         reasons.push(format!("no place where one can start at {} m/s or more for {who}", range.min_mps));
@@ -127,8 +136,14 @@ impl<'a> Sampler<'a> {
                 continue;
             };
             let lane = driven_lane(graph, present.agent_type, &present.start);
-            sampler.neighbours.push(present.obstacle(), lane.is_some());
-            lanes.extend(lane.map(|hit| (hit.lane, hit.s_m)));
+            let lane = lane.map(|hit| (hit.lane, hit.s_m));
+            let later = request.step..request.step + NEXT_STEPS;
+            let recorded =
+                later.filter_map(|step| Some(OrientedBox::of_state(&agent.state_at(step)?, &present.size)));
+            sampler.neighbours.next.extend(recorded);
+            sampler.neighbours.push(present.obstacle(), present.agent_type, lane);
+            sampler.neighbours.next.extend(room::next(graph, &DrivenBox::kept(&present, lane)));
+            lanes.extend(lane);
         }
         sampler.kept = sampler.neighbours.obstacles.len();
         for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
@@ -155,7 +170,9 @@ impl<'a> Sampler<'a> {
         let by_an_arm = agent_type == AgentType::Vehicle
             && cell.kind == CellKind::Lane
             && self.arrival_lanes.contains(&cell.line);
-        if !fits || by_an_arm {
+        let fast =
+            cell.kind == CellKind::Kerb && self.cells.graph.lanes()[cell.line].speed_limit_mps > FAST_MPS;
+        if !fits || by_an_arm || fast {
             return 0.0;
         }
         if self.model.is_none() {
@@ -213,8 +230,8 @@ impl<'a> Sampler<'a> {
     /// Settles a placed agent: later agents must keep clear of it, and it leads those behind it.
     pub(super) fn settle(&mut self, placed: PlacedAgent) {
         let obstacle = Obstacle { outline: placed.outline(), speed_mps: 0.0 };
-        self.neighbours.push(obstacle, placed.lane.is_some());
         let lane = placed.lane.map(|lane| (lane, placed.pose.s_m));
+        self.neighbours.push(obstacle, placed.agent_type, lane);
         self.placed.push(placed);
         if let Some((lane, s_m)) = lane {
             self.lead(lane, s_m);
@@ -274,11 +291,14 @@ impl<'a> Sampler<'a> {
             && (self.model.is_none() || is_sensible(placed, &self.cells))
     }
 
-    /// Speeds of the placed, m/s, in order; `None` where no speed of the wanted range is possible.
-    fn speeds(&self) -> Vec<Option<f64>> {
+    /// Speeds of the placed, m/s, in order; `None` where no speed of the wanted range is possible, or where there is no
+    /// room to brake from any: the number of those by type.
+    fn speeds(&self) -> (Vec<Option<f64>>, BTreeMap<AgentType, usize>) {
         let obstacles = self.neighbours.obstacles.clone();
         let (seed, model, kept, range) = (self.request.seed, self.model, self.kept, self.request.speeds);
-        StartSpeeds { seed, model, cells: &self.cells, placed: &self.placed, kept, obstacles, range }.draw()
+        let kinds = &self.neighbours.kinds;
+        StartSpeeds { seed, model, cells: &self.cells, placed: &self.placed, kept, obstacles, kinds, range }
+            .draw()
     }
 
     /// The placed as road users of the scene.
@@ -298,4 +318,96 @@ fn even_pose(cells: &Cells<'_>, cell: &MapCell, agent_type: AgentType, stream: &
     let left = Vec2::new(-base.direction().y, base.direction().x);
     let heading_rad = wrap_angle(base.heading_rad + if back { PI } else { 0.0 });
     Some(Pose { position: base.position + left * aside_m, heading_rad, s_m })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::placement::region::Region;
+    use crate::placement::request::{Amount, Parked};
+    use crate::weights::Files;
+    use scene::map::{Lane, LaneMap};
+    use scene::{Conditions, Scene, State, Track};
+    use std::sync::Arc;
+
+    fn model() -> PlacementModel {
+        PlacementModel::load(&Files::built_in().placement.unwrap()).unwrap()
+    }
+
+    fn road(limit_mps: f64) -> Scene {
+        let lane = |id: &str, y_m: f64, way: f64| {
+            let points: Vec<Vec2> = (-30..=30).map(|i| Vec2::new(10.0 * way * f64::from(i), y_m)).collect();
+            Lane { speed_limit_mps: Some(limit_mps), ..Lane::street(id, points) }
+        };
+        let lanes = vec![lane("east", -2.0, 1.0), lane("west", 2.0, -1.0)];
+        let edge = |id: &str, y_m: f64| scene::map::TypedLine {
+            id: id.into(),
+            line_type: "boundary".into(),
+            points: vec![Vec2::new(-300.0, y_m), Vec2::new(300.0, y_m)].into(),
+        };
+        let road_edges = vec![edge("south", -6.2), edge("north", 6.2)];
+        Scene::bare("road", LaneMap { lanes, road_edges, ..LaneMap::default() }, Vec::new())
+    }
+
+    fn placed(request: &PlaceRequest) -> Vec<Agent> {
+        let graph = LaneGraph::new(&request.scene.map);
+        place(Some(&model()), &graph, request, &Cancel::default()).unwrap().agents
+    }
+
+    #[test]
+    fn nobody_parks_beside_a_fast_road() {
+        let parked = |limit_mps: f64, share: f64| {
+            let mut request = PlaceRequest::new(Arc::new(road(limit_mps)));
+            request.amount = Amount::Each([(AgentType::Vehicle, 100)].into());
+            request.parked = Some(Parked::Share(share));
+            let is_parked = |agent: &&Agent| agent.conditions.start.position.is_none();
+            placed(&request).iter().filter(is_parked).count()
+        };
+        for share in [0.0, 0.5] {
+            assert!(parked(11.0, share) > 3, "{} parked", parked(11.0, share));
+            assert_eq!(parked(16.0, share), 0);
+        }
+    }
+
+    #[test]
+    fn nobody_in_an_area_is_put_into_a_car_or_its_way() {
+        let mut scene = road(14.0);
+        let state = |step: u32| State {
+            x_m: 1.2 * f64::from(step),
+            y_m: -5.5,
+            heading_rad: 0.0,
+            vx_mps: 12.0,
+            vy_mps: 0.0,
+        };
+        let car = Agent {
+            id: "car".into(),
+            agent_type: AgentType::Vehicle,
+            subtype: Subtype::Car,
+            role: None,
+            size: Size { length_m: 4.6, width_m: 2.0, height_m: None },
+            track: Track { first_step: 0, states: (0..91).map(|s| Some(state(s))).collect(), z_m: None }
+                .into(),
+            conditions: Conditions::default(),
+        };
+        scene.agents.push(car.clone());
+        let mut request = PlaceRequest::new(Arc::new(scene));
+        request.amount = Amount::Each([(AgentType::Pedestrian, 40)].into());
+        request.region = Region::Circle { center: Vec2::new(10.0, -6.0), radius_m: 20.0 };
+        for seed in 0..4 {
+            request.seed = seed;
+            let people = placed(&request);
+            assert!(people.len() > 10, "{}", people.len());
+            for step in 0..20 {
+                let own = OrientedBox::of_state(&car.state_at(step).unwrap(), &car.size);
+                let touches = |a: &&Agent| {
+                    scene::geometry::obb::overlaps(
+                        &own,
+                        &OrientedBox::of_state(&a.state_at(0).unwrap(), &a.size),
+                        0.0,
+                    )
+                };
+                assert_eq!(people.iter().filter(touches).count(), 0, "seed {seed}, step {step}");
+            }
+        }
+    }
 }

@@ -4,7 +4,7 @@
 use super::cells::{CellKind, Cells, MapCell};
 use super::context::PoseContext;
 use super::model::{Histogram, TypeModel};
-use crate::tuning::placing::pose::{DRIVEWAY_END_M, NARROW_KERB_M};
+use crate::tuning::placing::pose::{DRIVEWAY_END_M, LANE_SIDE_M, NARROW_KERB_M, STRAIGHT_M};
 use scene::geometry::direction;
 use scene::map::LaneType;
 use scene::random::Stream;
@@ -99,7 +99,7 @@ pub(super) fn draw_pose(
     stream: &mut Stream,
 ) -> Option<Pose> {
     let context = pose_context(cells, cell);
-    let turn_rad = draw(model.heading.get(&context), stream);
+    let mut turn_rad = draw(model.heading.get(&context), stream);
     let offset = draw(model.lateral.get(&context), stream);
     let s_m = stream.between(cell.from_m, cell.to_m);
     if cell.kind == CellKind::Driveway {
@@ -112,7 +112,16 @@ pub(super) fn draw_pose(
         CellKind::Lane if agent_type == AgentType::Cyclist && context != PoseContext::BikeLane => {
             offset - half_lane_m
         }
-        CellKind::Lane => offset,
+        CellKind::Lane => {
+            // Drivers start within their lane: what is beside it is another's.
+            let room_m = half_lane_m - LANE_SIDE_M;
+            let most_rad = ((room_m - 0.5 * size.width_m) / (0.5 * size.length_m).max(STRAIGHT_M))
+                .clamp(0.0, 1.0)
+                .asin();
+            turn_rad = turn_rad.clamp(-most_rad, most_rad);
+            let room_m = (room_m - half_across(size, turn_rad)).max(0.0);
+            offset.clamp(-room_m, room_m)
+        }
         CellKind::Kerb => {
             let half = half_across(size, turn_rad);
             let near = if context == PoseContext::NarrowKerb {

@@ -2,18 +2,20 @@
 //! each follower knows its leader's speed.
 
 use super::cells::Cells;
+use super::checks::KindOnLane;
 use super::context::SpeedContext;
-use super::driving::{SpeedRange, allowed_mps, bend_mps, leader_ahead, usual_mps};
+use super::driving::{SpeedRange, allowed_mps, leader_ahead, usual_mps};
 use super::model::{PlacementModel, SPEED_STEP, TypeModel};
 use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
+use super::room::{DrivenBox, bend_mps, brakes_from, make_room};
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
-use crate::tuning::placing::speeds::{BRAKE_MPS2, FOLLOW_AFTER_S, FOLLOW_MPS2, UNKNOWN_LEADER_MPS};
+use crate::tuning::placing::speeds::{QUEUE_M, UNKNOWN_LEADER_MPS};
 use scene::limits::Limits;
 use scene::random::Stream;
 use scene::routes::speed::Obstacle;
-use scene::{AgentType, STANDING_MPS};
-use std::collections::HashSet;
+use scene::{AgentType, STANDING_MPS, Subtype};
+use std::collections::{BTreeMap, HashSet};
 
 /// Speeds are rounded to this, m/s.
 const ROUNDING_MPS: f64 = 1e-3;
@@ -28,13 +30,16 @@ pub(super) struct StartSpeeds<'a> {
     pub(super) kept: usize,
     /// Kept road users, then the placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
+    /// Type, and lane and arc length of those that drive, of each of them.
+    pub(super) kinds: &'a [KindOnLane],
     /// Range of the start speeds of moving motor vehicles; `None` keeps the drawn ones.
     pub(super) range: Option<SpeedRange>,
 }
 
 impl StartSpeeds<'_> {
-    /// Speed of everyone placed, m/s; `None` where none in the range is possible.
-    pub(super) fn draw(mut self) -> Vec<Option<f64>> {
+    /// Speed of everyone placed, m/s; `None` where none in the range is possible, or where nobody has room to brake. How
+    /// many of each type lack that room.
+    pub(super) fn draw(mut self) -> (Vec<Option<f64>>, BTreeMap<AgentType, usize>) {
         let mut order: Vec<(f64, usize)> = Vec::new();
         for (i, placed) in self.placed.iter().enumerate() {
             let ahead = placed.lane.map(|l| self.cells.lights.ahead(self.cells.graph, l, placed.pose.s_m));
@@ -52,8 +57,28 @@ impl StartSpeeds<'_> {
         for (_, i) in order {
             self.draw_after_leader(i, &mut begun);
         }
-        let speeds = self.obstacles[self.kept..].iter().zip(self.placed);
-        speeds.map(|(o, placed)| self.may_start(placed, o.speed_mps).then_some(o.speed_mps)).collect()
+        let mut movers: Vec<DrivenBox> = (0..self.obstacles.len()).map(|i| self.mover(i)).collect();
+        let left_out = make_room(self.cells.graph, &mut movers);
+        let (movers, left_out) = (&movers[self.kept..], &left_out[self.kept..]);
+        let mut no_room = BTreeMap::new();
+        for (mover, _) in movers.iter().zip(left_out).filter(|(_, out)| **out) {
+            *no_room.entry(mover.agent_type).or_default() += 1;
+        }
+        let speeds = movers.iter().zip(left_out).zip(self.placed).map(|((mover, out), placed)| {
+            // Rounded down: up could take away the room.
+            let speed_mps = rounded((mover.speed_mps / ROUNDING_MPS + 1e-6).floor() * ROUNDING_MPS, 1e3);
+            (!out && self.may_start(placed, speed_mps)).then_some(speed_mps)
+        });
+        (speeds.collect(), no_room)
+    }
+
+    /// One of the obstacles.
+    fn mover(&self, i: usize) -> DrivenBox {
+        let Obstacle { outline, speed_mps } = self.obstacles[i];
+        let (agent_type, lane) = self.kinds[i];
+        let subtype = i.checked_sub(self.kept).map_or_else(Subtype::default, |at| self.placed[at].subtype);
+        let limits = Limits::of(agent_type, subtype, 2.0 * outline.half_length_m());
+        DrivenBox { agent_type, limits, outline, speed_mps, lane, kept: i < self.kept }
     }
 
     /// Draws the speed of one road user, after that of the leader. A ring of leaders is cut where it began.
@@ -105,21 +130,18 @@ impl StartSpeeds<'_> {
         }
         let ahead = self.cells.lights.ahead(self.cells.graph, lane, placed.pose.s_m);
         let unit_mps = allowed_mps(self.cells.graph, lane, placed.pose.s_m, placed.agent_type);
-        let mut most = limits.speed_mps;
-        let brakes_from =
-            |room_m: f64, to_mps: f64| (to_mps * to_mps + 2.0 * BRAKE_MPS2 * room_m.max(0.0)).sqrt();
-        if let Some((gap_m, leader_mps)) = leader {
-            most = most.min(follows_at(gap_m - 1.0, leader_mps));
-        }
-        if let LineAhead::StopLine(StopControl::Red, m) = ahead {
-            most = most.min(brakes_from(m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
+        let mut most = limits.speed_mps.min(bend_mps(self.cells.graph, &self.mover(self.kept + i)));
+        if let LineAhead::StopLine(StopControl::Red | StopControl::StopSign, m) = ahead {
+            most = most.min(brakes_from(&limits, m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
         }
         let drawn = match (placed.free_mps, model) {
             (Some(free_mps), _) => free_mps,
             (None, Some(model)) => {
                 let context = SpeedContext::driver(ahead.road_ahead(), leader);
-                // An agent stands inside a junction only for a cause in the scene.
-                let slowest = usize::from(matches!(ahead, LineAhead::Inside(_)));
+                // An agent stands on a free road or inside a junction only for a cause in the scene.
+                let queues = leader.is_some_and(|(gap_m, _)| gap_m < QUEUE_M);
+                let free = matches!(ahead, LineAhead::Inside(_)) || !ahead.queues() && !queues;
+                let slowest = usize::from(free);
                 drawn_speed(model, context, slowest, unit_mps, f64::INFINITY, stream)
             }
             (None, None) => unit_mps,
@@ -129,8 +151,7 @@ impl StartSpeeds<'_> {
             Some(range) if drawn > 0.0 => drawn.clamp(range.min_mps, range.max_mps),
             _ => drawn,
         };
-        let bend_mps = range.map_or(f64::INFINITY, |_| bend_mps(self.cells.graph, lane, placed.pose.s_m));
-        standing_or(wanted.min(most).min(bend_mps))
+        standing_or(wanted.min(most))
     }
 
     fn walk_speed(&self, i: usize, stream: &mut Stream) -> f64 {
@@ -148,13 +169,6 @@ impl StartSpeeds<'_> {
             None => 0.7 * unit_mps,
         }
     }
-}
-
-/// The speed from which one brakes for a leader without haste: after a moment, and gently.
-fn follows_at(room_m: f64, leader_mps: f64) -> f64 {
-    let moment_mps = FOLLOW_MPS2 * FOLLOW_AFTER_S;
-    (moment_mps * moment_mps + leader_mps * leader_mps + 2.0 * FOLLOW_MPS2 * room_m.max(0.0)).sqrt()
-        - moment_mps
 }
 
 /// A speed for the situation or the next more general one that is known, of the class `slowest` (0 stands) or a faster
@@ -186,15 +200,6 @@ fn standing_or(speed_mps: f64) -> f64 {
 mod tests {
     use super::*;
 
-    #[test]
-    fn who_follows_can_brake_gently() {
-        for (room_m, leader_mps) in [(0.0, 0.0), (1.4, 6.0), (8.8, 0.0), (40.0, 10.0)] {
-            let speed_mps = follows_at(room_m, leader_mps);
-            let needed_m = speed_mps * FOLLOW_AFTER_S
-                + (speed_mps * speed_mps - leader_mps * leader_mps) / (2.0 * FOLLOW_MPS2);
-            assert!(speed_mps >= 0.0 && (needed_m - room_m).abs() < 1e-9, "{speed_mps} m/s, {room_m} m");
-        }
-    }
     use crate::placement::context::RoadAhead;
     use crate::placement::model::SPEED_CLASSES;
 

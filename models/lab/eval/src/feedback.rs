@@ -297,6 +297,6 @@ mod tests {
         let (random, seeds) = (sum(|r| r.random), sum(|r| r.seeds));
         let figures = format!("{told} told, {why} with why, {random} at random, {seeds} by new seeds");
         assert!(found.len() > 12, "{} people: {figures}", found.len());
-        assert!(3.0 * told <= seeds && 2.0 * told <= random && 2.0 * why <= random, "{figures}");
+        assert!(2.5 * told <= seeds && 2.0 * told <= random && 2.0 * why <= random, "{figures}");
     }
 }

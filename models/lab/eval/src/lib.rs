@@ -21,6 +21,7 @@ mod coherence;
 mod control;
 pub mod cost;
 mod feedback;
+pub mod filled;
 pub mod measure;
 mod parked;
 pub mod picture;

@@ -37,6 +37,9 @@ pub enum LabCommand {
     /// Evaluate the placement on recorded scenes.
     #[command(after_help = examples!("dragtraffic lab eval-place recordings/", "dragtraffic lab eval-place recordings/ --radius 80 --seeds 8 --json"))]
     EvalPlace(placement::EvalPlaceArgs),
+    /// Evaluate filled scenes: road users placed on templates and on the maps of scenes, generated together.
+    #[command(after_help = examples!("dragtraffic lab eval-filled assets/scenes/", "dragtraffic lab eval-filled assets/scenes/ --draws 52 --list"))]
+    EvalFilled(placement::EvalFilledArgs),
     /// Evaluate the experts on scenes, in tables and pictures.
     #[command(after_help = examples!("dragtraffic lab eval recordings/ --tables 1,2 -o tables/", "dragtraffic lab eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
     Eval(eval::EvalArgs),
@@ -64,6 +67,7 @@ impl LabCommand {
             Self::Train(args) => train::train(args, common),
             Self::TrainPlacement(args) => placement::train_placement(args, common),
             Self::EvalPlace(args) => placement::eval_place(args, common),
+            Self::EvalFilled(args) => placement::eval_filled(args, common),
             Self::Eval(args) => eval::eval(args, common),
             Self::Reproduce(args) => reproduce::reproduce(args, common),
             Self::Bench(args) => eval::bench(args, common),

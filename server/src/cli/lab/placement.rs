@@ -1,4 +1,4 @@
-//! `dragtraffic lab train-placement` and `eval-place`.
+//! `dragtraffic lab train-placement`, `eval-place` and `eval-filled`.
 
 use super::{SceneArgs, failed, print_json, scenes};
 use crate::cli::inputs::patterns;
@@ -40,6 +40,19 @@ pub struct EvalPlaceArgs {
     json: bool,
 }
 
+/// Flags of `eval-filled`.
+#[derive(Args, Clone, Debug)]
+pub struct EvalFilledArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+    /// Number of filled scenes; templates and maps take turns.
+    #[arg(long, default_value_t = 200)]
+    draws: u64,
+    /// List each fault with its road users.
+    #[arg(long)]
+    list: bool,
+}
+
 /// Learns the placement weights.
 ///
 /// # Errors
@@ -75,4 +88,14 @@ pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
     } else {
         output::print(lab_eval::placement::markdown(&report).as_bytes())
     }
+}
+
+/// Fills templates and the maps of scenes, generates them and prints their faults.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn eval_filled(args: EvalFilledArgs, common: &Common) -> Result<(), Failure> {
+    let maps = lab_eval::filled::maps(&scenes(&args.scenes)?).map_err(failed)?;
+    let all = lab_eval::filled::eval(&common.engine()?, &maps, args.draws).map_err(failed)?;
+    output::print(lab_eval::filled::markdown(&all, args.list).as_bytes())
 }

@@ -8,7 +8,7 @@ use sheets::Quality;
 use super::measure::{
     Measured, can_be_followed, given_motion, is_met, is_outside_limits, left_to_goal, measure,
 };
-use super::parked::parked;
+use super::parked::{parked, standing};
 use super::picture;
 use super::rivals::{Rival, learned};
 use super::table::{Made, TableSpec, Trial};
@@ -27,6 +27,7 @@ fn make(trial: &mut Trial<'_>) -> Result<Made> {
     let outcomes = collect(trial.entrants(), &trial.sites, trial.seed)?;
     let mut sheets = Quality::new(trial.entrants(), &outcomes, &trial.boot).sheets();
     sheets.push(parked(&trial.judged, &trial.sites, &trial.boot, trial.seed)?);
+    sheets.push(standing(&trial.judged, &trial.sites, &trial.boot, trial.seed)?);
     let pictures = match trial.judged.first().filter(|_| trial.pictures) {
         Some(own) => picture::of_outcomes(&own.generator, &trial.sites, &outcomes, trial.seed)?,
         None => Vec::new(),
