@@ -12,6 +12,8 @@ use std::sync::{Arc, LazyLock};
 
 #[path = "generator/crossing.rs"]
 mod crossing;
+#[path = "generator/driving.rs"]
+mod driving;
 #[path = "generator/evading.rs"]
 mod evading;
 #[path = "generator/leaks.rs"]

@@ -21,6 +21,12 @@ journeys('judging', (stage) => {
     const badge = e.page
       .getByRole('button', { name: new RegExp(`^Collision \\d\\.\\d s: .*\\b${car.name}\\b`) })
       .first();
+    // The shown future stops short of the other car; the collision is among the six.
+    const futures = e.page.locator('.fu');
+    for (let i = 0; i < (await futures.count()) && !(await badge.isVisible()); i++) {
+      await futures.nth(i).click();
+      await e.settled();
+    }
     await badge.waitFor();
     const [, at] = /Collision (\d\.\d) s/.exec(await badge.getAttribute('aria-label'));
     await badge.click();

@@ -38,6 +38,8 @@ pub(super) enum CandidateOrigin {
     Swerving(Slot),
     /// A motion on the path of this mode that stops before what is in its way.
     Stopping(Slot),
+    /// A motion on the path of this mode that stays behind those ahead and after those that cross first.
+    Following(Slot),
 }
 
 impl CandidateOrigin {
@@ -51,7 +53,8 @@ impl CandidateOrigin {
             | Self::Settled(slot)
             | Self::Guided(slot)
             | Self::Swerving(slot)
-            | Self::Stopping(slot) => Some(slot),
+            | Self::Stopping(slot)
+            | Self::Following(slot) => Some(slot),
         }
     }
 

@@ -3,8 +3,9 @@
 
 use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
+use crate::tuning::fixed::choice::MOST_MOMENTS;
 use scene::motion::Trajectory;
-use scene::score::{Overlap, SweptBoxes, overlap};
+use scene::score::{SweptBoxes, dangerous_moments, overlap};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -142,7 +143,7 @@ impl Choice<'_> {
     fn own_costs(&self) -> Vec<Vec<f64>> {
         let against = |option: &JointOption| -> f64 {
             let fixed = self.fixed.iter().filter(|_| !option.kept);
-            fixed.map(|f| price(overlap(option.boxes(), f), self.tuning)).sum()
+            fixed.map(|f| price(option.boxes(), f, self.tuning)).sum()
         };
         self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
@@ -182,19 +183,20 @@ impl Pairs<'_> {
             if one.kept && other.kept {
                 return 0.0;
             }
-            price(overlap(one.boxes(), other.boxes()), tuning)
+            price(one.boxes(), other.boxes(), tuning)
         })
     }
 }
 
-fn price(found: Overlap, tuning: &ChoiceTuning) -> f64 {
+/// Cost of a meeting of two motions.
+pub(super) fn price(a: &SweptBoxes, b: &SweptBoxes, tuning: &ChoiceTuning) -> f64 {
+    let found = overlap(a, b);
     if found.overlaps {
-        tuning.overlap + tuning.close
-    } else if found.close {
-        tuning.close
-    } else {
-        0.0
+        return tuning.overlap + tuning.close;
     }
+    let close = if found.close { tuning.close } else { 0.0 };
+    let danger = if tuning.near_miss > 0.0 { dangerous_moments(a, b) } else { 0 };
+    close + tuning.near_miss * (danger as f64).min(MOST_MOMENTS) / MOST_MOMENTS
 }
 
 fn least(costs: impl Iterator<Item = f64>) -> usize {

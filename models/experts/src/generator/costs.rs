@@ -63,16 +63,32 @@ pub(super) fn options(
     let shown_rule_cost = candidates.iter().position(is_shown).map_or(0.0, |shown| rule_cost[shown]);
     let option = |((c, cost), rule_cost): ((&MotionCandidate, f64), &f64)| {
         let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
-        // Where the others are alike, a swerving motion is far from all of them.
+        let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
+        let goes = actor.plan.target.position.is_some();
         let cost = match c.origin {
-            CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) => cost.min(tuning.most_swerving),
-            CandidateOrigin::Stopping(_) => {
-                tuning.stopping + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
+            // Where the others are alike, a swerving motion is far from all of them.
+            CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) => {
+                cost.min(tuning.most_swerving + missed)
             }
+            // What reaches the same goal is no worse for being far from the rest.
+            CandidateOrigin::Mode(_) | CandidateOrigin::Guided(_) if goes => {
+                cost.min(tuning.most_central + missed)
+            }
+            CandidateOrigin::Following(_) => tuning.following + missed,
+            CandidateOrigin::Stopping(_) => tuning.stopping + missed,
             _ => cost,
         };
         let binds = if *rule_cost < shown_rule_cost - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
-        let cost = if c.origin.is_given() { 0.0 } else { cost + rule_cost + binds * switching(c, by) };
+        let leaves_rest = if actor.rests
+            && c.origin != CandidateOrigin::Rest
+            && actor.plan.present.agent_type == AgentType::Vehicle
+        {
+            tuning.leaving_rest
+        } else {
+            0.0
+        };
+        let cost = cost + rule_cost + leaves_rest + binds * switching(c, by);
+        let cost = if c.origin.is_given() { 0.0 } else { cost };
         JointOption { sweep, cost, rule_cost: *rule_cost, kept: c.origin == CandidateOrigin::Kept }
     };
     candidates.iter().zip(costs).zip(&rule_cost).map(option).collect()

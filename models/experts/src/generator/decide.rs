@@ -1,6 +1,5 @@
 //! One future for each actor, once the drafts are refined.
 
-use super::actor::PlannedActor;
 use super::candidates::{CandidateOrigin, MotionCandidate, own, shown};
 use super::choice::{Choice, JointOption};
 use super::costs::{Yardstick, options};
@@ -8,30 +7,35 @@ use super::decisions::{Decided, Decisions};
 use super::guidance::guided;
 use super::joint_drafts::JointDrafts;
 use super::motion::Sweep;
-use super::others::{ChangedMotion, Reacted, caused, reaction_of};
+use super::others::{ChangedMotion, Reacted, caused, following, reaction_of};
 use super::replan::{ReplanField, stop_before, swerve};
 use super::repulsion::{Outline, outlines};
 use super::road_rules::{is_against_traffic, leaves_the_road};
-use super::trajectory::Rollout;
+use super::slot::Slot;
+use super::trajectory::{Rollout, short_along};
+use super::verdict::{faults, window_judge};
+use crate::features::agent::AgentPlan;
+use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
-use scene::geometry::obb::{OrientedBox, overlaps};
-use scene::judge::Judge;
-use scene::score::{SweptBoxes, overlap};
-use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
+use crate::tuning::fixed::following::BRAKES;
+use scene::judge::{FaultKind, Judge};
+use scene::motion::MotionKind;
+use scene::score::{SweptBoxes, dangerous_moments, overlap};
+use scene::{AgentId, Future, STEP_S, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Motions of one actor that are replanned in a round.
 const MOST_TRIED: usize = 2;
+/// Futures that are looked at in place of one with a fault.
+const MOST_JUDGED: usize = 10;
 /// Rounds of replanning: an agent that swerves for one may meet another.
 const MOST_ROUNDS: usize = 2;
 
 /// Chooses one candidate for each actor, and the reactions of the others.
 pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let setting = of.setting;
-    let scene = &setting.world.scene;
-    let steps = setting.world.step..setting.world.step + HORIZON_STEPS + 1;
-    let judge = Judge::new(&scene.map, &scene.signals, &setting.map.drivable, steps);
+    let judge = window_judge(&setting.world, setting);
     let fixed: Vec<&SweptBoxes> = of.others.kept().map(Sweep::swept).collect();
     let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
     let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
@@ -58,6 +62,7 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
         })
     };
     let settled = replan_rounds(rounds, &mut table, first, replan, OptionTable::settled);
+    let settled = table.without_fault(settled);
     table.decisions(settled, &blockers)
 }
 
@@ -112,6 +117,70 @@ impl OptionTable<'_> {
             .collect();
         let reacted = self.of.others.reactions(&changed.iter().collect::<Vec<_>>());
         Settled { chosen, causes, changed, reacted }
+    }
+
+    /// The same choice where the future of the only agent that is asked for has no fault; else the least costly one in
+    /// which it has none, where there is one. What reaches the goal comes before what stops short of it.
+    fn without_fault(&self, settled: Settled) -> Settled {
+        let stages = &self.of.setting.request.stages;
+        let free = |i: &usize| self.of.actors[*i].kept.is_none() && !self.of.actors[*i].keeps_still();
+        let asked: Vec<usize> = self.of.indices().into_iter().filter(free).collect();
+        let &[i] = &asked[..] else { return settled };
+        let goes = self.of.actors[i].plan.target.position.is_some();
+        if !goes || !stages.judged || stages.shown != Shown::Chosen {
+            return settled;
+        }
+        let worst = self.worst_fault(i, &settled);
+        if worst.is_none_or(|worst| worst > FaultKind::NearMiss) {
+            return settled;
+        }
+        let chosen = settled.chosen[i];
+        let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
+        let costs = &self.choice.agents[i];
+        let mut order: Vec<usize> = (0..costs.len()).filter(|o| *o != chosen).collect();
+        let another = |o: usize| !matches!(self.candidates[i][o].origin, CandidateOrigin::Shown(_));
+        order.sort_by(|a, b| {
+            let rank = |o: usize| (misses(o), another(o));
+            rank(*a).cmp(&rank(*b)).then(costs[*a].cost.total_cmp(&costs[*b].cost))
+        });
+        let mut best = (worst, settled);
+        for o in order.into_iter().take(MOST_JUDGED) {
+            if misses(o) && best.0.is_none_or(|worst| worst > FaultKind::Collision) {
+                break;
+            }
+            let mut chosen = best.1.chosen.clone();
+            chosen[i] = o;
+            let next = self.settled(chosen);
+            let worst = self.worst_fault(i, &next);
+            if worst.is_none() {
+                return next;
+            }
+            if worst > best.0 {
+                best = (worst, next);
+            }
+        }
+        best.1
+    }
+
+    /// The worst fault of the chosen motion of an actor.
+    fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
+        let setting = self.of.setting;
+        let start = setting.world.step;
+        let acting = |(j, option): (usize, &usize)| {
+            let (actor, motion) = (&self.of.actors[j], &self.candidates[j][*option]);
+            let changes = motion.origin != CandidateOrigin::Kept;
+            let future = || Future::bare(1.0, start + 1, setting.cut(&motion.motion.states));
+            (changes && j != i).then(|| (actor.plan.present.index, future()))
+        };
+        let reacted = settled.reacted.iter().map(|reacted| {
+            let left = setting.steps_left().saturating_sub(reacted.enters);
+            let states = reacted.states.iter().take(left).copied().collect();
+            (reacted.index, Future::bare(1.0, start + reacted.enters + 1, states))
+        });
+        let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
+        let motion = &self.candidates[i][settled.chosen[i]].motion.states;
+        let faults = faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed);
+        faults.iter().map(|fault| fault.kind).min()
     }
 
     fn change(&self, i: usize, taken: &MotionCandidate, sweep: Arc<Sweep>) -> ChangedMotion {
@@ -210,20 +279,19 @@ impl OptionTable<'_> {
         let own = &settled.changed[i].sweep;
         let is_met = |o: &Sweep| own.starts_apart(o) && own.meets(o);
         let met = others.iter().find(|(_, sweep)| is_met(sweep));
-        let meets = met.is_some() || all.iter().any(|o| is_met(o));
+        let endangers = |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()) > 0;
+        let collides = met.is_some() || all.iter().any(|o| is_met(o));
+        let meets = collides || all.iter().any(endangers);
         // Without a goal nothing is missed by waiting behind an agent in the lawful way.
         let free = actor.plan.target.position.is_none();
         let leaves = leaves_the_road(actor, &shown.motion);
         let breaks = free && (leaves || is_against_traffic(actor, &shown.motion));
         if !meets && !leaves && !breaks {
-            return (Vec::new(), None);
+            return (self.behind_others(i, settled, &all), None);
         }
         // With reactions off a replaying agent does not yield, so stopping for it would hide that the goal is reachable.
         let may_react = setting.request.react != React::Nobody;
-        let stops = breaks
-            || meets
-                && (may_react || met.is_some_and(|(_, sweep)| sweep.stands()))
-                && !is_asked_to_meet(actor, &shown.motion, &all);
+        let stops = breaks || collides && (may_react || met.is_some_and(|(_, sweep)| sweep.stands()));
         let size = &actor.plan.present.size;
         let is_clear = |c: &MotionCandidate| {
             let sweep = Sweep::of_rollout(&c.motion.states, size);
@@ -245,6 +313,7 @@ impl OptionTable<'_> {
         let tried = order.into_iter().filter_map(|o| Some((o, candidates[o].origin.slot()?)));
         for (o, slot) in tried.take(MOST_TRIED) {
             let states = &candidates[o].motion.states;
+            found.extend(self.follows(i, o, slot, &all));
             let mut add = |origin, motion: Option<Rollout>| {
                 found.extend(motion.map(|motion| MotionCandidate { probability: 0.0, origin, motion }));
             };
@@ -255,6 +324,41 @@ impl OptionTable<'_> {
             }
         }
         (found, met.map(|(id, _)| (*id).clone()))
+    }
+
+    /// What was meant, where the choice left it for another motion because of an agent that it meets, driven behind
+    /// that agent.
+    fn behind_others(&self, i: usize, settled: &Settled, all: &[&Sweep]) -> Vec<MotionCandidate> {
+        let options = &self.choice.agents[i];
+        let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
+        let meant =
+            meant.filter(|o| *o != settled.chosen[i] && self.of.actors[i].plan.target.position.is_none());
+        let slot = |o: usize| Some((o, self.candidates[i][o].origin.slot()?));
+        let found = meant.and_then(slot).and_then(|(o, slot)| self.follows(i, o, slot, all));
+        found.into_iter().collect()
+    }
+
+    /// The motion of an option, driven behind the agents that it meets with as little braking as that takes.
+    fn follows(&self, i: usize, option: usize, slot: Slot, all: &[&Sweep]) -> Option<MotionCandidate> {
+        let plan = &self.of.actors[i].plan;
+        if plan.model.kind != MotionKind::Drive {
+            return None;
+        }
+        let own = &self.choice.agents[i][option].sweep;
+        let is_met = |sweep: &Sweep| {
+            let met = |o: &Sweep| sweep.meets(o) || dangerous_moments(sweep.swept(), o.swept()) > 0;
+            all.iter().any(|o| own.starts_apart(o) && met(o))
+        };
+        if !is_met(own) {
+            return None;
+        }
+        let brakes = BRAKES.map(|share| share * plan.model.limits.brake_mps2);
+        let mut motions =
+            brakes.into_iter().filter_map(|brake| Some(driven(plan, &following(own, all, brake)?)));
+        let motion =
+            motions.find(|motion| !is_met(&Sweep::of_rollout(&motion.states, &plan.present.size)))?;
+        let motion = motion.with_reason_of(self.candidates[i][option].motion.reach);
+        Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Following(slot), motion })
     }
 
     /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each
@@ -348,14 +452,11 @@ impl OptionTable<'_> {
     }
 }
 
-/// Another agent is at the goal when it is due: the request asks to meet it there.
-fn is_asked_to_meet(actor: &PlannedActor, motion: &Rollout, others: &[&Sweep]) -> bool {
-    let target = &actor.plan.target;
-    let there = motion.states.get(target.step).filter(|_| target.position.is_some());
-    there.is_some_and(|state| {
-        let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
-        others.iter().filter_map(|other| other.at(target.step)).any(|place| overlaps(&outline, place, 0.0))
-    })
+/// States of a motion, one a step, as the agent can drive them.
+fn driven(plan: &AgentPlan, states: &[State]) -> Rollout {
+    let last = states.len().saturating_sub(1);
+    let centre = |i: usize| states[((i + 1) * PER_INSTANT).min(last)].position();
+    short_along(plan, &std::array::from_fn(centre), true)
 }
 
 #[cfg(test)]

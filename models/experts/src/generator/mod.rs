@@ -1,6 +1,7 @@
 //! The generator: three experts behind their gate, and calls that yield events.
 
 mod actor;
+mod calibration;
 mod candidates;
 mod cast;
 mod choice;
@@ -19,6 +20,7 @@ mod guidance;
 mod joint_drafts;
 mod kerb;
 mod motion;
+mod moving_off;
 mod noise;
 mod others;
 mod overlaps;
@@ -36,6 +38,7 @@ mod stepping_out;
 mod subgoal;
 mod trajectory;
 mod variations;
+mod verdict;
 mod via_steering;
 mod window_setting;
 mod workers;

@@ -92,11 +92,13 @@ fn who_has_no_goal_waits_in_its_lane_and_not_in_the_one_of_those_who_come() {
 }
 
 #[test]
-fn a_collision_that_is_asked_for_is_given() {
+fn a_goal_on_an_agent_that_stands_is_stopped_short_of_and_the_collision_is_among_the_six() {
     let scene = blocked(street(), -6.0);
     let answer = run(&GENERATOR, only_the_first(scene.clone()));
-    assert!(matches!(answer.resolved["1"].reach, ReachReport::Reached { .. }));
-    assert!(meets(&scene, shown(&answer)));
+    let ReachReport::Unreachable { with, .. } = &answer.resolved["1"].reach else { panic!("reached") };
+    assert_eq!(with.as_deref(), Some("2"));
+    assert!(!meets(&scene, shown(&answer)));
+    assert!(answer.samples[0].agents["1"].modes.iter().any(|future| meets(&scene, future)));
 }
 
 #[test]

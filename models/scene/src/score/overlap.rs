@@ -1,8 +1,9 @@
 //! Do two motions overlap? The quick answer that the choice of futures asks for thousands of pairs.
 
-use crate::geometry::Vec2;
-use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, overlaps};
+use crate::geometry::{Vec2, rotate, wrap_angle};
 use crate::{Size, State};
+use std::f64::consts::FRAC_PI_6;
 
 /// "Close" boxes come nearer than this, metres.
 pub const CLOSE_M: f64 = 0.5;
@@ -47,6 +48,10 @@ pub struct SweptBoxes {
     boxes: Vec<Option<OrientedBox>>,
     whole: Bounds,
     chunks: Vec<Bounds>,
+    /// Diagonal of the first box's upright rectangle, metres.
+    extent_m: f64,
+    /// Greatest speed between two moments of [`MOMENT_S`], m/s.
+    top_mps: f64,
 }
 
 impl SweptBoxes {
@@ -54,7 +59,13 @@ impl SweptBoxes {
     pub fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
         let whole = Bounds::of(&boxes);
         let chunks = boxes.chunks(CHUNK).map(Bounds::of).collect();
-        Self { boxes, whole, chunks }
+        let extent_m = boxes.iter().flatten().next().map_or(0.0, |b| 2.0 * b.upright_half_extents().norm());
+        let moved = |w: &[Option<OrientedBox>]| match w {
+            [Some(from), Some(to)] => (to.center() - from.center()).norm(),
+            _ => 0.0,
+        };
+        let top_mps = boxes.windows(2).map(moved).fold(0.0, f64::max) / MOMENT_S;
+        Self { boxes, whole, chunks, extent_m, top_mps }
     }
 
     /// From states at those moments.
@@ -85,6 +96,93 @@ pub struct Overlap {
     pub overlaps: bool,
     /// The boxes come nearer than [`CLOSE_M`] at some moment; true whenever `overlaps` is.
     pub close: bool,
+}
+
+/// Seconds between two moments of the swept boxes that [`threatens`] compares.
+pub const MOMENT_S: f64 = 0.3;
+/// A moment of two motions is dangerous by these bounds, those of a near miss: time until they touch if both go on as
+/// they do, seconds; closing speed, m/s; braking with which a follower is safe, m/s2.
+const SOON_S: f64 = 1.5;
+const CLOSING_MPS: f64 = 1.0;
+const FOLLOWS_MPS2: f64 = 3.35;
+/// A motion that stays within this is parked, and passed without danger, metres.
+const PARKED_M: f64 = 1.0;
+/// Half the length below which a box is a walker's: two of them never near-miss each other, metres.
+const WALKER_M: f64 = 0.6;
+/// Looks into the next moments, seconds.
+const LOOKS_S: [f64; 5] = [0.3, 0.6, 0.9, 1.2, 1.5];
+
+/// A box that moves on as it does.
+struct Going<'a> {
+    outline: &'a OrientedBox,
+    velocity: Vec2,
+    turn_radps: f64,
+}
+
+impl<'a> Going<'a> {
+    fn at(boxes: &'a [Option<OrientedBox>], moment: usize) -> Option<Self> {
+        let before = boxes.get(moment.checked_sub(1)?)?.as_ref()?;
+        let outline = boxes.get(moment)?.as_ref()?;
+        let velocity = (outline.center() - before.center()) / MOMENT_S;
+        let turn_radps = wrap_angle(outline.heading_rad() - before.heading_rad()) / MOMENT_S;
+        Some(Self { outline, velocity, turn_radps })
+    }
+
+    fn later(&self, time_s: f64) -> OrientedBox {
+        let turned = self.turn_radps * time_s;
+        let center = self.outline.center() + rotate(self.velocity * time_s, 0.5 * turned);
+        let heading = self.outline.heading_rad() + turned;
+        OrientedBox::new(center, self.outline.half_length_m(), self.outline.half_width_m(), heading)
+    }
+
+    /// They touch soon if both go on as they do, and no easy braking of a follower prevents it.
+    fn threatens(&self, other: &Self) -> bool {
+        let relative = self.velocity - other.velocity;
+        let speed = relative.norm();
+        if speed <= CLOSING_MPS || circle_gap(self.outline, other.outline) > SOON_S * speed {
+            return false;
+        }
+        let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
+        let closing = relative.dot(&towards);
+        if closing <= CLOSING_MPS {
+            return false;
+        }
+        let turn = wrap_angle(self.outline.heading_rad() - other.outline.heading_rad()).abs();
+        let follows = turn < FRAC_PI_6 && towards.dot(&self.outline.forward()).abs() > 0.7;
+        if follows && closing * closing / (2.0 * gap_m.max(0.05)) <= FOLLOWS_MPS2 {
+            return false;
+        }
+        LOOKS_S.iter().any(|t| overlaps(&self.later(*t), &other.later(*t), 0.0))
+    }
+}
+
+/// Moments at which two motions, neither of them parked, would soon touch if both went on as they do then: what scores
+/// call a near miss, at the boxes of the choice.
+pub fn dangerous_moments(a: &SweptBoxes, b: &SweptBoxes) -> usize {
+    let walks =
+        |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
+    if walks(a) && walks(b) {
+        return 0;
+    }
+    let parked = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
+    let margin_m = SOON_S * (a.top_mps + b.top_mps);
+    if parked(a) || parked(b) || !a.whole.near(&b.whole, margin_m) {
+        return 0;
+    }
+    let mut found = 0;
+    for (chunk, (in_a, in_b)) in a.chunks.iter().zip(&b.chunks).enumerate() {
+        if !in_a.near(in_b, margin_m) {
+            continue;
+        }
+        let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
+        found += moments
+            .filter(|&i| {
+                let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
+                pair.is_some_and(|(a, b)| a.threatens(&b))
+            })
+            .count();
+    }
+    found
 }
 
 /// Overlap of two motions at their common moments. Motions with separate bounding rectangles cost four

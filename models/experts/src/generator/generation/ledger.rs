@@ -286,9 +286,9 @@ fn first_of(
     reach: &ReachReport,
 ) -> AgentProgress {
     let mut futures = if later {
-        window.futures(0, &[MotionCandidate { probability: 1.0, ..decided.shown().clone() }])
+        window.futures(actor, 0, &[MotionCandidate { probability: 1.0, ..decided.shown().clone() }])
     } else {
-        window.futures(decided.chosen, &decided.alternatives)
+        window.futures(actor, decided.chosen, &decided.alternatives)
     };
     futures.reaction.clone_from(&decided.reaction);
     let absent = window.setting.world.step - window.setting.request.start_step - executed.len();

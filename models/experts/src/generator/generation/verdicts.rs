@@ -4,6 +4,7 @@
 use super::future_relations::ShownAgents;
 use super::ledger::Instead;
 use super::targets::due;
+use crate::generator::verdict::{AWAY_M, as_taken};
 use crate::generator::workers::WorkerPool;
 use crate::maps::KnownMap;
 use crate::planning::MODES;
@@ -11,10 +12,6 @@ use crate::request::Request;
 use scene::judge::{About, Judge, Other, by_weight};
 use scene::score::Actor;
 use scene::{Agent, Future, STEP_S, Sample, Vec2};
-
-/// An agent farther than this from all futures can meet none of them, metres: half a long vehicle, and as much for the near
-/// miss.
-const AWAY_M: f64 = 25.0;
 
 /// So many futures are judged by several threads: more than one road user has.
 const MANY: usize = MODES + 1;
@@ -78,15 +75,6 @@ pub(super) fn judge(
 /// its log.
 fn as_shown<'a>(request: &'a Request, sample: &'a Sample, agent: &'a Agent) -> Actor<'a> {
     as_taken(request, agent, sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen)))
-}
-
-/// A road user with a new motion; without one with the future that the scene keeps, or its log.
-fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&'a Future>) -> Actor<'a> {
-    let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
-    match new.or_else(kept) {
-        Some(future) => Actor::of_future(agent, future, &[]),
-        None => Actor::of_log(agent),
-    }
 }
 
 /// Upright rectangle about all futures of a sample.

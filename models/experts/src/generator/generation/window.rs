@@ -1,6 +1,7 @@
 //! One planning window: the stages from its cast to its decisions, each a function of what the stage before made.
 
 use crate::generator::actor::PlannedActor;
+use crate::generator::calibration::calibrated;
 use crate::generator::candidates::{MotionCandidate, learned_share, middle};
 use crate::generator::cast::{MOST_ACTORS, WindowCast};
 use crate::generator::decide::decide;
@@ -11,13 +12,14 @@ use crate::generator::draft_traces::trace_of_mode;
 use crate::generator::drafting::{Batch, encode, first_drafts, refine};
 use crate::generator::drafts::Drafts;
 use crate::generator::joint_drafts::JointDrafts;
+use crate::generator::moving_off::decide_departures;
 use crate::generator::others::{Others, Reacted, replanned};
 use crate::generator::road_rules::starts_on_the_road;
 use crate::generator::slot::Slot;
 use crate::generator::window_setting::WindowSetting;
 use crate::request::{Draft, GenerateError, Intermediate};
 use scene::judge::{About, Trace};
-use scene::{AgentFutures, Future, Sample};
+use scene::{AgentFutures, AgentType, Future, Sample};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// With fewer actors a draft shows every mode while it is refined, else only the likeliest.
@@ -127,7 +129,7 @@ impl<'g> PlanningWindow<'g> {
             let middle = middle(actor);
             let is_middle = |c: &MotionCandidate| middle.is_some() && c.origin.slot() == middle;
             let chosen = alternatives.iter().position(is_middle).unwrap_or(0);
-            let mut futures = self.futures(chosen, alternatives);
+            let mut futures = self.futures(actor, chosen, alternatives);
             for (future, draft) in futures.modes.iter_mut().zip(alternatives) {
                 future.about = relations.map(|relations| relations.about(i, draft)).unwrap_or_default();
             }
@@ -140,12 +142,22 @@ impl<'g> PlanningWindow<'g> {
         Sample { agents, score: serde_json::Value::Null }
     }
 
-    /// Alternatives as futures, cut to the requested steps.
-    pub(super) fn futures(&self, chosen: usize, alternatives: &[MotionCandidate]) -> AgentFutures {
-        let total: f64 = alternatives.iter().map(|c| c.probability).sum();
-        let modes = alternatives.iter().map(|c| Future {
+    /// Alternatives of an actor as futures, cut to the requested steps.
+    pub(super) fn futures(
+        &self,
+        actor: &PlannedActor,
+        chosen: usize,
+        alternatives: &[MotionCandidate],
+    ) -> AgentFutures {
+        let tuning = &self.setting.tuning().probability;
+        let plan = &actor.plan;
+        let walks = plan.present.agent_type == AgentType::Pedestrian;
+        let sure = plan.target.position.is_some();
+        let probability =
+            calibrated(alternatives.iter().map(|c| c.probability).collect(), (sure, walks), tuning);
+        let modes = alternatives.iter().zip(probability).map(|(c, probability)| Future {
             anchor: c.origin.slot().map(Slot::number),
-            probability: if total > 0.0 { c.probability / total } else { 1.0 / alternatives.len() as f64 },
+            probability,
             first_step: self.setting.world.step + 1,
             states: self.setting.cut(&c.motion.states),
             about: About::default(),
@@ -175,6 +187,7 @@ impl WindowActors {
             actor
         });
         let mut batches = encode(setting, &mut actors, 0)?;
+        decide_departures(setting, &mut actors);
         // In a later window an actor has come to the end of its picked future.
         for actor in actors.iter_mut().filter(|_| !later) {
             actor.pinned = setting.request.pinned.get(&actor.id).cloned();

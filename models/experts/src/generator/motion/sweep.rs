@@ -53,6 +53,11 @@ impl Sweep {
         &self.size
     }
 
+    /// One a step; `None` at a step at which the agent is absent.
+    pub(in crate::generator) fn states(&self) -> &[Option<State>] {
+        &self.states
+    }
+
     /// State at a step.
     pub(in crate::generator) fn state(&self, step: usize) -> Option<&State> {
         self.states.get(step)?.as_ref()

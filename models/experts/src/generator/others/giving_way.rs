@@ -4,12 +4,12 @@ use super::blocks::PathBlock;
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Reactor};
 use super::path_progress::PathProgress;
 use super::yielding::{Paced, YieldManner};
+use crate::generator::choice::price;
 use crate::generator::motion::Sweep;
 use crate::tuning::fixed::giving_way::{
     FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M, PASSED_ON, VEHICLE_BRAKES,
-    VEHICLE_GAPS_M,
+    VEHICLE_GAPS_M, VEHICLE_HEADWAYS_S,
 };
-use scene::score::overlap;
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
 /// Rounds in which the order of the agents is determined again.
@@ -37,12 +37,7 @@ pub(super) struct SeenMotion<'a> {
 impl Others<'_> {
     /// Cost of a meeting of two motions.
     pub(super) fn price(&self, a: &Sweep, b: &Sweep) -> f64 {
-        let tuning = &self.tuning.choice;
-        match overlap(a.swept(), b.swept()) {
-            found if found.overlaps => tuning.overlap + tuning.close,
-            found if found.close => tuning.close,
-            _ => 0.0,
-        }
+        price(a.swept(), b.swept(), &self.tuning.choice)
     }
 
     /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
@@ -58,7 +53,7 @@ impl Others<'_> {
         all.extend(ahead.iter().flatten());
         let mut best: Option<YieldOption> = None;
         for manner in manners(own) {
-            let way = self.weighed(who, own.behind(&road.path, &all, manner), manner, changed);
+            let way = self.weighed(who, behind(&road.path, &all, manner), manner, changed);
             let Some(way) = way else { continue };
             let free = way.1 == 0.0;
             if best.as_ref().is_none_or(|b| way.0.cost < b.cost - 1e-9) {
@@ -70,7 +65,7 @@ impl Others<'_> {
         }
         for pace in FASTER {
             let manner = YieldManner { pace, accelerate_mps2: HURRIES_MPS2, ..manners(own)[1] };
-            let paced = own.behind(&road.path, &kept, manner);
+            let paced = behind(&road.path, &kept, manner);
             if !own.hurries_safely(&road.path, &paced) {
                 continue;
             }
@@ -147,32 +142,6 @@ impl Others<'_> {
 }
 
 impl Reactor {
-    /// The path driven behind those of these blocks that the agent is behind by now, or comes to be by waiting.
-    fn behind(&self, path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
-        // An agent that comes up from behind does not count.
-        let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
-        let mut yields: Vec<bool> =
-            blocks.iter().map(|b| counts(b) && !b.comes_behind(path.along_at(b.from))).collect();
-        for _ in 0..MOST_TURNS {
-            let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
-            let paced = Paced::behind(path, &waited.collect::<Vec<_>>(), manner);
-            let mut turned = false;
-            for (block, yields) in blocks.iter().zip(&mut yields).filter(|(b, y)| !**y && counts(b)) {
-                let at = block.from.saturating_sub(path.enters);
-                let along = paced.along_m.get(at).copied().unwrap_or(f64::INFINITY);
-                if !block.comes_behind(along) {
-                    *yields = true;
-                    turned = true;
-                }
-            }
-            if !turned {
-                return paced;
-            }
-        }
-        let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
-        Paced::behind(path, &waited.collect::<Vec<_>>(), manner)
-    }
-
     /// How much later the agent is at its last place than on its own timing, seconds; negative for earlier.
     pub(super) fn late_s(&self, paced: &Paced) -> f64 {
         let last = paced.along_m.len() - 1;
@@ -197,20 +166,48 @@ impl Reactor {
     }
 }
 
+/// The path driven behind those of these blocks that the agent is behind by now, or comes to be by waiting.
+pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
+    // An agent that comes up from behind does not count.
+    let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
+    let mut yields: Vec<bool> =
+        blocks.iter().map(|b| counts(b) && !b.comes_behind(path.along_at(b.from))).collect();
+    for _ in 0..MOST_TURNS {
+        let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
+        let paced = Paced::behind(path, &waited.collect::<Vec<_>>(), manner);
+        let mut turned = false;
+        for (block, yields) in blocks.iter().zip(&mut yields).filter(|(b, y)| !**y && counts(b)) {
+            let at = block.from.saturating_sub(path.enters);
+            let along = paced.along_m.get(at).copied().unwrap_or(f64::INFINITY);
+            if !block.comes_behind(along) {
+                *yields = true;
+                turned = true;
+            }
+        }
+        if !turned {
+            return paced;
+        }
+    }
+    let waited = blocks.iter().zip(&yields).filter(|(_, y)| **y).map(|(b, _)| *b);
+    Paced::behind(path, &waited.collect::<Vec<_>>(), manner)
+}
+
 /// The manners of giving way, from easy to hard braking.
 fn manners(own: &Reactor) -> Vec<YieldManner> {
-    let manner = |share: &f64, gap_m: &f64, accelerate_mps2: f64| YieldManner {
+    let manner = |share: &f64, gap_m: &f64, headway_s: &f64, accelerate_mps2: f64| YieldManner {
         brake_mps2: share * own.limits.brake_mps2,
         accelerate_mps2,
         gap_m: *gap_m,
+        headway_s: *headway_s,
         pace: 1.0,
     };
-    let of = |shares: &[f64], gaps_m: &[f64], accelerate_mps2: f64| {
-        shares.iter().zip(gaps_m).map(|(s, g)| manner(s, g, accelerate_mps2)).collect()
+    let of = |shares: &[f64], gaps_m: &[f64], headways_s: &[f64], accelerate_mps2: f64| {
+        let each = shares.iter().zip(gaps_m).zip(headways_s);
+        each.map(|((s, g), h)| manner(s, g, h, accelerate_mps2)).collect()
     };
     match own.agent_type {
-        AgentType::Pedestrian => of(&OTHER_BRAKES, &OTHER_GAPS_M, 0.8),
-        AgentType::Cyclist => of(&OTHER_BRAKES, &OTHER_GAPS_M, 1.0),
-        _ => of(&VEHICLE_BRAKES, &VEHICLE_GAPS_M, 1.5),
+        AgentType::Pedestrian => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], 0.8),
+        AgentType::Cyclist => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], 1.0),
+        _ => of(&VEHICLE_BRAKES, &VEHICLE_GAPS_M, &VEHICLE_HEADWAYS_S, 1.5),
     }
 }

@@ -7,6 +7,7 @@
 
 mod blocks;
 mod chain;
+mod following;
 mod giving_way;
 mod other;
 mod path_progress;
@@ -15,6 +16,7 @@ mod replanned;
 mod yielding;
 
 pub(super) use chain::{ChangedMotion, Reacted, caused};
+pub(super) use following::following;
 pub(super) use other::Others;
 pub(super) use path_progress::extend_along_road;
 pub(super) use reaction::reaction_of;

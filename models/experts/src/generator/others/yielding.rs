@@ -3,7 +3,9 @@
 
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
-use crate::tuning::fixed::yielding::WORTH_GOING_M;
+use crate::tuning::fixed::yielding::{
+    HALTS_MPS, HARD_JERK_MPS3, HARD_MPS2, JERK_MPS3, TRACKS_S, WORTH_GOING_M,
+};
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
 /// Time ahead in which room to go is looked for, steps.
@@ -14,6 +16,8 @@ const TIME_GAP: usize = 3;
 const SECOND: usize = 10;
 /// Rounding of distances, metres.
 const HAIR_M: f64 = 0.02;
+/// Steps by which braking begins earlier than it must.
+const EARLIER: usize = 6;
 /// Halvings of the span of accelerations.
 const HALVINGS: usize = 7;
 
@@ -26,6 +30,8 @@ pub(super) struct YieldManner {
     pub(super) accelerate_mps2: f64,
     /// Distance kept from what is in the way, metres.
     pub(super) gap_m: f64,
+    /// And time at its own speed, seconds.
+    pub(super) headway_s: f64,
     /// Share of the speed that the path has at a place.
     pub(super) pace: f64,
 }
@@ -59,7 +65,9 @@ impl ProgressBounds {
 
     /// Braking at this rate from here on stays below the bounds, also behind agents that move on beyond the
     /// window and brake at the same rate.
-    fn hold(&self, step: usize, along_m: f64, speed_mps: f64, brake_mps2: f64) -> bool {
+    fn hold(&self, step: usize, along_m: f64, speed_mps: f64, manner: YieldManner) -> bool {
+        let brake_mps2 = manner.brake_mps2;
+        let along_m = along_m + manner.headway_s * speed_mps;
         let stops_m = speed_mps * speed_mps / (2.0 * brake_mps2);
         let behind = |(bound, speed): &(f64, f64)| {
             along_m + stops_m <= bound + speed * speed / (2.0 * brake_mps2) + HAIR_M
@@ -134,7 +142,7 @@ impl Paced {
             if own {
                 let Some(state) = path.states.get(next - path.enters) else { break };
                 let (on_m, at_mps) = (path.along_m[next - path.enters], state.speed_mps());
-                if bounds.hold(next, on_m, at_mps, brake) {
+                if bounds.hold(next, on_m, at_mps, manner) {
                     (along, speed) = (on_m, at_mps);
                     out.push(along, speed);
                     out.own += 1;
@@ -150,7 +158,7 @@ impl Paced {
             };
             let holds = |rate: f64| {
                 let (along, speed) = after(rate);
-                waiting.hold(next, along, speed, brake)
+                waiting.hold(next, along, speed, manner)
             };
             let mut rate = greatest(-brake, most, holds);
             let room = least_soon(&waiting.at_m, next) - along;
@@ -166,7 +174,38 @@ impl Paced {
             }
             out.push(along, speed);
         }
-        out
+        out.eased(manner)
+    }
+
+    /// The same without jerks: braking begins earlier, and the acceleration changes at a driver's rate.
+    fn eased(mut self, manner: YieldManner) -> Self {
+        let sharp = self.clone();
+        let steps = sharp.speed_mps.len();
+        if self.own >= steps {
+            return self;
+        }
+        let jerk = if manner.brake_mps2 > HARD_MPS2 { HARD_JERK_MPS3 } else { JERK_MPS3 } * STEP_S;
+        let from = self.own.saturating_sub(EARLIER).max(1);
+        self.own = from;
+        let before = |i: usize| (sharp.speed_mps[i] - sharp.speed_mps[i.saturating_sub(1)]) / STEP_S;
+        let mut rate = before(from - 1);
+        for i in from..steps {
+            let (along, speed) = (self.along_m[i - 1], self.speed_mps[i - 1]);
+            let soon = (i + EARLIER).min(steps - 1);
+            let lower = (sharp.speed_mps[soon] - speed) / TRACKS_S;
+            let wanted = if lower < 0.0 { lower } else { before(i).max(0.0).min(lower) };
+            rate = wanted.clamp(rate - jerk, rate + jerk);
+            let mut then = (speed + rate * STEP_S).max(0.0);
+            let room_m = (sharp.along_m[i] - along).max(0.0);
+            let halts = sharp.speed_mps[i] == 0.0 && sharp.speed_mps[soon] == 0.0;
+            if halts && then < HALTS_MPS {
+                (then, rate) = (0.0, 0.0);
+            }
+            let ahead = 0.5 * (speed + then) * STEP_S;
+            self.speed_mps[i] = then;
+            self.along_m[i] = along + if then == 0.0 && halts { 0.0 } else { ahead.min(room_m) };
+        }
+        self
     }
 
     fn push(&mut self, along_m: f64, speed_mps: f64) {
@@ -212,7 +251,8 @@ fn greatest(least: f64, most: f64, holds: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    const EASY: YieldManner = YieldManner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, pace: 1.0 };
+    const EASY: YieldManner =
+        YieldManner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, headway_s: 0.0, pace: 1.0 };
 
     fn path(speed_mps: f64) -> PathProgress {
         let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
@@ -283,6 +323,6 @@ mod tests {
         let paced = Paced::behind(&path, &[&early], EASY);
         assert!(!paced.is_own(&path));
         assert!(paced.along_m[59] <= 24.2, "{}", paced.along_m[59]);
-        assert!(paced.along_m[90] > 30.0, "{}", paced.along_m[90]);
+        assert!(paced.along_m[90] > 29.0, "{}", paced.along_m[90]);
     }
 }
