@@ -118,7 +118,6 @@ def collisions(name, path, scene, obstacles):
 
 
 def main():
-    met = 0
     for template, density in (("straight", 30), ("merge", 30), ("three-arms", 40), ("four-arms", 40)):
         drawn, filled, made = (FOLDER / f"{template}{end}.json" for end in ("-map", "-filled", ""))
         run("map", "--template", template, "-o", drawn, "--force")
@@ -130,8 +129,7 @@ def main():
         obstacles = CommonRoadFileReader(str(file)).open()[0].dynamic_obstacles
         check(f"{template}: obstacles", len(obstacles) == len(scene["agents"]))
         feasible(template, obstacles)
-        met += collisions(template, made, scene, obstacles)
-    check("somebody collides", met > 0)
+        collisions(template, made, scene, obstacles)
     failed = results.count(False)
     print(f"{results.count(True)} passed, {failed} failed")
     sys.exit(1 if failed else 0)
