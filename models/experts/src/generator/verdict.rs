@@ -12,12 +12,11 @@ use scene::{Agent, Future, HORIZON_STEPS, Vec2};
 /// near miss.
 pub(super) const AWAY_M: f64 = 25.0;
 
-/// The judge of motions of a window.
+/// The judge of motions of a window, by the usual thresholds: those of a call change no motion.
 pub(super) fn window_judge<'a>(world: &'a World<'_>, setting: &'a WindowSetting<'_>) -> Judge<'a> {
     let scene = &world.scene;
     let steps = world.step..world.step + HORIZON_STEPS + 1;
-    let judge = Judge::new(&scene.map, &scene.signals, &setting.map.drivable, steps);
-    judge.with_thresholds(setting.request.thresholds)
+    Judge::new(&scene.map, &scene.signals, &setting.map.drivable, steps)
 }
 
 /// The faults of a motion of an agent, given by its index; `changed` are the agents that do not keep theirs.

@@ -118,3 +118,16 @@ fn a_queue_moves_off_one_after_the_other_and_what_is_parked_stays() {
     assert!(first < second && second < third, "{first}, {second}, {third}");
     assert_eq!(leaves("4"), None);
 }
+
+#[test]
+fn thresholds_of_a_call_change_no_motion() {
+    let shown_by = |harsh_brake_mps2: f64| {
+        let mut dragged = car("1", 0.0, 0.0, 12.0);
+        dragged.conditions.goal = Goal { position: Some(Vec2::new(60.0, 0.0)), ..Goal::default() };
+        let mut request = ask(vec![lane("a", 0.0)], vec![dragged, car("2", 30.0, 0.0, 4.0)], &["1"]);
+        request.thresholds.harsh_brake_mps2 = harsh_brake_mps2;
+        let answer = run(&SHIPPED, request);
+        shown(&answer.samples[0], "1").states.clone()
+    };
+    assert!(shown_by(0.1) == shown_by(4.0));
+}
