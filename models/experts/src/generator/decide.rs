@@ -35,7 +35,7 @@ const MOST_ROUNDS: usize = 2;
 /// Chooses one candidate for each actor, and the reactions of the others.
 pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let setting = of.setting;
-    let judge = window_judge(&setting.world, setting);
+    let judge = window_judge(setting);
     let fixed: Vec<&SweptBoxes> = of.others.kept().map(Sweep::swept).collect();
     let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
     let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
@@ -130,10 +130,9 @@ impl OptionTable<'_> {
         if !goes || !stages.judged || stages.shown != Shown::Chosen {
             return settled;
         }
-        let worst = self.worst_fault(i, &settled);
-        if worst.is_none_or(|worst| worst > FaultKind::NearMiss) {
+        let Some(worst) = self.worst_fault(i, &settled).filter(|worst| *worst <= FaultKind::NearMiss) else {
             return settled;
-        }
+        };
         let chosen = settled.chosen[i];
         let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
         let costs = &self.choice.agents[i];
@@ -145,16 +144,13 @@ impl OptionTable<'_> {
         });
         let mut best = (worst, settled);
         for o in order.into_iter().take(MOST_JUDGED) {
-            if misses(o) && best.0.is_none_or(|worst| worst > FaultKind::Collision) {
+            if misses(o) && best.0 != FaultKind::Collision {
                 break;
             }
             let mut chosen = best.1.chosen.clone();
             chosen[i] = o;
             let next = self.settled(chosen);
-            let worst = self.worst_fault(i, &next);
-            if worst.is_none() {
-                return next;
-            }
+            let Some(worst) = self.worst_fault(i, &next) else { return next };
             if worst > best.0 {
                 best = (worst, next);
             }
@@ -165,18 +161,14 @@ impl OptionTable<'_> {
     /// The worst fault of the chosen motion of an actor.
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
         let setting = self.of.setting;
-        let start = setting.world.step;
+        let first_step = setting.world.step + 1;
         let acting = |(j, option): (usize, &usize)| {
             let (actor, motion) = (&self.of.actors[j], &self.candidates[j][*option]);
             let changes = motion.origin != CandidateOrigin::Kept;
-            let future = || Future::bare(1.0, start + 1, setting.cut(&motion.motion.states));
+            let future = || Future::bare(1.0, first_step, setting.cut(&motion.motion.states));
             (changes && j != i).then(|| (actor.plan.present.index, future()))
         };
-        let reacted = settled.reacted.iter().map(|reacted| {
-            let left = setting.steps_left().saturating_sub(reacted.enters);
-            let states = reacted.states.iter().take(left).copied().collect();
-            (reacted.index, Future::bare(1.0, start + reacted.enters + 1, states))
-        });
+        let reacted = settled.reacted.iter().map(|reacted| (reacted.index, reacted.future(setting)));
         let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
         let motion = &self.candidates[i][settled.chosen[i]].motion.states;
         let faults = faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed);

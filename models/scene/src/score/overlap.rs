@@ -1,5 +1,7 @@
 //! Do two motions overlap? The quick answer that the choice of futures asks for thousands of pairs.
 
+use super::input::Thresholds;
+use super::pairs::PARKED_M;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, overlaps};
 use crate::geometry::{Vec2, rotate, wrap_angle};
 use crate::{Size, State};
@@ -98,15 +100,8 @@ pub struct Overlap {
     pub close: bool,
 }
 
-/// Seconds between two moments of the swept boxes that [`threatens`] compares.
-pub const MOMENT_S: f64 = 0.3;
-/// A moment of two motions is dangerous by these bounds, those of a near miss: time until they touch if both go on as
-/// they do, seconds; closing speed, m/s; braking with which a follower is safe, m/s2.
-const SOON_S: f64 = 1.5;
-const CLOSING_MPS: f64 = 1.0;
-const FOLLOWS_MPS2: f64 = 3.35;
-/// A motion that stays within this is parked, and passed without danger, metres.
-const PARKED_M: f64 = 1.0;
+/// Seconds between two moments of the swept boxes.
+const MOMENT_S: f64 = 0.3;
 /// Half the length below which a box is a walker's: two of them never near-miss each other, metres.
 const WALKER_M: f64 = 0.6;
 /// Looks into the next moments, seconds.
@@ -136,20 +131,21 @@ impl<'a> Going<'a> {
     }
 
     /// They touch soon if both go on as they do, and no easy braking of a follower prevents it.
-    fn threatens(&self, other: &Self) -> bool {
+    fn threatens(&self, other: &Self, limits: &Thresholds) -> bool {
         let relative = self.velocity - other.velocity;
         let speed = relative.norm();
-        if speed <= CLOSING_MPS || circle_gap(self.outline, other.outline) > SOON_S * speed {
+        let least_mps = limits.closing_speed_mps;
+        if speed <= least_mps || circle_gap(self.outline, other.outline) > limits.ttc_s * speed {
             return false;
         }
         let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
         let closing = relative.dot(&towards);
-        if closing <= CLOSING_MPS {
+        if closing <= least_mps {
             return false;
         }
         let turn = wrap_angle(self.outline.heading_rad() - other.outline.heading_rad()).abs();
         let follows = turn < FRAC_PI_6 && towards.dot(&self.outline.forward()).abs() > 0.7;
-        if follows && closing * closing / (2.0 * gap_m.max(0.05)) <= FOLLOWS_MPS2 {
+        if follows && closing * closing / (2.0 * gap_m.max(0.05)) <= limits.follow_brake_mps2 {
             return false;
         }
         LOOKS_S.iter().any(|t| overlaps(&self.later(*t), &other.later(*t), 0.0))
@@ -165,7 +161,8 @@ pub fn dangerous_moments(a: &SweptBoxes, b: &SweptBoxes) -> usize {
         return 0;
     }
     let parked = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
-    let margin_m = SOON_S * (a.top_mps + b.top_mps);
+    let limits = Thresholds::default();
+    let margin_m = limits.ttc_s * (a.top_mps + b.top_mps);
     if parked(a) || parked(b) || !a.whole.near(&b.whole, margin_m) {
         return 0;
     }
@@ -178,7 +175,7 @@ pub fn dangerous_moments(a: &SweptBoxes, b: &SweptBoxes) -> usize {
         found += moments
             .filter(|&i| {
                 let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
-                pair.is_some_and(|(a, b)| a.threatens(&b))
+                pair.is_some_and(|(a, b)| a.threatens(&b, &limits))
             })
             .count();
     }

@@ -4,14 +4,14 @@
 use super::future_relations::ShownAgents;
 use super::ledger::Instead;
 use super::targets::due;
-use crate::generator::verdict::{AWAY_M, as_taken};
+use crate::generator::verdict::{MotionExtent, as_taken};
 use crate::generator::workers::WorkerPool;
 use crate::maps::KnownMap;
 use crate::planning::MODES;
 use crate::request::Request;
 use scene::judge::{About, Judge, Other, by_weight};
 use scene::score::Actor;
-use scene::{Agent, Future, STEP_S, Sample, Vec2};
+use scene::{Agent, Future, STEP_S, Sample};
 
 /// So many futures are judged by several threads: more than one road user has.
 const MANY: usize = MODES + 1;
@@ -38,7 +38,8 @@ pub(super) fn judge(
         .flat_map(|(i, futures)| futures.modes.iter().enumerate().map(move |(k, future)| (i, k, future)))
         .collect();
     let standing = ShownAgents::new(request, map, sample, &shown, futures.len());
-    let ground = FutureExtent::of(sample);
+    let all = sample.agents.values().flat_map(|f| &f.modes);
+    let ground = MotionExtent::about(all.flat_map(|f| &f.states).map(scene::State::position));
     let others: Vec<Other<'_>> = shown
         .into_iter()
         .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
@@ -75,29 +76,4 @@ pub(super) fn judge(
 /// its log.
 fn as_shown<'a>(request: &'a Request, sample: &'a Sample, agent: &'a Agent) -> Actor<'a> {
     as_taken(request, agent, sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen)))
-}
-
-/// Upright rectangle about all futures of a sample.
-struct FutureExtent {
-    low: Vec2,
-    high: Vec2,
-}
-
-impl FutureExtent {
-    fn of(sample: &Sample) -> Self {
-        let mut ground = Self { low: Vec2::repeat(f64::INFINITY), high: Vec2::repeat(f64::NEG_INFINITY) };
-        for future in sample.agents.values().flat_map(|f| &f.modes) {
-            for place in future.states.iter().map(scene::State::position) {
-                ground.low = ground.low.inf(&place);
-                ground.high = ground.high.sup(&place);
-            }
-        }
-        let away = Vec2::repeat(AWAY_M);
-        Self { low: ground.low - away, high: ground.high + away }
-    }
-
-    fn holds(&self, place: Vec2) -> bool {
-        let (low, high) = (self.low, self.high);
-        (low.x..=high.x).contains(&place.x) && (low.y..=high.y).contains(&place.y)
-    }
 }

@@ -167,9 +167,7 @@ impl<'g> PlanningWindow<'g> {
 
     /// The future of an agent that reacts.
     pub(super) fn reaction(&self, reacted: &Reacted) -> AgentFutures {
-        let left = self.setting.steps_left().saturating_sub(reacted.enters);
-        let states = reacted.states.iter().take(left).copied().collect();
-        let future = Future::bare(1.0, self.setting.world.step + reacted.enters + 1, states);
+        let future = reacted.future(&self.setting);
         AgentFutures { reaction: reacted.reaction.clone(), ..AgentFutures::of(0, vec![future]) }
     }
 }

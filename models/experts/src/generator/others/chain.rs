@@ -5,8 +5,9 @@ use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
 use super::reaction::reaction;
 use crate::generator::motion::Sweep;
+use crate::generator::window_setting::WindowSetting;
 use scene::judge::Reaction;
-use scene::{AgentId, State};
+use scene::{AgentId, Future, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -34,6 +35,15 @@ pub(in crate::generator) struct Reacted {
     pub(in crate::generator) own: usize,
     /// `None` for an agent that goes on with its reaction of an earlier window.
     pub(in crate::generator) reaction: Option<Reaction>,
+}
+
+impl Reacted {
+    /// Its motion as a future, as far as the call goes.
+    pub(in crate::generator) fn future(&self, setting: &WindowSetting<'_>) -> Future {
+        let left = setting.steps_left().saturating_sub(self.enters);
+        let states = self.states.iter().take(left).copied().collect();
+        Future::bare(1.0, setting.world.step + self.enters + 1, states)
+    }
 }
 
 impl Others<'_> {

@@ -16,7 +16,8 @@ pub use log::{SAME_GAP_M, SAME_S};
 pub use measures::Measures;
 pub(super) use mover::Rectangle;
 pub(crate) use mover::{Mover, MoverState};
-use near::{Gap, Nearest, PARKED_M, Side, near_miss};
+pub(super) use near::PARKED_M;
+use near::{Gap, Nearest, Side, near_miss};
 pub(super) use tally::PairTally;
 
 /// Moments checked from one step to the next, the step itself counted.

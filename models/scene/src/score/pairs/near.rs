@@ -8,7 +8,7 @@ use crate::{AgentType, STEP_S};
 use std::f64::consts::FRAC_PI_6;
 
 /// A road user that stays within this of its first place all the time is parked, metres.
-pub(super) const PARKED_M: f64 = 1.0;
+pub(in crate::score) const PARKED_M: f64 = 1.0;
 /// Beside pedestrians, slower vehicles crawl, m/s: a pedestrian keeps clear of them without haste.
 const CRAWL_MPS: f64 = 1.5;
 
