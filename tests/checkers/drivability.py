@@ -117,19 +117,42 @@ def collisions(name, path, scene, obstacles):
     return len(touching)
 
 
+def put_in_the_way(scene):
+    """A car stands where another one gets to: filled scenes have no collision of their own."""
+    futures = scene["generated"]["samples"][0]["agents"]
+    shown = {name: future["modes"][future["chosen"]] for name, future in futures.items()}
+    way = lambda m: math.hypot(m["x_m"][-1] - m["x_m"][0], m["y_m"][-1] - m["y_m"][0])
+    farthest, *_, nearest = sorted(shown, key=lambda name: -way(shown[name]))
+    track = next(agent["track"] for agent in scene["agents"] if agent["id"] == nearest)
+    for member in ("x_m", "y_m", "heading_rad", "vx_mps", "vy_mps"):
+        place = 0.0 if member.startswith("v") else shown[farthest][member][-1]
+        for states in (shown[nearest], track):
+            states[member] = [place] * len(states[member])
+
+
+def read(made):
+    """A scene, and its obstacles as another reader has them."""
+    file = made.with_suffix(".xml")
+    run("convert", made, "--to", "commonroad", "-o", file, "--force")
+    return json.loads(made.read_text()), CommonRoadFileReader(str(file)).open()[0].dynamic_obstacles
+
+
 def main():
+    met = 0
     for template, density in (("straight", 30), ("merge", 30), ("three-arms", 40), ("four-arms", 40)):
         drawn, filled, made = (FOLDER / f"{template}{end}.json" for end in ("-map", "-filled", ""))
         run("map", "--template", template, "-o", drawn, "--force")
         run("place", drawn, "--density", density, "--types", "vehicle=1", "--seed", "3", "-o", filled, "--force")
         run("generate", filled, "--seed", "6", "-o", made, "--force")
-        scene = json.loads(made.read_text())
-        file = made.with_suffix(".xml")
-        run("convert", made, "--to", "commonroad", "-o", file, "--force")
-        obstacles = CommonRoadFileReader(str(file)).open()[0].dynamic_obstacles
+        scene, obstacles = read(made)
         check(f"{template}: obstacles", len(obstacles) == len(scene["agents"]))
         feasible(template, obstacles)
-        collisions(template, made, scene, obstacles)
+        met += collisions(template, made, scene, obstacles)
+    put_in_the_way(scene)
+    made = FOLDER / "colliding.json"
+    made.write_text(json.dumps(scene))
+    met += collisions("a car in the way", made, *read(made))
+    check("somebody collides", met > 0)
     failed = results.count(False)
     print(f"{results.count(True)} passed, {failed} failed")
     sys.exit(1 if failed else 0)
