@@ -5,7 +5,7 @@ use super::choice::distance;
 use super::drafts::Drafts;
 use super::slot::Slot;
 use super::trajectory::{
-    Rollout, along_places, as_it_is, mean_trajectory, rest, short_along, to_trajectory, without_creep,
+    Rollout, as_it_is, driven_again, mean_trajectory, rest, short_along, to_trajectory, without_creep,
 };
 use crate::planning::{INSTANTS, MODES, PER_INSTANT};
 use crate::request::{Shown, ShownLast};
@@ -126,7 +126,7 @@ impl Material<'_> {
         let plan = &self.actor.plan;
         let motion = match missed {
             Some(reach) => short_along(plan, &places, false).with_reason_of(reach),
-            None if near => along_places(plan, slot, &places),
+            None if near => driven_again(plan, slot, &places),
             None => return None,
         };
         Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Shown(slot), motion })

@@ -130,9 +130,8 @@ impl OptionTable<'_> {
         if !goes || !stages.judged || stages.shown != Shown::Chosen {
             return settled;
         }
-        let Some(worst) = self.worst_fault(i, &settled).filter(|worst| *worst <= FaultKind::NearMiss) else {
-            return settled;
-        };
+        let settled = self.as_shown_last(i, settled);
+        let Some(worst) = self.worst_fault(i, &settled) else { return settled };
         let chosen = settled.chosen[i];
         let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
         let costs = &self.choice.agents[i];
@@ -158,7 +157,25 @@ impl OptionTable<'_> {
         best.1
     }
 
-    /// The worst fault of the chosen motion of an actor.
+    /// The choice with what a person has seen last, where that reaches the goal and has no worse fault.
+    fn as_shown_last(&self, i: usize, settled: Settled) -> Settled {
+        let is_shown = |c: &MotionCandidate| matches!(c.origin, CandidateOrigin::Shown(_));
+        let Some(shown) = self.candidates[i].iter().position(is_shown) else { return settled };
+        let reaches = |o: usize| self.candidates[i][o].motion.reach.is_reached();
+        if shown == settled.chosen[i] || !reaches(shown) {
+            return settled;
+        }
+        let mut chosen = settled.chosen.clone();
+        chosen[i] = shown;
+        let kept = self.settled(chosen);
+        match (self.worst_fault(i, &kept), self.worst_fault(i, &settled)) {
+            (Some(kept), Some(now)) if kept < now => settled,
+            (Some(_), None) => settled,
+            _ => kept,
+        }
+    }
+
+    /// The worst fault of the chosen motion of an actor, of those that make another motion better.
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
         let setting = self.of.setting;
         let first_step = setting.world.step + 1;
@@ -172,7 +189,7 @@ impl OptionTable<'_> {
         let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
         let motion = &self.candidates[i][settled.chosen[i]].motion.states;
         let faults = faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed);
-        faults.iter().map(|fault| fault.kind).min()
+        faults.iter().map(|fault| fault.kind).filter(|kind| *kind <= FaultKind::NearMiss).min()
     }
 
     fn change(&self, i: usize, taken: &MotionCandidate, sweep: Arc<Sweep>) -> ChangedMotion {
