@@ -63,6 +63,11 @@ impl CandidateOrigin {
         matches!(self, Self::Kept | Self::Pinned)
     }
 
+    /// A person has seen it last.
+    pub(super) fn is_shown(self) -> bool {
+        matches!(self, Self::Shown(_))
+    }
+
     /// It is an alternative of the answer by itself; all other motions of this answer take an alternative's place
     /// where they are chosen.
     pub(super) fn is_alternative(self) -> bool {

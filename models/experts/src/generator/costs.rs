@@ -59,8 +59,8 @@ pub(super) fn options(
             .collect(),
         None => central(&actor.plan, candidates, by.around, tuning),
     };
-    let is_shown = |c: &MotionCandidate| matches!(c.origin, CandidateOrigin::Shown(_));
-    let shown_rule_cost = candidates.iter().position(is_shown).map_or(0.0, |shown| rule_cost[shown]);
+    let shown_rule_cost =
+        candidates.iter().position(|c| c.origin.is_shown()).map_or(0.0, |shown| rule_cost[shown]);
     let option = |((c, cost), rule_cost): ((&MotionCandidate, f64), &f64)| {
         let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
         let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };

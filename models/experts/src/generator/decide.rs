@@ -130,13 +130,13 @@ impl OptionTable<'_> {
         if !goes || !stages.judged || stages.shown != Shown::Chosen {
             return settled;
         }
-        let settled = self.as_shown_last(i, settled);
-        let Some(worst) = self.worst_fault(i, &settled) else { return settled };
+        let (settled, worst) = self.as_shown_last(i, settled);
+        let Some(worst) = worst else { return settled };
         let chosen = settled.chosen[i];
         let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
         let costs = &self.choice.agents[i];
         let mut order: Vec<usize> = (0..costs.len()).filter(|o| *o != chosen).collect();
-        let another = |o: usize| !matches!(self.candidates[i][o].origin, CandidateOrigin::Shown(_));
+        let another = |o: usize| !self.candidates[i][o].origin.is_shown();
         order.sort_by(|a, b| {
             let rank = |o: usize| (misses(o), another(o));
             rank(*a).cmp(&rank(*b)).then(costs[*a].cost.total_cmp(&costs[*b].cost))
@@ -146,9 +146,7 @@ impl OptionTable<'_> {
             if misses(o) && best.0 != FaultKind::Collision {
                 break;
             }
-            let mut chosen = best.1.chosen.clone();
-            chosen[i] = o;
-            let next = self.settled(chosen);
+            let next = self.with_option(i, o, &best.1);
             let Some(worst) = self.worst_fault(i, &next) else { return next };
             if worst > best.0 {
                 best = (worst, next);
@@ -157,25 +155,28 @@ impl OptionTable<'_> {
         best.1
     }
 
-    /// The choice with what a person has seen last, where that reaches the goal and has no worse fault.
-    fn as_shown_last(&self, i: usize, settled: Settled) -> Settled {
-        let is_shown = |c: &MotionCandidate| matches!(c.origin, CandidateOrigin::Shown(_));
-        let Some(shown) = self.candidates[i].iter().position(is_shown) else { return settled };
-        let reaches = |o: usize| self.candidates[i][o].motion.reach.is_reached();
-        if shown == settled.chosen[i] || !reaches(shown) {
-            return settled;
-        }
-        let mut chosen = settled.chosen.clone();
-        chosen[i] = shown;
-        let kept = self.settled(chosen);
-        match (self.worst_fault(i, &kept), self.worst_fault(i, &settled)) {
-            (Some(kept), Some(now)) if kept < now => settled,
-            (Some(_), None) => settled,
-            _ => kept,
-        }
+    /// The choice with what a person has seen last, where that reaches the goal and has no worse fault; and the worst
+    /// fault of what is chosen.
+    fn as_shown_last(&self, i: usize, settled: Settled) -> (Settled, Option<FaultKind>) {
+        let worst = self.worst_fault(i, &settled);
+        let stays = |c: &MotionCandidate| c.origin.is_shown() && c.motion.reach.is_reached();
+        let shown = self.candidates[i].iter().position(stays).filter(|shown| *shown != settled.chosen[i]);
+        let Some(shown) = shown else { return (settled, worst) };
+        let kept = self.with_option(i, shown, &settled);
+        let fault = self.worst_fault(i, &kept);
+        // The worst kind of fault is the least.
+        let no_worse = fault.is_none_or(|fault| worst.is_some_and(|worst| fault >= worst));
+        if no_worse { (kept, fault) } else { (settled, worst) }
     }
 
-    /// The worst fault of the chosen motion of an actor, of those that make another motion better.
+    /// The choice with another candidate of an actor.
+    fn with_option(&self, i: usize, option: usize, settled: &Settled) -> Settled {
+        let mut chosen = settled.chosen.clone();
+        chosen[i] = option;
+        self.settled(chosen)
+    }
+
+    /// The worst fault of the chosen motion of an actor; a missed goal or via point is none here.
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
         let setting = self.of.setting;
         let first_step = setting.world.step + 1;

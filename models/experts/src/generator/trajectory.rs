@@ -208,7 +208,7 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The motion that was driven past these box centres, driven again: within the manner that stays nearer to them.
+/// The motion that was driven past these box centres, driven again in the manner that stays nearer to them.
 pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
@@ -216,15 +216,13 @@ pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     let places = facing_on(plan, centres);
     let samples = samples(plan, &places);
     let within = |model: &MotionModel| through_within(plan, model, slot, &places, &samples);
-    let off_m = |motion: &Projection| {
-        let off =
-            |(i, centre): (usize, &Vec2)| (motion.trajectory[(i + 1) * PER_INSTANT].position - centre).norm();
-        centres.iter().enumerate().map(off).fold(0.0, f64::max)
-    };
-    let motions = [within(&plan.model.hurried()), within(&plan.model)];
-    let reached = motions.into_iter().filter(|motion| motion.reach.is_reached());
-    let nearest = reached.min_by(|a, b| off_m(a).total_cmp(&off_m(b)));
-    nearest.map_or_else(|| through(plan, slot, places), Rollout::from)
+    let (hurried, possible) = (within(&plan.model.hurried()), within(&plan.model));
+    let nearer =
+        |a: &Projection, b: &Projection| off_m(&a.trajectory, &places) <= off_m(&b.trajectory, &places);
+    if hurried.reach.is_reached() && (!possible.reach.is_reached() || nearer(&hurried, &possible)) {
+        return hurried.into();
+    }
+    as_possible(plan, possible)
 }
 
 /// The same for an agent that stops before its goal, or at it, because another is in the way.
@@ -294,11 +292,22 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rol
     if motion.reach.is_reached() {
         return motion.into();
     }
-    let motion = through_within(plan, &plan.model, slot, &places, &samples);
+    as_possible(plan, through_within(plan, &plan.model, slot, &places, &samples))
+}
+
+/// A motion within what is possible; backwards where only that comes nearer to the goal.
+fn as_possible(plan: &AgentPlan, motion: Projection) -> Rollout {
     if motion.reach.is_reached() {
         return motion.into();
     }
     reversing(plan, &motion).unwrap_or_else(|| motion.into())
+}
+
+/// Greatest distance of a motion from these places at their instants, metres.
+fn off_m(motion: &Trajectory, places: &[(Vec2, f64)]) -> f64 {
+    let off =
+        |(i, (place, _)): (usize, &(Vec2, f64))| (motion[(i + 1) * PER_INSTANT].position - place).norm();
+    places.iter().enumerate().map(off).fold(0.0, f64::max)
 }
 
 /// The motion of this model past these places.
@@ -314,12 +323,8 @@ fn through_within(
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };
         let motion = projected(plan, model, &knots, &along);
-        let off = |(i, (place, _)): (usize, &(Vec2, f64))| {
-            (motion.trajectory[(i + 1) * PER_INSTANT].position - place).norm()
-        };
-        let due = target.step / PER_INSTANT;
-        let off_m = places.iter().enumerate().take(due).map(off).fold(0.0, f64::max);
-        if motion.reach.is_reached() && off_m < ALONG_LANE_M {
+        let due = (target.step / PER_INSTANT).min(INSTANTS);
+        if motion.reach.is_reached() && off_m(&motion.trajectory, &places[..due]) < ALONG_LANE_M {
             return on_after(plan, model, motion, samples);
         }
     }
@@ -467,10 +472,10 @@ mod tests {
             s => 12.0 + 1.92 * (s - 4.0).powi(2),
         };
         let centres = std::array::from_fn(|i| Vec2::new(x_m(0.5 * (i + 1) as f64), 0.0));
+        let places = centres.map(|centre| (centre, 0.0));
         let off_m = |motion: &Rollout| {
             assert!(motion.reach.is_reached());
-            let off = |(i, c): (usize, &Vec2)| (motion.states[(i + 1) * PER_INSTANT].position - c).norm();
-            centres.iter().enumerate().map(off).fold(0.0, f64::max)
+            off_m(&motion.states, &places)
         };
         let again = off_m(&driven_again(&plan, Slot::FIRST, &centres));
         let hurried = off_m(&along_places(&plan, Slot::FIRST, &centres));
