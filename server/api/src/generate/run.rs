@@ -145,7 +145,6 @@ pub struct GenerationAnswer {
 impl GenerationAnswer {
     /// Of a plan.
     pub fn new(plan: &GenerationPlan, mut answer: Answer, generator: &Generator, clock: Clock) -> Self {
-        answer.warnings.extend(plan.warnings.iter().cloned());
         let named = plan.request.agents.as_ref().is_none_or(|asked| !asked.is_empty());
         if !named && answer.samples.iter().all(|sample| sample.agents.is_empty()) {
             let message = sentences::nothing_generated();
