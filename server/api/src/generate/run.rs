@@ -2,7 +2,7 @@
 
 use super::{GenerationPlan, fill};
 use crate::compact::FuturesForm;
-use crate::events::{DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
+use crate::events::{CALIBRATED, DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
 use crate::problem::Problem;
 use crate::score::with_standings;
 use experts::{Accepted, Answer, Cancel, Clock, Event, GenerateError, Generator};
@@ -178,6 +178,7 @@ impl GenerationAnswer {
         FinalBody {
             windows: answer.windows,
             samples: samples.iter().map(|sample| SampleBody::new(sample, self.form)).collect(),
+            calibrated: CALIBRATED,
             resolved: answer.resolved.clone(),
             scores: self.scores.clone(),
             warnings: answer.warnings.clone(),

@@ -1019,7 +1019,7 @@ export interface components {
             manoeuvre?: components["schemas"]["Manoeuvre"] | null;
             /**
              * Format: double
-             * @description Share of belief among the road user's futures.
+             * @description Relative weight among the road user's futures; see `calibrated` of the answer.
              */
             probability: number;
             /** @description How it stands to others. */
@@ -1582,6 +1582,11 @@ export interface components {
          * @description Last event of a call that succeeded: the answer.
          */
         FinalEvent: {
+            /**
+             * @description Are the probabilities of the futures calibrated? If false, they are relative weights: their order counts.
+             *     docs/results.md has their log loss.
+             */
+            calibrated: boolean;
             /**
              * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
              *     options, seed, weights and version. Identical calls have identical codes.
