@@ -94,7 +94,7 @@ class Scene:
         the others react, all or the ids named. ``kept_futures``: what becomes of the futures of earlier calls, of
         road users that are not generated; ``forgotten`` drops them. ``horizon_s`` up to 20; above 9, and with
         ``replan_interval_s`` (3, 6 or 9), every road user plans again from the state it has reached. Of a road user
-        that is not generated, a condition counts for its type and size alone. Ids are text or numbers.
+        that is not generated, a goal, start or via point is refused; its type and size count. Ids are text or numbers.
 
         Raises:
             DragTrafficError: the program refused the call.

@@ -94,8 +94,8 @@ def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
         scene.generate([])
     goes_on = scene.generate([], react=True, horizon_s=15.0)
     assert goes_on.samples[0]["agents"], "motion that ends goes on"
-    other = scene.generate(["7"], goals={"6": Goal(x_m=1.0, y_m=2.0)})
-    assert other.samples == scene.generate(["7"]).samples, "a goal of a road user that is not generated"
+    with pytest.raises(dragtraffic.DragTrafficError, match='--goal 6: road user "6" is not in agents'):
+        scene.generate(["7"], goals={"6": Goal(x_m=1.0, y_m=2.0)})
 
 
 def test_numbers_of_numpy_and_ids_that_are_numbers(scene: Scene, turned: Scene) -> None:

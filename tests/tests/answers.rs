@@ -17,6 +17,17 @@ fn code(answer: &Value) -> String {
     answer["code"].as_str().unwrap().to_owned()
 }
 
+/// Clients show their order and no figure as long as `calibrated` is false.
+#[test]
+fn probabilities_are_said_to_be_relative_weights() {
+    let server = Server::start(&[]).unwrap();
+    let answer = ask(&server, &json!({}));
+    assert_eq!(answer["calibrated"], false);
+    let modes = answer["samples"][0]["agents"]["5"]["modes"].as_array().unwrap().iter();
+    let weights: Vec<f64> = modes.map(|mode| mode["probability"].as_f64().unwrap()).collect();
+    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-6, "{weights:?}");
+}
+
 #[test]
 fn equal_calls_have_equal_codes_and_a_change_has_another() {
     let server = Server::start(&[]).unwrap();

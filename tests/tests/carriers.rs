@@ -136,34 +136,66 @@ fn a_goal_says_who_is_regenerated() {
     assert!(matches!(request.chosen_agents(), AgentChoice::All(_)));
 }
 
-/// A condition of a road user that is not regenerated moves nothing: each carrier warns of it and answers the same.
+/// A condition that would change no motion is refused by each carrier, with its place.
 #[test]
-fn conditions_of_other_road_users_are_warned_of() {
+fn conditions_of_other_road_users_are_refused() {
     let server = Server::start(&[]).unwrap();
-    let body = json!({"scene": demo(), "agents": ["7"], "score": false,
-        "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}, "frame": "scene"}}});
-    let sent: Value = serde_json::from_str(&posted(&server, "/v1/generate", &body)).unwrap();
-    let warning = &sent["warnings"][0];
-    assert_eq!(
-        (&warning["code"], &warning["agent"], &warning["message"]["values"]),
-        (&json!("condition-unused"), &json!("6"), &json!({"agent": "6"}))
-    );
-    let call = ["generate", &path(), "--agents", "7", "--goal", "6=-40,8"];
-    let output = Command::new(program()).args(call).output().unwrap();
-    assert!(output.status.success());
+    let refused = |body: &Value| {
+        let reply = server.post("/v1/generate", body).unwrap();
+        assert_eq!((reply.status, reply.code()), (422, "not-asked".to_owned()), "{}", reply.text());
+        let problem = reply.json();
+        assert_eq!(problem["message"], json!({"code": "not-asked", "values": {"id": "6"}}));
+        let places = problem["errors"].as_array().unwrap().iter();
+        places.map(|error| error["pointer"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let asked = |of: &str, condition: Value| json!({"scene": demo(), "agents": ["7"], "score": false, "steps": 0, "conditions": {of: condition}});
+    let goal = json!({"x_m": -40.0, "y_m": 8.0});
+    let mut body = asked("6", json!({"goal": goal}));
+    assert_eq!(refused(&body), ["/conditions/6/goal"]);
+    // Road users that may react keep their motion unless another one is in the way.
+    for react in [json!(true), json!(["6"])] {
+        body["react"] = react;
+        assert_eq!(refused(&body), ["/conditions/6/goal"]);
+    }
+    let via = json!([{"x_m": -20.0, "y_m": 8.0}]);
+    let places = refused(&asked("6", json!({"start": {"speed_mps": 3.0}, "via": via})));
+    assert_eq!(places, ["/conditions/6/start", "/conditions/6/via"]);
+    // Without `agents` the goal of 7 chooses 7 alone.
+    let mut body = asked("6", json!({"start": {"speed_mps": 3.0}}));
+    (body["agents"], body["conditions"]["7"]) = (Value::Null, json!({"goal": goal}));
+    assert_eq!(refused(&body), ["/conditions/6/start"]);
+
+    let call = |flags: &[&str]| Command::new(program()).arg("generate").args(flags).output().unwrap();
+    let output = call(&[&path(), "--agents", "7", "--goal", "6=-40,8"]);
     let told = String::from_utf8(output.stderr).unwrap();
-    assert!(told.contains("6: condition-unused: Road user 6 is not regenerated"), "{told}");
-    let file: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(file["generated"]["samples"][0]["agents"], sent["samples"][0]["agents"]);
-    let free = json!({"scene": demo(), "agents": ["7"], "score": false});
-    let free: Value = serde_json::from_str(&posted(&server, "/v1/generate", &free)).unwrap();
-    assert_eq!(free["samples"][0]["agents"], sent["samples"][0]["agents"]);
-    assert_eq!(free["warnings"], json!([]));
-    // A future that the scene keeps came of its condition.
-    let kept = json!({"scene": file, "agents": ["7"], "score": false,
-        "conditions": {"7": {"start": {"speed_mps": 3.0}}}});
-    let kept: Value = serde_json::from_str(&posted(&server, "/v1/generate", &kept)).unwrap();
-    assert_eq!(kept["warnings"], json!([]));
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
+    assert!(told.contains("--goal 6: road user \"6\" is not in agents: add \"6\" to agents"), "{told}");
+    // Type and size count for every road user.
+    let output = call(&[&path(), "--agents", "7", "--steps", "0", "--size", "6=5x2"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// A condition without generation is taken where the scene keeps a future of the road user or has the same condition.
+#[test]
+fn conditions_of_kept_futures_and_of_the_scene_are_taken() {
+    let server = Server::start(&[]).unwrap();
+    let answered =
+        |body: &Value| -> Value { serde_json::from_str(&posted(&server, "/v1/generate", body)).unwrap() };
+    let flags = ["generate", &path(), "--goal", "6=-40,8", "--steps", "0", "--quiet"];
+    let mut scene: Value = serde_json::from_slice(&printed(&flags)).unwrap();
+    let mut body = json!({"scene": scene, "agents": ["7"], "score": false, "steps": 0,
+        "conditions": {"6": {"goal": {"x_m": -30.0, "y_m": 8.0}}}});
+    let kept = answered(&body);
+    assert_eq!(kept["generated"]["stale"], true, "the kept future came of another goal");
+    assert!(kept["samples"][0]["agents"]["6"].is_object());
+    body["kept_futures"] = json!("forgotten");
+    assert_eq!(server.post("/v1/generate", &body).unwrap().code(), "not-asked");
+
+    scene["generated"] = Value::Null;
+    let own =
+        &scene["agents"].as_array().unwrap().iter().find(|agent| agent["id"] == "6").unwrap()["conditions"];
+    let body = json!({"scene": scene, "agents": ["7"], "score": false, "steps": 0, "conditions": {"6": own}});
+    assert!(own["goal"].is_object() && answered(&body)["samples"][0]["agents"]["7"].is_object());
 }
 
 /// An empty list regenerates no road user; with `react`, motion that ends early goes on. Nothing at all is warned of.

@@ -270,10 +270,13 @@ fn a_question_that_waits_can_be_given_up_and_too_many_are_refused() {
 fn a_refusal_is_told_and_the_line_goes_on() {
     let server = Server::start(&[]).unwrap();
     let mut line = Line::to(&server);
+    let unasked = json!({"scene_id": "demo-crossing", "agents": ["7"],
+        "conditions": {"6": {"goal": {"x_m": -40.0, "y_m": 8.0}}}});
     for (body, status, code) in [
         (json!({"scene_id": "nowhere"}), 404, "not-found"),
         (json!({"scene_id": "demo-crossing", "speed": 3}), 422, "invalid-field"),
         (json!(7), 422, "invalid-field"),
+        (unasked, 422, "not-asked"),
     ] {
         line.ask(1, &body);
         let (head, problem) = line.answer(1);

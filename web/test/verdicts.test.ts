@@ -6,7 +6,7 @@ import { setGoal } from '../src/model/document/commands';
 import { closeInTime, counted } from '../src/model/physics/events';
 import { eventsOf, readEvents, summary } from '../src/model/words/event-words';
 import { faultPlaces } from '../src/model/physics/fault-places';
-import { emptyMotion, keepVerdicts, percents, type Futures, type MotionSet } from '../src/model/document/futures';
+import { emptyMotion, keepVerdicts, rankOf, type Futures, type MotionSet } from '../src/model/document/futures';
 import type { Naming } from '../src/model/words/future-names';
 import { readScene } from '../src/model/document/scene-reader';
 import { readFutures, withNames, readGenerated } from '../src/model/words/named-futures';
@@ -344,7 +344,7 @@ describe('verdicts of drafts', () => {
   });
 });
 
-describe('letters and shares', () => {
+describe('letters and ranks', () => {
   it('rank by probability at rest', () => {
     const json = { chosen: 1, modes: [0.2, 0.5, 0.3].map((probability, anchor) => mode({ probability, anchor })) };
     const f = readFutures(json, start, 5, 5, false, 'rank');
@@ -352,12 +352,13 @@ describe('letters and shares', () => {
     expect(f.chosen).toBe(0);
   });
 
-  it('sum to a hundred', () => {
-    const of = (...p: number[]) => percents(p.map((probability) => ({ probability })));
-    expect(of(1 / 3, 1 / 3, 1 / 3)).toEqual([34, 33, 33]);
-    expect(of(0.2, 0.2, 0.1)).toEqual([40, 40, 20]);
-    expect(of(0.996, 0.002, 0.002).reduce((s, v) => s + v, 0)).toBe(100);
-    expect(of()).toEqual([]);
+  it('count from the likeliest, the earlier letter first where two are equal', () => {
+    const of = (...all: number[]) => {
+      const modes = all.map((probability) => ({ probability }));
+      return modes.map((_, i) => rankOf(modes, i));
+    };
+    expect(of(0.2, 0.5, 0.3)).toEqual([3, 1, 2]);
+    expect(of(0.25, 0.5, 0.25)).toEqual([2, 1, 3]);
   });
 
   it('report why another is shown than the one before', () => {

@@ -390,8 +390,6 @@ pub enum WarningCode {
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
-    /// A condition of this call concerns a road user that is not regenerated.
-    ConditionUnused,
     /// No road user was named, and none has to continue beyond its known motion.
     NothingGenerated,
 }
@@ -406,7 +404,6 @@ impl WarningCode {
             Self::StartOverlaps => "start-overlaps",
             Self::Extrapolated => "extrapolated",
             Self::ViaMissed => "via-missed",
-            Self::ConditionUnused => "condition-unused",
             Self::NothingGenerated => "nothing-generated",
         }
     }

@@ -98,9 +98,6 @@ scene::messages! {
         "via-missed",
         "The future misses via point {number} by {distance_m:.1} m at {time_s:.1} s; the tolerance is \
          {tolerance_m:.1} m.";
-    condition_unused(agent: &str) =
-        "condition-unused",
-        "Road user {agent} is not regenerated: its start, goal and via points do not change its motion.";
     nothing_generated() =
         "nothing-generated",
         "No road user is regenerated, and no known motion ends before the last window.";

@@ -57,6 +57,7 @@ codes! {
     HalfPosition "half-position" "Half a position" "`x_m` and `y_m` are fixed together or not at all.";
     StartMissing "start-missing" "Start unknown" "A start field is free and neither the log nor a default fills it.";
     UnknownAgent "unknown-agent" "No such road user" "An id names no road user of the scene.";
+    NotAsked "not-asked" "Condition of a road user that is not generated" "A start, goal or via point of a road user outside `agents` would change no motion. Add the road user to `agents`, or leave the condition out.";
     UnknownMap "unknown-map" "Map not known here" "No map with this hash is known to the server; send the map inline.";
     TooManyAgents "too-many-agents" "Too many road users" "More road users than a scene may hold or a call may regenerate.";
     MapTooLarge "map-too-large" "Map too large" "The map has more lines, points or signals than a scene may hold.";

@@ -45,7 +45,7 @@ pub struct CompactFuturesDoc {
 /// scene document come out, to the last digit.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CompactFuture {
-    /// Share of belief among the road user's futures.
+    /// Relative weight among the road user's futures; see `calibrated` of the answer.
     probability: f64,
     /// Which of the generator's anchors it follows.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -2,6 +2,8 @@
 
 scene::messages! {
     unknown_agent(id: &str) = "unknown-agent", "the scene has no road user \"{id}\"";
+    not_asked(id: &str) =
+        "not-asked", "road user \"{id}\" is not in agents: add \"{id}\" to agents, or leave this condition out";
     no_agents_named() =
         "no-agents-named", "expected \"all\", at least one id, or at least one road user that reacts";
     too_many_regenerated(count: usize, most: usize) =

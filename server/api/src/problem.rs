@@ -158,9 +158,13 @@ pub fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
 
 /// The fault of an id that no road user of the scene has.
 pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
-    let shown: String = id.chars().take(64).collect();
-    let message = english::unknown_agent(&shown);
+    let message = english::unknown_agent(&shortened(id));
     FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message.english)
+}
+
+/// An id as a message shows it: outside data may be long.
+pub(crate) fn shortened(id: &str) -> String {
+    id.chars().take(64).collect()
 }
 
 impl From<ReadError> for Problem {

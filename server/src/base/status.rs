@@ -23,6 +23,7 @@ pub fn status_of(code: Code) -> u16 {
         | Code::HalfPosition
         | Code::StartMissing
         | Code::UnknownAgent
+        | Code::NotAsked
         | Code::UnknownMap
         | Code::TooManyAgents
         | Code::MapTooLarge

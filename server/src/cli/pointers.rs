@@ -69,7 +69,7 @@ fn of_conditions(rest: &str) -> String {
     match path.as_slice() {
         ["goal", field, ..] => format!("--goal {id}: {}", key(field)),
         ["start", field, ..] => format!("--start {id}: {}", key(field)),
-        ["goal"] => format!("--goal {id}"),
+        [name @ ("goal" | "start" | "via")] => format!("--{name} {id}"),
         [name @ ("length_m" | "width_m")] => format!("--size {id}: {}", key(name)),
         ["type"] => format!("--type {id}"),
         _ => format!("road user {id}"),

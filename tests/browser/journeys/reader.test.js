@@ -52,7 +52,7 @@ journeys('by a screen reader', (stage) => {
     await press(e, 'button', new RegExp(`^${car.name}, `));
     await hears(new RegExp(`${car.name} selected|Six futures`));
     await e.settled();
-    await hears(/Six futures\. Most likely: .+, \d+ percent/);
+    await hears(/Six futures\. Shown: .+, rank \d/);
     // The goal at the end of the likeliest future, and a little further.
     await e.key('g');
     await e.settled();

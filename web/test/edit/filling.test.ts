@@ -1,6 +1,7 @@
 // Filling an area: drawn outlines, distribution of kinds, pins that stay.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
+import { Answers } from '../../src/edit/tools/filling/fill-answer';
 import { FILL_KINDS, EVEN_MIX, shareOf, typesOf } from '../../src/edit/tools/filling/fill-mix';
 import { recast, thinned } from '../../src/edit/tools/filling/fill-recast';
 import { armHandleAt, armHandles, armName, rateAfter } from '../../src/edit/tools/filling/arm-handles';
@@ -13,8 +14,10 @@ import { PRESETS } from '../../src/model/base/kinds';
 import { View } from '../../src/draw/view';
 import { motionFrom } from '../../src/model/base/motion';
 import { comesLater, newcomer, settle, type Newcomer } from '../../src/model/document/newcomer';
+import { readScene } from '../../src/model/document/scene-reader';
 import { touched } from '../../src/model/document/scene';
 import { wholeAgentJson } from '../../src/model/document/scene-writer';
+import { crossingJson } from '../helpers';
 
 const carAt = (x: number, y = 0) => newcomer('car', PRESETS.car[0], { x, y, heading: 0, speed: 10 });
 
@@ -53,6 +56,28 @@ describe('a mix of kinds', () => {
       ).toBeUndefined();
     const taken = [{ pose: { x: 5, y: 0, heading: 0 }, length: 4, width: 2 }];
     expect(recast([carAt(0)], { ...heavy, car: 0 }, taken)[0].kind).toBe('car');
+  });
+});
+
+describe('the answer of the server', () => {
+  it.each([
+    [0, 3],
+    [1, 4],
+    [2, 5],
+    [9, 5],
+  ])('keeps the number: with %i places missing, %i road users beside two pinned ones', async (unplaced, count) => {
+    const drawn = Array.from({ length: 5 }, (_, i) => wholeAgentJson(settle(carAt(400 + 20 * i, 300), `new-${i}`)));
+    const reply = { agents: drawn, unplaced, reason: null, arms: [], parking_places: 0 };
+    const json = crossingJson();
+    const answers = new Answers(
+      { raw: json, sentMap: () => json.map } as never,
+      { place: () => Promise.resolve(reply) } as never,
+    );
+    const filling = new Filling(new Editor());
+    filling.open(1);
+    const wish = { ...filling.wish.peek()!, pinned: [carAt(400, 350), carAt(440, 350)] };
+    const { all } = await answers.to(readScene(json), wish, new AbortController().signal);
+    expect(all).toHaveLength(count);
   });
 });
 

@@ -96,6 +96,28 @@ describe('a change', () => {
     expect(editor.answers.changes.peek()).toEqual(changed);
   });
 
+  it('that is not answered yet is requested with the pick of another road user', () => {
+    goalFor('1');
+    rest();
+    generator.last.on.final(finalOf('1'), 5);
+    goalFor('2');
+    editor.select('1');
+    editor.commits.run(pickFuture(editor, editor.agent.peek()!, 2)!);
+    rest();
+    expect(generator.last.options).toMatchObject({ agents: ['1', '2'], pinned: ['1'], react: true });
+    expect(Object.keys(generator.last.options.conditions)).toEqual(['1', '2']);
+  });
+
+  it('that is not answered yet sends no goal with the drag of another road user', () => {
+    goalFor('1');
+    editor.select('2');
+    editor.drag.begin({ part: 'goal', handle: 'body' });
+    editor.drag.preview(goalOf('2'));
+    generation.preview('2');
+    expect(generator.last.options).toMatchObject({ agents: ['2'], react: false });
+    expect(Object.keys(generator.last.options.conditions)).toEqual(['2']);
+  });
+
   it('requests no others when they replay the recording', () => {
     editor.commits.run(setOthers('log'));
     goalFor('1');

@@ -1,4 +1,5 @@
 // An editing session without a page or a server: its generators are in the test.
+import { expect } from 'vitest';
 import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
 import { Editor } from '../../src/edit/session/editor';
 import { Generation } from '../../src/edit/asking/generation';
@@ -20,6 +21,17 @@ export const uneventful = {
   scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
 } as unknown as ScoreReply;
 
+/** Road users whose start, goal or via points the server refuses, as they would change no motion. */
+function refusedConditions({ options, scene }: Question): string[] {
+  const { agents, conditions } = options;
+  if (agents === 'all') return [];
+  const sent = scene();
+  const kept = 'scene' in sent ? Object.keys(sent.scene.generated?.samples[0].agents ?? {}) : [];
+  const counts = new Set([...agents, ...kept]);
+  const moves = Object.entries(conditions).filter(([, c]) => c.start || c.goal || c.via);
+  return moves.map(([id]) => id).filter((id) => !counts.has(id));
+}
+
 /** Collects the questions; the test answers them at any time. */
 export class InMemoryGenerator implements Generator {
   readonly asked: Question[] = [];
@@ -28,6 +40,7 @@ export class InMemoryGenerator implements Generator {
   there = true;
 
   ask(q: Question): void {
+    expect(refusedConditions(q)).toEqual([]);
     this.asked.push(q);
   }
 

@@ -2,15 +2,17 @@
 
 use super::concerned;
 use super::request::{GenerateRequest, KeptFutures, StreamModes};
+use crate::code::Code;
 use crate::compact::FuturesForm;
+use crate::english;
 use crate::events::GeneratedHead;
 use crate::limits::CallLimits;
 use crate::opened::Standings;
-use crate::problem::Problem;
-use experts::{Generator, Request, Warning, WarningCode, sentences};
-use formats::native::ConditionsDoc;
+use crate::problem::{Problem, refuse, shortened};
+use experts::{Generator, Request};
+use formats::{FieldProblem, pointer_token};
 use scene::score::Thresholds;
-use scene::{ContentHash, Scene, licence};
+use scene::{Conditions, ContentHash, Scene, Start, licence};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -39,8 +41,6 @@ pub struct GenerationPlan {
     pub(super) with_kept: bool,
     /// The rest of `generated`.
     pub(super) head: GeneratedHead,
-    /// Warnings that follow from the request, before any planning.
-    pub(super) warnings: Vec<Warning>,
 }
 
 impl GenerateRequest {
@@ -57,10 +57,10 @@ impl GenerateRequest {
         self.check_ranges()?;
         let applied = Arc::new(self.apply(scene.clone())?);
         let request = self.engine_request(&applied, limits)?;
+        self.refuse_not_asked(scene, &applied, &request)?;
         let mut head =
             GeneratedHead::new(applied.input_hash().hex(), generator.hashes(), self.seed, self.options());
         head.stale = self.keeps_stale(scene, &applied, &request);
-        let warnings = self.unused(&applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
         Ok(GenerationPlan {
@@ -74,19 +74,18 @@ impl GenerateRequest {
             score: self.score,
             with_kept: self.kept_futures == KeptFutures::Answered,
             head,
-            warnings,
         })
     }
 
-    /// Conditions of this call that change no motion: of road users that are not regenerated and keep no future.
-    fn unused(&self, applied: &Scene, request: &Request) -> Vec<Warning> {
-        let given = |doc: &ConditionsDoc| doc.goal.is_some() || doc.start.is_some() || !doc.via.is_empty();
+    /// Refuses conditions that would change no motion: of road users that are not generated and keep no future. One that
+    /// may react keeps its motion unless another one is in the way, so its goal would be lost too.
+    fn refuse_not_asked(&self, scene: &Scene, applied: &Scene, request: &Request) -> Result<(), Problem> {
         let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
         let keeps = |id: &String| applied.generated.as_ref().is_some_and(|g| g.chosen_future(id).is_some());
-        let unused = self.conditions.0.iter().filter(|(id, doc)| given(doc) && !asked(id) && !keeps(id));
-        unused
-            .map(|(id, _)| Warning::of(WarningCode::ConditionUnused, id, sentences::condition_unused(id)))
-            .collect()
+        let of =
+            |scene: &Scene, id| scene.agent(id).map(|agent| agent.conditions.clone()).unwrap_or_default();
+        let ids = self.conditions.0.keys().filter(|id| !asked(id) && !keeps(id));
+        refuse(ids.flat_map(|id| not_asked(id, &of(applied, id), &of(scene, id))).collect())
     }
 
     /// Does a kept future belong to other conditions than those of the scene with this call's changes?
@@ -120,6 +119,20 @@ impl GenerateRequest {
         }
         options
     }
+}
+
+/// The parts of a condition that would be lost: those that the scene's own one does not have.
+fn not_asked(id: &str, given: &Conditions, own: &Conditions) -> Vec<FieldProblem> {
+    let parts = [
+        ("start", given.start != own.start && given.start != Start::default()),
+        ("goal", given.goal != own.goal && !given.goal.is_free()),
+        ("via", given.via != own.via && !given.via.is_empty()),
+    ];
+    let fault = |(part, _)| {
+        let pointer = format!("/conditions/{}/{part}", pointer_token(id));
+        FieldProblem::of(pointer, Code::NotAsked.name(), english::not_asked(&shortened(id)))
+    };
+    parts.into_iter().filter(|(_, lost)| *lost).map(fault).collect()
 }
 
 impl GenerationPlan {

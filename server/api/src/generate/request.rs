@@ -84,9 +84,9 @@ pub struct GenerateRequest {
     /// With `scene`: the server holds it in memory. Later calls use the name in the reply's header `Dragtraffic-Scene`
     /// as their `scene_id`. The server drops scenes that were not used for a long time (`not-found`).
     pub hold: bool,
-    /// Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
-    /// size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
-    /// a future of it.
+    /// Replace the scene's own conditions of these road users, whole. Type and size always count. A start, goal or via
+    /// point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the scene
+    /// keeps no future of it, and its own conditions are others.
     pub conditions: Members<ConditionsDoc>,
     /// Road users added for this call.
     pub add_agents: Vec<AgentDoc>,

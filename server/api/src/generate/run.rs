@@ -2,7 +2,7 @@
 
 use super::{GenerationPlan, fill};
 use crate::compact::FuturesForm;
-use crate::events::{DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
+use crate::events::{CALIBRATED, DraftBody, FinalBody, GeneratedHead, RoundBody, SampleBody, TimingBody};
 use crate::problem::Problem;
 use crate::score::with_standings;
 use experts::{Accepted, Answer, Cancel, Clock, Event, GenerateError, Generator};
@@ -145,7 +145,6 @@ pub struct GenerationAnswer {
 impl GenerationAnswer {
     /// Of a plan.
     pub fn new(plan: &GenerationPlan, mut answer: Answer, generator: &Generator, clock: Clock) -> Self {
-        answer.warnings.extend(plan.warnings.iter().cloned());
         let named = plan.request.agents.as_ref().is_none_or(|asked| !asked.is_empty());
         if !named && answer.samples.iter().all(|sample| sample.agents.is_empty()) {
             let message = sentences::nothing_generated();
@@ -179,6 +178,7 @@ impl GenerationAnswer {
         FinalBody {
             windows: answer.windows,
             samples: samples.iter().map(|sample| SampleBody::new(sample, self.form)).collect(),
+            calibrated: CALIBRATED,
             resolved: answer.resolved.clone(),
             scores: self.scores.clone(),
             warnings: answer.warnings.clone(),

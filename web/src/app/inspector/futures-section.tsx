@@ -1,7 +1,7 @@
-// The six futures of a road user: names, probabilities, and the followed one.
+// The six futures of a road user: names, ranks, and the followed one.
 import { useComputed } from '@preact/signals';
 import { markOf, type Mark } from '../../model/document/future-facts';
-import { isSettled, LETTERS, percents, type Future } from '../../model/document/futures';
+import { isSettled, LETTERS, rankOf, type Future } from '../../model/document/futures';
 import type { Command } from '../../model/document/commands';
 import { takePin, unpin } from '../../model/document/pins';
 import { endsBefore } from '../../model/base/motion';
@@ -117,7 +117,10 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mode = useComputed(() => editor.reading.toldFutures.value?.modes[index]);
   const name = useComputed(() => mode.value?.name ?? '');
-  const percent = useComputed(() => `${percents(editor.reading.toldFutures.value?.modes ?? [])[index] ?? 0}%`);
+  const rank = useComputed(() => {
+    const modes = editor.reading.toldFutures.value?.modes ?? [];
+    return modes[index] ? TEXTS.rank(rankOf(modes, index)) : '';
+  });
   const title = useComputed(() => inWords(editor.resting.value, mode.value));
   const checked = useComputed(() =>
     String(
@@ -150,10 +153,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
         <span class={`l m${index}`}>{LETTERS[index]}</span>
         <span class="nm">{name}</span>
         <MarkSign agent={agent} index={index} />
-        <span class="bar">
-          <Share index={index} />
-        </span>
-        <span class="pc">{percent}</span>
+        <span class="rank">{rank}</span>
       </button>
       <button
         type="button"
@@ -250,15 +250,4 @@ function inWords(scene: Scene | null, m: Future | undefined): string {
   const [worst] = m?.about?.faults ?? [];
   if (!scene || !m || !worst) return m?.name ?? '';
   return TEXTS.at(m.name, placeWord(worst, nameIn(scene)), seconds(worst.time));
-}
-
-/** A bar for the probability relative to the likeliest. It is moved by a transform, which needs no layout. */
-function Share({ index }: { index: number }) {
-  const { editor } = useApp();
-  const missing = useComputed(() => {
-    const modes = editor.reading.toldFutures.value?.modes ?? [];
-    const share = (modes[index]?.probability ?? 0) / Math.max(...modes.map((m) => m.probability), 1e-9);
-    return `translate: ${((share - 1) * 100).toFixed(2)}%`;
-  });
-  return <i class={`m${index}`} style={missing} />;
 }

@@ -5,7 +5,7 @@ import {
   ideas,
   isBlocked,
   keepVerdicts,
-  percents,
+  rankOf,
   withOwnFirst,
   type Futures,
   type KeepOrder,
@@ -304,8 +304,7 @@ export class AnswerHandler {
     const best = f.modes[f.chosen];
     if (!best || dragging) return;
     this.#names.rest();
-    const likely = percents(f.modes)[f.chosen];
-    editor.notices.say(TEXTS.sixFuturesMost(best.name, likely));
+    editor.notices.say(TEXTS.sixFutures(best.name, rankOf(f.modes, f.chosen)));
   }
 
   #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {

@@ -63,7 +63,7 @@ export class RequestBuilder {
     return {
       preview,
       on,
-      options: { ...this.#options(scene, w), ...shownOf(this.editor, w) },
+      options: { ...this.#options(scene, set, w), ...shownOf(this.editor, w) },
       scene: () => this.#reference(scene, set, w, preview),
       whole: () => this.#written(scene, set, w, this.file.map!),
     };
@@ -77,16 +77,18 @@ export class RequestBuilder {
     return {
       preview: false,
       on,
-      options: { ...this.#options(scene, w), ...ANSWER_ALONE },
+      options: { ...this.#options(scene, set, w), ...ANSWER_ALONE },
       scene: () => ({ scene: this.#written(scene, set, w, this.file.sentMap()) }),
       whole: () => this.#written(scene, set, w, map!),
     };
   }
 
-  #options(scene: Scene, w: Wanted): GenerateOptions {
+  #options(scene: Scene, set: MotionSet, w: Wanted): GenerateOptions {
     const conditions: Record<string, ConditionJson> = {};
+    const counts = new Set([...w.agents, ...keptIn(set, w).map(([id]) => id)]);
     for (const a of scene.agents.values()) {
-      const c = conditionOf(a);
+      // The server refuses a start, goal or via point that would change no motion.
+      const c = w.agents === 'all' || counts.has(a.id) ? conditionOf(a) : sizeAndType(conditionOf(a));
       if (!isEmptyCondition(c) || this.file.hadConditions(a.id)) conditions[a.id] = c;
     }
     return {
@@ -129,8 +131,7 @@ export class RequestBuilder {
 
   #written(scene: Scene, now: MotionSet, w: Wanted, map: MapJson | MapRef): SceneJson {
     const raw = this.file.raw!;
-    const set = asIfNotAsked(now, w.anew);
-    const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
+    const kept = keptIn(now, w);
     const moving = new Set(touchedIn(scene));
     const cast = castJson(scene);
     const agents = someStill(scene) ? withStill(scene, cast, moving) : cast;
@@ -145,6 +146,15 @@ export class RequestBuilder {
     };
   }
 }
+
+/** Futures that a request sends with its scene. */
+function keptIn(now: MotionSet, w: Wanted): [string, Futures][] {
+  const set = asIfNotAsked(now, w.anew);
+  return [...set.futures].filter(([id, f]) => f.modes.length > 0 && (set.driving.has(id) || w.kept?.has(id)));
+}
+
+const sizeAndType = (c: ConditionJson): ConditionJson =>
+  Object.fromEntries(Object.entries(c).filter(([name]) => !['start', 'goal', 'via'].includes(name)));
 
 const someStill = (s: Scene): boolean =>
   s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');

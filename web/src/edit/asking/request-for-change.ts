@@ -36,12 +36,13 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
+    const open = mine.filter((id) => !known.has(id));
     // Past its 9 s the generator computes the continuation.
-    if (!rest.length && scene.length <= GOAL_TIME) return 'known';
+    if (!rest.length && !open.length && scene.length <= GOAL_TIME) return 'known';
     // Its future is kept; road users that meet it react, and all others keep theirs.
-    const { id } = subject;
-    const react = rest.length > 0 && whoReacts(scene, [id]);
-    return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
+    const agents = [subject.id, ...open];
+    const react = rest.length > 0 && whoReacts(scene, agents);
+    return { agents, pinned: [subject.id], react, step, kept: new Set(picked) };
   }
   const held = heldIn(scene, known);
   const asked = whoIsAsked(scene, mine, known, step).filter((id) => !held.has(id));

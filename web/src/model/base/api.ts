@@ -1019,7 +1019,7 @@ export interface components {
             manoeuvre?: components["schemas"]["Manoeuvre"] | null;
             /**
              * Format: double
-             * @description Share of belief among the road user's futures.
+             * @description Relative weight among the road user's futures; see `calibrated` of the answer.
              */
             probability: number;
             /** @description How it stands to others. */
@@ -1583,6 +1583,11 @@ export interface components {
          */
         FinalEvent: {
             /**
+             * @description Are the probabilities of the futures calibrated? If false, they are relative weights: their order counts.
+             *     docs/results.md has their log loss.
+             */
+            calibrated: boolean;
+            /**
              * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
              *     options, seed, weights and version. Identical calls have identical codes.
              */
@@ -1744,9 +1749,9 @@ export interface components {
              */
             client?: string | null;
             /**
-             * @description Replace the scene's own conditions of these road users, whole. Of a road user that is not regenerated, type and
-             *     size still count, and the rest changes nothing: the warning `condition-unused` names it, unless the scene keeps
-             *     a future of it.
+             * @description Replace the scene's own conditions of these road users, whole. Type and size always count. A start, goal or via
+             *     point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the scene
+             *     keeps no future of it, and its own conditions are others.
              * @default {}
              */
             conditions?: {
@@ -3172,7 +3177,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -4752,7 +4757,7 @@ export interface components {
          * WarningCode
          * @description What is unlikely.
          */
-        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "condition-unused" | "nothing-generated";
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "nothing-generated";
         /**
          * Way
          * @description Which way of a trait is wished.
@@ -5723,7 +5728,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, reply-too-large */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, not-asked, reply-too-large */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5731,7 +5736,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "reply-too-large";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "not-asked" | "reply-too-large";
                     };
                 };
             };

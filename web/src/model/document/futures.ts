@@ -142,17 +142,11 @@ export function withOwnFirst(own: Future, f: Futures): Futures {
 /** Has the generator judged these futures? */
 export const isJudged = (f: Futures): boolean => f.modes.some((m) => m.about);
 
-/** Probabilities of the shown futures, in whole per cent; the sum is 100. */
-export function percents(modes: readonly Pick<Future, 'probability'>[]): number[] {
-  const sum = modes.reduce((s, m) => s + m.probability, 0);
-  if (!(sum > 0)) return modes.map(() => 0);
-  const exact = modes.map((m) => (m.probability / sum) * 100);
-  const out = exact.map(Math.floor);
-  const byRest = exact.map((v, i) => ({ i, rest: v - out[i] })).sort((a, b) => b.rest - a.rest || a.i - b.i);
-  const left = Math.round(100 - out.reduce((s, v) => s + v, 0));
-  for (const { i } of byRest.slice(0, left)) out[i]++;
-  return out;
-}
+/** Rank by probability, from 1. Probabilities are relative weights (`calibrated` of an answer): no figure is shown. */
+export const rankOf = (modes: readonly Pick<Future, 'probability'>[], index: number): number =>
+  1 +
+  modes.filter(({ probability: p }, i) => (i < index ? p >= modes[index].probability : p > modes[index].probability))
+    .length;
 
 export interface Collision {
   a: string;

@@ -16,7 +16,7 @@ export const TEXTS = table('generation', {
   theGenerator: (done: string) => `The generator is back.${done}`,
   waitingChanges: 'Waiting changes',
   thisTakesLonger: 'This takes longer than usual.',
-  sixFuturesMost: (best: string, likely: number) => `Six futures. Most likely: ${best}, ${likely} percent.`,
+  sixFutures: (shown: string, rank: number) => `Six futures. Shown: ${shown}, rank ${rank}.`,
   aValueIsOutside: (min: string, max: string) => `A value is outside ${min} to ${max}.`,
   toS: (window: number, min: number) => `${window} to ${min} s`,
   keepCurve: 'Keep speed curve',

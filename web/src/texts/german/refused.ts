@@ -29,6 +29,7 @@ export const refused: Readonly<Record<string, string>> = {
   'half-position': 'Von einem Ort fehlt eine Koordinate.',
   'start-missing': 'Es ist nicht bekannt, wo jemand beginnt.',
   'unknown-agent': 'Diesen Verkehrsteilnehmer gibt es in der Szene nicht.',
+  'not-asked': 'Eine Bedingung gilt einem Verkehrsteilnehmer, dessen Bewegung nicht erzeugt wird.',
   'unknown-map': 'Die Karte dieser Szene ist hier nicht bekannt.',
   'too-many-agents': 'Das sind mehr Verkehrsteilnehmer als erlaubt.',
   'map-too-large': 'Die Karte ist größer als erlaubt.',

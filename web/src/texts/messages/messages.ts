@@ -28,8 +28,6 @@ export const SENTENCES = table('messages', {
     'start-overlaps': (v: Values) => `The start overlaps road user ${v.agent}.`,
     'via-missed': (v: Values) =>
       `The future misses via point ${v.number} by ${v.distance_m} at ${v.time_s}; the tolerance is ${v.tolerance_m}.`,
-    'condition-unused': (v: Values) =>
-      `Road user ${v.agent} is not regenerated: its start, goal and via points do not change its motion.`,
     'nothing-generated': 'No road user is regenerated, and no known motion ends before the last window.',
     'motion-ends': (v: Values) =>
       `The known motion ends at ${v.time_s}; the road user continues straight at its speed.`,

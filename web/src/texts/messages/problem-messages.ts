@@ -5,6 +5,8 @@ export const SENTENCES = table('problem-messages', {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `the scene has no road user \"${v.id}\"`,
+    'not-asked': (v: Values) =>
+      `road user \"${v.id}\" is not in agents: add \"${v.id}\" to agents, or leave this condition out`,
     'no-agents-named': 'expected \"all\", at least one id, or at least one road user that reacts',
     'too-many-regenerated': (v: Values) =>
       plural(Number(v.count), {

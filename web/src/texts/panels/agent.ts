@@ -68,6 +68,7 @@ export const TEXTS = table('agent', {
   asRecorded: 'As recorded',
   followsTheLog: 'Follows the log until a future is chosen or a goal is set.',
   futures: 'Futures',
+  rank: (n: number) => `#${n}`,
   compareInRounds: 'Compare in rounds',
   aPlainCurveIs: 'A plain curve is shown until the generator answers.',
   waitingForThe: 'Waiting for the generator.',

@@ -51,14 +51,15 @@ export class Answers {
       arrivals: await this.#arrivals(scene, wish, where, signal),
       parked: { share: wish.parked },
     };
-    const { agents, reason, arms, parking_places } = await this.client.place(body, signal);
+    const { agents, unplaced, reason, arms, parking_places } = await this.client.place(body, signal);
     const known: readonly Arm[] = arms.map(armOf);
     this.#known = { place: placeOf(scene, wish), arms: known.map((a) => a.id) };
     const more = { replaced, arms: known, parkingPlaces: parking_places };
     const stay = standing(scene).filter((f) => !gone.has(f.agent.id));
     const taken = [...stay, ...wish.pinned];
     const drawn = agents.flatMap((a) => newcomerOf(a) ?? []).filter((n) => comesLater(n) || !inTheWay(n, taken));
-    const all = recast(withoutThoseOf(wish.pinned, drawn), wish.mix, taken);
+    // Where the server placed fewer than requested, pinned ones take the missing places first.
+    const all = recast(withoutThoseOf(wish.pinned.slice(unplaced), drawn), wish.mix, taken);
     const most = MOST_AT_ONCE - wish.pinned.length;
     if (all.length <= most) return { ...more, all, reason };
     const why = TEXTS.generatorComputes(MOST_AT_ONCE);
@@ -104,7 +105,7 @@ function replaceable(scene: Scene, region: readonly Vec[] | null): string[] {
     .map((a) => a.id);
 }
 
-/** For each pinned one, one of its kind is removed, so that the number stays. */
+/** For each of these pinned ones, one of its kind is removed, so that the number stays. */
 function withoutThoseOf(pinned: readonly Newcomer[], drawn: readonly Newcomer[]): Newcomer[] {
   const left = [...drawn];
   for (const p of pinned) {

@@ -18,8 +18,7 @@ export const german: Said<typeof TEXTS> = {
   theGenerator: (done) => `Der Generator ist wieder da.${done}`,
   waitingChanges: 'Wartende Änderungen',
   thisTakesLonger: 'Das dauert länger als sonst.',
-  sixFuturesMost: (best: string, likely: number) =>
-    `Sechs Zukünfte. Am wahrscheinlichsten: ${best}, ${likely} Prozent.`,
+  sixFutures: (shown, rank) => `Sechs Zukünfte. Gezeigt: ${shown}, Rang ${rank}.`,
   aValueIsOutside: (min, max) => `Ein Wert liegt nicht zwischen ${min} und ${max}.`,
   toS: (window, min) => `${window} bis ${min} s`,
   keepCurve: 'Tempokurve behalten',

@@ -28,8 +28,6 @@ export const german: Said<typeof SENTENCES> = {
     'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,
     'via-missed': (v: Values) =>
       `Zwischenpunkt ${v.number} wird bei ${v.time_s} um ${v.distance_m} verfehlt; die Toleranz ist ${v.tolerance_m}.`,
-    'condition-unused': (v: Values) =>
-      `Verkehrsteilnehmer ${v.agent} wird nicht neu erzeugt: Sein Start, Ziel und seine Wegpunkte ändern seine Bewegung nicht.`,
     'nothing-generated':
       'Kein Verkehrsteilnehmer wird neu erzeugt, und keine bekannte Bewegung endet vor dem letzten Fenster.',
     'motion-ends': (v: Values) =>

@@ -6,6 +6,8 @@ export const german: Said<typeof SENTENCES> = {
   lists: {},
   sentences: {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
+    'not-asked': (v: Values) =>
+      `Verkehrsteilnehmer „${v.id}“ fehlt in agents: dort ergänzen oder diese Bedingung weglassen`,
     'no-agents-named':
       '„all“ oder mindestens eine Kennung wird erwartet, oder mindestens ein Verkehrsteilnehmer, der reagiert',
     'too-many-regenerated': (v: Values) =>

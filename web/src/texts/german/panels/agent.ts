@@ -69,6 +69,7 @@ export const german: Said<typeof TEXTS> = {
   asRecorded: 'Wie aufgezeichnet',
   followsTheLog: 'Folgt der Aufzeichnung, bis eine Zukunft gewählt oder ein Ziel gesetzt ist.',
   futures: 'Zukünfte',
+  rank: (n) => `${n}.`,
   compareInRounds: 'In Runden vergleichen',
   aPlainCurveIs: 'Bis der Generator antwortet, steht hier eine einfache Kurve.',
   waitingForThe: 'Wartet auf den Generator.',
