@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { choose, setSeed } from '../../src/model/document/commands';
 import { readScene } from '../../src/model/document/scene-reader';
 import { resultCode } from '../../src/model/document/result-code';
+import type { Futures } from '../../src/model/document/futures';
 import { NO_THRESHOLDS, sceneKey } from '../../src/model/document/scene';
 import { readThresholds, resetThresholds, setThreshold, threshold } from '../../src/model/document/thresholds';
 import { writeScene } from '../../src/model/document/scene-writer';
@@ -66,5 +67,17 @@ describe('the code of a result', () => {
     const codes = new Set([code, ...others.map((s) => resultCode(s, set))]);
     const engine = resultCode(others[2], { ...set, head: { weights: { car: 'x' } } });
     expect(codes.add(engine).size).toBe(others.length + 2);
+  });
+
+  it('differs with the motions that are followed', () => {
+    const t = new Session();
+    const scene = t.editor.scene.peek()!;
+    const code = (first: number) => {
+      const motion = { ...scene.agents.get(ID)!.log, first };
+      const futures = new Map([[ID, { modes: [{ motion }], chosen: 0, step: 5, steps: 5 } as unknown as Futures]]);
+      return resultCode(scene, { ...t.editor.answers.motion.peek(), futures, driving: new Set([ID]) });
+    };
+    expect(code(1)).toBe(code(1));
+    expect(code(2)).not.toBe(code(1));
   });
 });

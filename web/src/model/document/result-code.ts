@@ -1,5 +1,6 @@
-// A short code of the inputs of a scene's result: recorded and placed road users, conditions, options, seed and engine.
-// The same code in two windows means the same scene; name, notes and view do not affect it.
+// A short code of a scene's result: recorded and placed road users, conditions, options, seed, engine, and the motions
+// that are followed. A drag continues from the future shown before, so its motions do not follow from the scene alone.
+// The same code in two windows means the same scene and motions; name, notes and view do not affect it.
 import { VERSION } from '../base/domain';
 import type { Motion } from '../base/motion';
 import type { LaneMap } from './lanemap';
@@ -70,11 +71,35 @@ function engineOf(scene: Scene, set: MotionSet): unknown {
   return touchedIn(scene).length || scene.drawn ? [VERSION, set.head?.weights ?? null] : [VERSION];
 }
 
+/** Positions alone: those of a stored motion are exact, its speeds are not. */
+const ofPath = ({ first, x, y }: Motion): string => {
+  const mill = new Mill();
+  mill.add(first);
+  for (const column of [x, y]) column.forEach((v) => mill.add(v));
+  return mill.text;
+};
+
+/** The motions in playback; those of the recording are in the cast. */
+function followedIn(scene: Scene, { futures, driving }: MotionSet): unknown {
+  return [...driving].sort().map((id) => {
+    const f = futures.get(id);
+    const mode = f?.modes[scene.agents.get(id)?.chosen ?? f.chosen];
+    return [id, mode && ofPath(mode.motion)];
+  });
+}
+
 export function resultCode(scene: Scene, set: MotionSet): string {
   // For placed road users the conditions are complete.
   const cast = [...scene.agents.values()].map((a) => [a.id, a.logSize, a.placed ? '' : ofMotion(a.log)]);
   const asked = sceneKey({ ...scene, id: '' });
-  const text = JSON.stringify([asked, cast, ofMap(scene.map), scene.signals, engineOf(scene, set)]);
+  const text = JSON.stringify([
+    asked,
+    cast,
+    ofMap(scene.map),
+    scene.signals,
+    engineOf(scene, set),
+    followedIn(scene, set),
+  ]);
   let bits = parseInt(shortFor(text).slice(0, 8), 16);
   let code = '';
   for (let i = 0; i < LENGTH; i++) {

@@ -3,7 +3,7 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   label: (code) => `${code}, Ergebniscode`,
-  means: 'Ergebniscode: Gleiche Szene, gleicher Startwert und gleiche Version ergeben denselben. Klicken zum Kopieren',
+  means: 'Ergebniscode: Gleicher Code heißt gleiche Szene und gleiche Bewegungen. Klicken zum Kopieren',
   copied: (code) => `Code ${code} kopiert.`,
   code: 'Code',
   codeIs: (code) => `Code ${code}.`,
