@@ -5,6 +5,7 @@ pub mod body;
 pub mod coding;
 pub mod embed;
 pub mod extract;
+mod frames;
 pub mod guard;
 pub mod line;
 pub mod net;

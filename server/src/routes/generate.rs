@@ -14,10 +14,8 @@ use crate::scenes::bytes_of;
 use crate::work::Caller;
 use api::{AboutScene, Code, GenerateRequest, Problem, Subject};
 use axum::Extension;
-use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::{FromRequest, Request, State};
-use axum::http::{HeaderMap, HeaderValue};
+use axum::http::HeaderValue;
 use axum::response::Response;
 use std::time::Duration;
 
@@ -78,19 +76,16 @@ refusals!(NoLine: CHANGES, UpgradeRequired);
 /// as a `POST` streams them as NDJSON, or the problem. A cancelled request also ends with `{"ask": 1, "last":
 /// true}`, and then its number is free. An interrupted reply ends with a second `status` and its problem.
 /// Requests beyond `line_questions` wait until another one ends; while 64 wait, or 1 MB (`line_bytes`), a
-/// further one is refused with 503 `busy`.
+/// further one is refused with 503 `busy`. A message must arrive within `body_read_s`. More than 10 pings a second,
+/// or a message that cannot be read, end the WebSocket with its close code.
 #[utoipa::path(get, path = "/v1/generate", operation_id = "openLine", tag = "generate",
     responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
-pub async fn line(
-    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
-    carrier: Option<Extension<Carrier>>,
-    headers: HeaderMap,
-) -> Result<Response, Refusal> {
-    let (Ok(upgrade), Some(Extension(carrier))) = (upgrade, carrier) else {
+pub async fn line(carrier: Option<Extension<Carrier>>, request: Request) -> Result<Response, Refusal> {
+    let opened = carrier.and_then(|Extension(carrier)| line::open(request, carrier, "/v1/generate"));
+    opened.ok_or_else(|| {
         let detail = "A generation is asked for by POST, or over a WebSocket.";
-        return Err(Problem::new(Code::UpgradeRequired, detail).into());
-    };
-    Ok(line::open(upgrade, carrier, "/v1/generate", &headers))
+        Problem::new(Code::UpgradeRequired, detail).into()
+    })
 }
 
 /// Caller named by the body.
