@@ -12,5 +12,6 @@ pub mod net;
 pub mod observe;
 mod owner;
 pub mod packed;
+mod pause;
 pub mod upload;
 mod wire;

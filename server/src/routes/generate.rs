@@ -42,10 +42,12 @@ pub async fn generate(
 ) -> Result<Response, Refusal> {
     let form = ReplyFormat::negotiate(request.headers())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
-    let caller = Caller { connection: Some(connection.number), ..caller_of(&body)? };
+    let Caller { job, client, background, .. } = caller_of(&body)?;
+    let caller = Caller { job, client, background, ..connection.into() };
     // Opening and preparing a scene costs more than a refusal may.
-    app.pool.expects(caller.client.as_ref().map(|client| client.0.as_str()))?;
-    let Subject { scene, standings, held } = body.take_scene().open(&app.catalog).await?;
+    app.pool.expects(&caller)?;
+    let home = app.catalog.of(connection.party);
+    let Subject { scene, standings, held } = body.take_scene().open(&home).await?;
     let streams = form != ReplyFormat::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
     let prepare = move || {
@@ -107,5 +109,5 @@ fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
             return Err(Problem::field("/revision", Code::InvalidField, detail));
         }
     };
-    Ok(Caller { job: body.job.clone(), client, connection: None, background: body.background })
+    Ok(Caller { job: body.job.clone(), client, background: body.background, ..Caller::default() })
 }
