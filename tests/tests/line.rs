@@ -313,6 +313,7 @@ fn what_cannot_be_understood_ends_the_line() {
         vec![r#"{"ask": 1, "body": {}, "end": 1}"#.to_owned()],
         vec![r#"{"ask": 1, "body": {}, "more": 1}"#.to_owned()],
         vec![twice.clone(), twice],
+        vec![json!([1, generate(1), null]).to_string()],
     ] {
         let mut line = Line::to(&server);
         said.iter().for_each(|text| line.say(text.clone()));
@@ -392,8 +393,11 @@ fn a_message_must_arrive_whole_in_its_time() {
 #[test]
 fn a_handshake_needs_a_whole_key() {
     let server = Server::start(&[]).unwrap();
-    let fields = [("connection", "keep-alive, Upgrade"), ("upgrade", "websocket"), ("sec-websocket-version", "13")];
-    for (key, status) in [("dGhlIHNhbXBsZSBub25jZQ==", 101), ("x", 426), ("dGhlIHNhbXBsZSBub25jZQ", 426), ("", 426)] {
+    let fields =
+        [("connection", "keep-alive, Upgrade"), ("upgrade", "websocket"), ("sec-websocket-version", "13")];
+    for (key, status) in
+        [("dGhlIHNhbXBsZSBub25jZQ==", 101), ("x", 426), ("dGhlIHNhbXBsZSBub25jZQ", 426), ("", 426)]
+    {
         let request = Request::new("GET", "/v1/generate").keep().header("sec-websocket-key", key);
         let request = fields.iter().fold(request, |request, (name, value)| request.header(name, value));
         assert_eq!(request.stream(server.address).unwrap().0.status, status, "{key}");

@@ -155,7 +155,8 @@ mod tests {
                     found.push(at);
                 }
             }
-            let expected: Vec<usize> = ends.iter().map(|end| whole.len().min(end.div_ceil(step) * step)).collect();
+            let expected: Vec<usize> =
+                ends.iter().map(|end| whole.len().min(end.div_ceil(step) * step)).collect();
             assert_eq!(found, expected, "step {step}");
             assert!(reader.is_between_messages());
         }

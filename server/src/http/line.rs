@@ -131,7 +131,8 @@ impl ReplyHead {
 pub fn open(mut request: Request<Body>, carrier: Carrier, path: &'static str) -> Option<Response> {
     let accept = HeaderValue::try_from(accept_key(&request)?).ok()?;
     let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION];
-    let given = given.into_iter().filter_map(|name| Some((name.clone(), request.headers().get(name)?.clone())));
+    let given =
+        given.into_iter().filter_map(|name| Some((name.clone(), request.headers().get(name)?.clone())));
     let own = [(header::CONTENT_TYPE, "application/json"), (header::ACCEPT, "application/x-ndjson")];
     let own = own.map(|(name, value)| (name, HeaderValue::from_static(value)));
     let headers = given.chain(own).collect();
@@ -392,6 +393,9 @@ impl Line {
         questions: &mut Questions,
         pieces: &mpsc::Sender<ReplyPiece>,
     ) -> Result<Option<Bytes>, String> {
+        if !text.trim_start().starts_with('{') {
+            return Err("An object is expected.".to_owned());
+        }
         let reply = match serde_json::from_str(text).map_err(|error| error.to_string())? {
             ClientMessage { ask: Some(number), body: Some(body), end: None } => {
                 if questions.knows(number) {
