@@ -33,8 +33,8 @@ const HEAD_FIELDS: usize = 512;
 
 /// Time between two looks at all connections.
 const LOOK: Duration = Duration::from_millis(250);
-/// Connections beyond all places, whose clients are told so.
-const OVERFLOW: usize = 64;
+/// Least connections beyond all places whose clients are told so; half as many as there are places where that is more.
+const OVERFLOW: usize = 8;
 /// Time in which such a client sends its request, and takes the answer.
 const OVERFLOW_TIME: Duration = Duration::from_secs(2);
 /// Time for a refused client to take its answer after its place was given away.
@@ -252,7 +252,7 @@ pub async fn serve(
     on_stop: impl FnOnce(),
 ) {
     let table = Arc::new(ConnectionTable::new(limits.connections as usize));
-    let overflow = Arc::new(Semaphore::new(OVERFLOW));
+    let overflow = Arc::new(Semaphore::new(OVERFLOW.max(limits.connections as usize / 2)));
     let (closing, closed) = watch::channel(false);
     // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
