@@ -4,14 +4,17 @@ use crate::base::limits::Limits;
 use crate::generation::Experts;
 use crate::http::body::{Reading, Room};
 use crate::http::observe::RequestGate;
-use crate::scenes::Catalog;
+use crate::scenes::{Catalog, map_bytes};
 use crate::work::Pool;
+use api::Problem;
 use axum::extract::FromRef;
 use experts::{Generator, Placer};
 use metrics_exporter_prometheus::PrometheusHandle;
+use scene::{LaneMap, Shared};
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// Shared state. Cheap to clone.
 #[derive(Clone)]
@@ -47,6 +50,15 @@ impl App {
     /// Wraps the state.
     pub fn new(inside: AppParts) -> Self {
         Self(Arc::new(inside))
+    }
+
+    /// Expected time to work out a map that a call needs; zero for a known one.
+    ///
+    /// # Errors
+    /// A full queue.
+    pub async fn map_preparation(&self, map: &Shared<LaneMap>) -> Result<Duration, Problem> {
+        let (generator, map) = (Arc::clone(&self.generator), map.clone());
+        self.pool.document(map_bytes(&map), move || Ok(generator.maps().cost(&map).preparation)).await
     }
 
     /// The experts by the lane of a call.

@@ -5,12 +5,14 @@
 use dragtraffic_tests::scenes::generate;
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
+use std::io::Write;
 use std::net::TcpStream;
 use std::os::unix::fs::PermissionsExt;
 use std::time::{Duration, Instant};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::error::ProtocolError;
-use tungstenite::protocol::frame::coding::CloseCode;
+use tungstenite::protocol::frame::Frame;
+use tungstenite::protocol::frame::coding::{CloseCode, Data, OpCode};
 use tungstenite::{Error, Message, WebSocket};
 
 /// Longer than any answer takes here.
@@ -311,6 +313,7 @@ fn what_cannot_be_understood_ends_the_line() {
         vec![r#"{"ask": 1, "body": {}, "end": 1}"#.to_owned()],
         vec![r#"{"ask": 1, "body": {}, "more": 1}"#.to_owned()],
         vec![twice.clone(), twice],
+        vec![json!([1, generate(1), null]).to_string()],
     ] {
         let mut line = Line::to(&server);
         said.iter().for_each(|text| line.say(text.clone()));
@@ -324,8 +327,81 @@ fn what_cannot_be_understood_ends_the_line() {
     let mut line = Line::to(&server);
     line.ask(1, &json!("x".repeat(30_001)));
     let (code, reason) = line.end();
-    assert!(code == CloseCode::Protocol && reason.contains("too long"), "{reason}");
+    assert!(code == CloseCode::Size && reason.contains("too long"), "{reason}");
+    let mut line = Line::to(&server);
+    let broken = Frame::message(vec![0xff, 0xfe], OpCode::Data(Data::Text), true);
+    line.0.send(Message::Frame(broken)).unwrap();
+    assert_eq!(line.end().0, CloseCode::Invalid);
     assert_eq!(server.get("/healthz").unwrap().status, 200);
+}
+
+#[test]
+fn more_pings_than_a_client_needs_end_the_line() {
+    let server = Server::start(&[]).unwrap();
+    let mut line = Line::to(&server);
+    for count in 0..1_000 {
+        if line.0.send(Message::Ping(vec![b'x'; 125].into())).is_err() {
+            assert!(count >= 64, "a burst is taken");
+            break;
+        }
+    }
+    let (mut pongs, mut end) = (0, None);
+    while end.is_none() {
+        match line.0.read() {
+            Ok(Message::Pong(_)) => pongs += 1,
+            Ok(Message::Close(frame)) => end = frame,
+            // What it still sends has reset the connection, so that the reason is lost.
+            Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake) | Error::Io(_)) => break,
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(end.is_none_or(|frame| frame.code == CloseCode::Policy && frame.reason.contains("pings")));
+    assert!(pongs <= 80, "{pongs}");
+    let mut line = Line::to(&server);
+    line.ask(1, &generate(1));
+    assert_eq!(line.answer(1).0["status"], json!(200));
+}
+
+#[test]
+fn a_close_is_heard_while_its_sender_takes_nothing() {
+    // Only a Close that is heard ends the requests: the patience is longer than the test's.
+    let server = Server::start(&["--limit", "stalled_s=600"]).unwrap();
+    let mut line = Line::to(&server);
+    let mut body = long();
+    body["stream_modes"] = json!("all");
+    for number in 1..=4 {
+        line.ask(number, &body);
+    }
+    // Events are dropped once the connection takes no more.
+    until(&server, "dragtraffic_events_dropped_total", |count| count >= 1.0);
+    line.0.close(None).unwrap();
+    until(&server, GIVEN_UP, |count| count >= 1.0);
+    until(&server, "dragtraffic_running", |count| count == 0.0);
+}
+
+#[test]
+fn a_message_must_arrive_whole_in_its_time() {
+    let server = Server::start(&["--limit", "body_read_s=1"]).unwrap();
+    for begun in [&[0x81][..], &[0x81, 0xfe, 0x10, 0x00, 0, 0, 0, 0, b'{'], &[0x01, 0x81, 0, 0, 0, 0, b'{']] {
+        let mut line = Line::to(&server);
+        line.0.get_mut().write_all(begun).unwrap();
+        let (code, reason) = line.end();
+        assert!(code == CloseCode::Policy && reason.contains("within 1 s"), "{reason}");
+    }
+}
+
+#[test]
+fn a_handshake_needs_a_whole_key() {
+    let server = Server::start(&[]).unwrap();
+    let fields =
+        [("connection", "keep-alive, Upgrade"), ("upgrade", "websocket"), ("sec-websocket-version", "13")];
+    for (key, status) in
+        [("dGhlIHNhbXBsZSBub25jZQ==", 101), ("x", 426), ("dGhlIHNhbXBsZSBub25jZQ", 426), ("", 426)]
+    {
+        let request = Request::new("GET", "/v1/generate").keep().header("sec-websocket-key", key);
+        let request = fields.iter().fold(request, |request, (name, value)| request.header(name, value));
+        assert_eq!(request.stream(server.address).unwrap().0.status, status, "{key}");
+    }
 }
 
 #[test]

@@ -154,3 +154,12 @@ fn set_mode(path: &std::path::Path, mode: u32) {
     use std::os::unix::fs::PermissionsExt;
     std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode)).unwrap();
 }
+
+#[test]
+fn what_is_no_address_of_the_page_is_not_found() {
+    let server = Server::start(&[]).unwrap();
+    for path in ["/V1/scenes", "//v1/scenes", "/v2/scenes", "/v1.json", "/anything", "/.env", "//"] {
+        let missing = server.get(path).unwrap();
+        assert_eq!((missing.status, missing.code().as_str()), (404, "not-found"), "{path}");
+    }
+}

@@ -84,6 +84,7 @@ const HOUSES: &[House] = &[
                 "frame",
                 "joints",
                 "pack",
+                "written",
             ],
             &["problem", "surface"],
             &["unpack", "describe", "lights", "sides", "markup"],

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed test panics")]
 
 use dragtraffic_tests::program::program;
+use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};
@@ -145,9 +146,9 @@ fn trouble_at_the_start_has_its_exit_code() {
 
 /// A small disk of its own; `None`, and why, where this may not be mounted.
 #[cfg(target_os = "linux")]
-fn small_disk(folder: &std::path::Path) -> Option<SmallDisk> {
+fn small_disk(folder: &std::path::Path, size: &str) -> Option<SmallDisk> {
     let mount = std::process::Command::new("mount")
-        .args(["-t", "tmpfs", "-o", "size=3m", "none"])
+        .args(["-t", "tmpfs", "-o", &format!("size={size}"), "none"])
         .arg(folder)
         .output();
     match mount {
@@ -173,7 +174,7 @@ impl Drop for SmallDisk {
 #[test]
 fn on_a_full_disk_scenes_can_be_deleted_and_then_saved_again() {
     let folder = tempfile::tempdir().unwrap();
-    let Some(_disk) = small_disk(folder.path()) else { return };
+    let Some(_disk) = small_disk(folder.path(), "6m") else { return };
     let server = Server::start_at(&folder.path().join("scenes.sqlite"), &[]).unwrap();
     let ready = || server.get("/readyz").unwrap().status;
     let started = Instant::now();
@@ -206,6 +207,79 @@ fn on_a_full_disk_scenes_can_be_deleted_and_then_saved_again() {
     let again = server.send(&put("again", ("if-none-match", "*"), &street(5, 20))).unwrap();
     assert_eq!(again.status, 201, "{}", again.text());
     assert_eq!(ready(), 200);
+}
+
+/// Scenes with maps of their own until the disk is full: their ETags.
+#[cfg(target_os = "linux")]
+fn fill(server: &Server, seed: u64) -> Vec<String> {
+    let mut random = Random::new(seed);
+    let mut etags = Vec::new();
+    loop {
+        let mut scene = street(2, 20);
+        let points: Vec<[f64; 2]> =
+            (0..2_000).map(|i| [f64::from(i), random.below(1_000_000) as f64 / 1e3]).collect();
+        scene["map"]["lanes"][0]["points_m"] = json!(points);
+        let reply = server.send(&put(&format!("m{}", etags.len()), ("if-none-match", "*"), &scene)).unwrap();
+        if reply.status != 201 {
+            assert_eq!((reply.status, reply.code().as_str()), (507, "store-full"), "{}", reply.text());
+            return etags;
+        }
+        etags.push(reply.header("etag").to_owned());
+        assert!(etags.len() < 5_000, "the disk never fills");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_store_alone_on_a_full_disk_gives_all_of_it_way_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_disk) = small_disk(folder.path(), "6m") else { return };
+    let db = folder.path().join("scenes.sqlite");
+    let mut counts = Vec::new();
+    for round in 0..3 {
+        // A start finds what the one before has left.
+        let server = Server::start_at(&db, &[]).unwrap();
+        server.wait_ready().unwrap();
+        let etags = fill(&server, round);
+        assert_eq!(server.get("/readyz").unwrap().status, 503);
+        for (k, etag) in etags.iter().enumerate() {
+            let delete = Request::new("DELETE", &format!("/v1/scenes/m{k}")).header("if-match", etag);
+            let gone = server.send(&delete).unwrap();
+            assert_eq!(gone.status, 204, "round {round}, scene {k} of {}: {}", etags.len(), gone.text());
+        }
+        assert_eq!(server.get("/readyz").unwrap().status, 200);
+        counts.push(etags.len());
+    }
+    assert!(
+        counts.iter().all(|count| 10 * count >= 9 * counts[0]),
+        "room is lost from round to round: {counts:?}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_store_that_is_gone_is_not_written_into() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("scenes.sqlite");
+    let server = Server::start_at(&db, &[]).unwrap();
+    server.wait_ready().unwrap();
+    saved(&server, "kept", &street(2, 20));
+    for replaced in [false, true] {
+        if replaced {
+            std::fs::write(&db, b"").unwrap();
+        } else {
+            std::fs::remove_file(&db).unwrap();
+        }
+        let refused = server.send(&put("lost", ("if-none-match", "*"), &street(2, 20))).unwrap();
+        assert_eq!(
+            (refused.status, refused.code().as_str()),
+            (503, "store-unavailable"),
+            "{}",
+            refused.text()
+        );
+        let ready = server.get("/readyz").unwrap();
+        assert_eq!((ready.status, &ready.json()["failing"][0]), (503, &json!("store")));
+    }
 }
 
 #[test]

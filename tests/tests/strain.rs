@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
+use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::{generate, street};
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
@@ -108,6 +109,85 @@ fn small_calls_are_answered_while_long_ones_run_and_wait() {
     callers.into_iter().for_each(|caller| caller.join().unwrap());
 }
 
+/// A street under lanes whose points lie anywhere on a square: they cross each other everywhere.
+fn tangled(lanes: usize, points: usize, side_m: f64) -> Value {
+    let mut random = Random::new(11);
+    let mut at = || side_m * (random.below(10_000) as f64 / 10_000.0 - 0.5);
+    let mut body = generate(2);
+    let tangle = (0..lanes).map(|i| {
+        let points: Vec<[f64; 2]> = (0..points).map(|_| [at(), at()]).collect();
+        json!({"id": format!("t{i}"), "type": "surface_street", "points_m": points})
+    });
+    let tangle: Vec<Value> = tangle.collect();
+    body["scene"]["map"]["lanes"].as_array_mut().unwrap().extend(tangle);
+    body
+}
+
+#[test]
+fn a_map_whose_lanes_cross_everywhere_is_refused() {
+    let server = Server::start(&[]).unwrap();
+    for body in [tangled(5, 4_000, 40.0), tangled(20, 1_000, 400.0), tangled(90, 4_000, 19_000.0)] {
+        let refused = server.post("/v1/generate", &body).unwrap();
+        assert_eq!((refused.status, refused.code().as_str()), (422, "map-too-complex"), "{}", refused.text());
+        assert_eq!(refused.json()["errors"][0]["pointer"], "/scene/map");
+    }
+}
+
+#[test]
+fn a_map_that_must_be_worked_out_first_keeps_no_drag_waiting() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let address = server.address;
+    for (path, body) in [
+        ("/v1/generate", tangled(2, 4_000, 60.0)),
+        ("/v1/score", json!({"scene": tangled(2, 4_000, 61.0)["scene"]})),
+        ("/v1/place", json!({"scene": tangled(2, 4_000, 62.0)["scene"], "density": {"count": 1}})),
+        ("/v1/export?format=sumo", tangled(2, 4_000, 63.0)["scene"].clone()),
+    ] {
+        let caller =
+            std::thread::spawn(move || Request::new("POST", path).json(&body).send(address).unwrap());
+        let mut seen = 0;
+        while !caller.is_finished() {
+            let running = |lane| server.metric(&format!("dragtraffic_running{{lane=\"{lane}\"}}")).unwrap();
+            assert!(running("quick") == 0.0, "{path} runs in the lane of the drags");
+            seen += usize::from(running("patient") == 1.0);
+        }
+        let reply = caller.join().unwrap();
+        assert_eq!(reply.status, 200, "{path}: {}", reply.text());
+        assert!(seen > 0, "{path} was not seen at work");
+    }
+}
+
+#[test]
+fn exports_of_many_links_are_refused_or_bounded() {
+    let server = Server::start(&[]).unwrap();
+    let scene = |lanes: usize, links: usize| {
+        let mut scene = street(1, 20);
+        let ids = |i: usize| (1..=links).map(|k| format!("k{}", (i + k) % lanes)).collect::<Vec<_>>();
+        let lane = |i: usize| {
+            let y = i as f64 * 4.0;
+            json!({"id": format!("k{i}"), "type": "surface_street", "points_m": [[0.0, y], [1.0, y]],
+                "successors": ids(i)})
+        };
+        scene["map"]["lanes"] = json!((0..lanes).map(lane).collect::<Vec<_>>());
+        scene
+    };
+    let refused = server.post("/v1/export?format=opendrive", &scene(700, 699)).unwrap();
+    assert_eq!((refused.status, refused.code().as_str()), (422, "map-too-complex"), "{}", refused.text());
+    let dense = scene(2_000, 60);
+    let most = 8 * dense.to_string().len() + (64 << 20);
+    for format in ["opendrive", "openscenario", "sumo", "commonroad"] {
+        let reply = server.post(&format!("/v1/export?format={format}"), &dense).unwrap();
+        match reply.status {
+            200 => assert!(reply.body.len() < most, "{format}: {}", reply.body.len()),
+            status => {
+                assert_eq!((status, reply.code().as_str()), (422, "reply-too-large"), "{}", reply.text())
+            }
+        }
+    }
+    assert!(server.peak_memory().unwrap() < (400 << 20) + 2 * most as u64, "{:?}", server.peak_memory());
+}
+
 #[test]
 fn a_refused_revision_may_be_tried_again() {
     let server = Server::start(&["--limit", "queue=0"]).unwrap();
@@ -176,4 +256,164 @@ fn files_of_the_data_folder_stay_in_their_bounds() {
     std::fs::remove_file(at("own.json")).unwrap();
     let gone = server.get("/v1/scenes/mine-own").unwrap();
     assert_eq!((gone.status, gone.code().as_str()), (404, "not-found"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_becomes_a_pipe_or_a_link_outwards_is_gone_and_holds_nobody_up() {
+    let (outside, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let at = |name: &str| folder.path().join(name);
+    let scene = |id: &str| {
+        let mut scene = street(2, 20);
+        (scene["meta"]["source"], scene["meta"]["source_id"]) = (json!("mine"), json!(id));
+        scene.to_string()
+    };
+    for name in ["pipe", "link", "other"] {
+        std::fs::write(at(name), scene(name)).unwrap();
+    }
+    let flags = ["--limit", "cached_scene_bytes=1", "--data", folder.path().to_str().unwrap()];
+    let server = Server::start(&flags).unwrap();
+    server.wait_ready().unwrap();
+    let status = |id: &str| server.get(&format!("/v1/scenes/{id}")).unwrap().status;
+    let began = Instant::now();
+    while ["mine-pipe", "mine-link", "mine-other"].iter().any(|id| status(id) != 200) {
+        assert!(began.elapsed() < Duration::from_secs(20), "the folder was not read");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    for name in ["pipe", "link", "other"] {
+        std::fs::remove_file(at(name)).unwrap();
+    }
+    assert!(std::process::Command::new("mkfifo").arg(at("pipe")).status().unwrap().success());
+    std::fs::write(outside.path().join("link"), scene("link")).unwrap();
+    std::os::unix::fs::symlink(outside.path().join("link"), at("link")).unwrap();
+    std::fs::write(at("other"), scene("other").replace("street", "another")).unwrap();
+    for _ in 0..8 {
+        for id in ["mine-pipe", "mine-link", "mine-other"] {
+            let gone = server.get(&format!("/v1/scenes/{id}")).unwrap();
+            assert_eq!((gone.status, gone.code().as_str()), (404, "not-found"), "{id}");
+        }
+    }
+    assert_eq!(status("demo-crossing"), 200);
+    assert_eq!(server.get("/readyz").unwrap().status, 200);
+}
+
+#[test]
+fn a_form_has_few_parts_with_known_names() {
+    let server = Server::start(&[]).unwrap();
+    let post = |parts: &[(&str, &str)]| {
+        let part = |(name, content): &(&str, &str)| {
+            format!(
+                "--b\r\ncontent-disposition: form-data; name=\"{name}\"; filename=\"f\"\r\n\r\n{content}\r\n"
+            )
+        };
+        let body: String = parts.iter().map(part).collect();
+        let request = Request::new("POST", "/v1/import?dry_run=true");
+        let request = request.header("content-type", "multipart/form-data; boundary=b");
+        request.body(format!("{body}--b--\r\n")).send(server.address).unwrap()
+    };
+    let scene = street(2, 20).to_string();
+    let read = post(&[("file", &scene), ("file", &scene), ("file", "nonsense")]);
+    assert_eq!(
+        (read.status, read.json()["scenes"].as_array().map(Vec::len)),
+        (200, Some(2)),
+        "{}",
+        read.text()
+    );
+    for (parts, word) in [
+        (vec![("", ""); 100_000], "another name"),
+        (vec![("other", ""), ("file", &*scene)], "another name"),
+        (vec![("file", &*scene); 33], "at most 32"),
+    ] {
+        let refused = post(&parts);
+        assert_eq!((refused.status, refused.code().as_str()), (422, "invalid-field"), "{}", refused.text());
+        assert!(refused.text().contains(word), "{}", refused.text());
+    }
+}
+
+#[test]
+fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
+    let server = Server::start(&["--limit", "connections=4", "--limit", "stalled_s=600"]).unwrap();
+    server.wait_ready().unwrap();
+    let mut body = heavy();
+    body["stream_modes"] = json!("all");
+    let asked = Request::new("POST", "/v1/generate").header("accept", "text/event-stream").json(&body);
+    let mut held: Vec<_> = (0..4).map(|_| asked.open(server.address).unwrap()).collect();
+    for stream in &mut held {
+        let mut first = [0; 12];
+        std::io::Read::read_exact(stream, &mut first).unwrap();
+        assert_eq!(&first, b"HTTP/1.1 200");
+    }
+    for _ in 0..20 {
+        assert_eq!(server.get("/healthz").unwrap().status, 200);
+        let refused = server.get("/v1/info").unwrap();
+        assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
+        assert!(refused.json()["retry_after_ms"].is_u64());
+    }
+    // Another machine takes a place from the one that has them all.
+    let other = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
+    other.bind(&std::net::SocketAddr::from(([127, 0, 0, 2], 0)).into()).unwrap();
+    other.connect(&server.address.into()).unwrap();
+    let mut other = TcpStream::from(other);
+    std::io::Write::write_all(&mut other, &Request::new("GET", "/v1/info").bytes(server.address)).unwrap();
+    let reply = dragtraffic_tests::Reply::read(&mut std::io::BufReader::new(other), false).unwrap();
+    assert_eq!(reply.status, 200, "{}", reply.text());
+}
+
+#[test]
+fn a_newcomer_is_answered_beside_connections_that_wait_for_refusals() {
+    let server = Server::start(&["--limit", "connections=8", "--limit", "queue=0"]).unwrap();
+    let ask = Request::new("POST", "/v1/generate")
+        .keep()
+        .json(&json!({"scene_id": "demo-crossing", "agents": ["5"]}));
+    let pipelined = ask.bytes(server.address).repeat(200);
+    let refused: Vec<_> = (0..24)
+        .map(|_| {
+            let mut stream = TcpStream::connect(server.address).unwrap();
+            let _ = std::io::Write::write_all(&mut stream, &pipelined);
+            stream
+        })
+        .collect();
+    for _ in 0..20 {
+        assert_eq!(server.get("/v1/info").unwrap().status, 200);
+    }
+    drop(refused);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn connections_stay_below_the_descriptors_there_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", "ulimit -n 128; exec \"$0\" serve --port 0 --db \"$1\""]);
+    command
+        .arg(dragtraffic_tests::program::program())
+        .arg(folder.path().join("s.sqlite"))
+        .env("DRAGTRAFFIC_LOG", "error");
+    let server = Server::launch(command).unwrap();
+    let most =
+        |server: &Server| server.get("/v1/info").unwrap().json()["limits"]["connections"]["value"].as_u64();
+    assert_eq!(most(&server), Some(42));
+    let idle: Vec<_> = (0..200).map(|_| TcpStream::connect(server.address)).collect();
+    assert_eq!(server.get("/healthz").unwrap().status, 200);
+    drop(idle);
+}
+
+#[test]
+fn scenes_are_held_without_what_no_answer_depends_on() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let mut body = generate(2);
+    body["hold"] = json!(true);
+    body["steps"] = json!(1);
+    body["scene"]["x_big"] = json!(vec!["some letters of no use"; 40_000]);
+    server.post("/v1/generate", &body).unwrap();
+    let before = server.memory().unwrap();
+    for seed in 0..40 {
+        body["seed"] = json!(seed);
+        let reply = server.post("/v1/generate", &body).unwrap();
+        assert_eq!(reply.status, 200, "{}", reply.text());
+    }
+    // Held with them, they took 4 MB each.
+    let grown = server.memory().unwrap().saturating_sub(before);
+    assert!(grown < 80 << 20, "{grown} bytes more");
 }

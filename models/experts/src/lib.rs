@@ -38,7 +38,7 @@ pub mod weights;
 pub use clock::Clock;
 pub use engine::Engine;
 pub use generator::{Generation, Generator};
-pub use maps::Maps;
+pub use maps::{MapCost, Maps, preparation};
 pub use placement::Placer;
 pub use planning::world::Planning;
 pub use request::{

@@ -125,6 +125,15 @@ pub struct ExportOptions {
     pub label: Option<String>,
     /// The file already has scenes, so no heading is written.
     pub continued: bool,
+    /// Most bytes of the file; unbounded when absent.
+    pub most_bytes: Option<u64>,
+}
+
+impl ExportOptions {
+    /// Most bytes of the file.
+    pub(crate) fn most(&self) -> u64 {
+        self.most_bytes.unwrap_or(u64::MAX)
+    }
 }
 
 /// An exported file.
@@ -210,6 +219,7 @@ pub trait Format: Sync {
     /// Writes scenes.
     ///
     /// # Errors
-    /// `InvalidInput` when the format cannot hold that many scenes in one file.
+    /// `InvalidInput` when the format cannot hold that many scenes in one file, `FileTooLarge` beyond
+    /// [`ExportOptions::most_bytes`], as far as the format can tell before all is written.
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported>;
 }

@@ -75,6 +75,7 @@ mod units;
 mod unpack;
 mod unwritten;
 pub mod womd;
+mod written;
 mod xml;
 
 pub use format::{

@@ -1,20 +1,44 @@
 //! XML as it is written: elements that close in the order in which they open, with text that cannot break out.
 
+use crate::written::too_long;
 use std::fmt::{Display, Write};
+use std::io;
+
+/// Bytes of a part of a document: one text would take three times its size while it grows.
+const PART_BYTES: usize = 1 << 20;
 
 /// A document on its way out.
 pub(crate) struct Markup {
+    /// Whole parts.
+    parts: Vec<String>,
+    /// The part that grows.
     text: String,
     open: Vec<&'static str>,
+    /// Most bytes of the document. What lies beyond is dropped, and the document refused at its end.
+    most: u64,
+    bytes: u64,
 }
 
 impl Markup {
-    /// An empty document.
-    pub fn new() -> Self {
-        Self { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned(), open: Vec::new() }
+    /// An empty document of at most so many bytes.
+    pub fn new(most: u64) -> Self {
+        let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+        Self { parts: Vec::new(), text, open: Vec::new(), most, bytes: 0 }
+    }
+
+    /// Closes a part that is long enough.
+    fn part(&mut self) {
+        if self.text.len() >= PART_BYTES {
+            self.bytes += self.text.len() as u64;
+            let part = std::mem::take(&mut self.text);
+            if self.bytes <= self.most {
+                self.parts.push(part);
+            }
+        }
     }
 
     fn start(&mut self, name: &'static str, attributes: &[(&str, &str)]) {
+        self.part();
         let _ = write!(self.text, "{:1$}<{name}", "", 2 * self.open.len());
         for (attribute, value) in attributes {
             let _ = write!(self.text, " {attribute}=\"{}\"", escaped(value));
@@ -48,11 +72,21 @@ impl Markup {
     }
 
     /// The document, with all elements ended.
-    pub fn finish(mut self) -> Vec<u8> {
+    ///
+    /// # Errors
+    /// `FileTooLarge` beyond the most bytes.
+    pub fn finish(mut self) -> io::Result<Vec<u8>> {
         while !self.open.is_empty() {
             self.close();
         }
-        self.text.into_bytes()
+        let bytes = self.bytes + self.text.len() as u64;
+        if bytes > self.most {
+            return Err(too_long(bytes, self.most));
+        }
+        let mut whole = Vec::with_capacity(bytes as usize);
+        self.parts.push(self.text);
+        self.parts.into_iter().for_each(|part| whole.extend(part.into_bytes()));
+        Ok(whole)
     }
 }
 
@@ -84,14 +118,32 @@ mod tests {
 
     #[test]
     fn text_stays_text() {
-        let mut markup = Markup::new();
+        let mut markup = Markup::new(u64::MAX);
         markup.open("a", &[("x", "1\"><b/>")]);
         markup.leaf("c", "</c>&\u{0}\n");
         markup.empty("d", &[]);
-        let text = String::from_utf8(markup.finish()).unwrap();
+        let text = String::from_utf8(markup.finish().unwrap()).unwrap();
         let expected = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<a x=\"1&quot;&gt;&lt;b/&gt;\">\n  \
                         <c>&lt;/c&gt;&amp; </c>\n  <d/>\n</a>\n";
         assert_eq!(text, expected);
         assert_eq!([decimal(-1e-9), decimal(1.0 / 3.0), decimal(2e7)], ["0", "0.333333", "20000000"]);
+    }
+
+    #[test]
+    fn a_document_in_parts_is_whole_and_one_beyond_its_bound_is_not_kept() {
+        let long = "x".repeat(1_000);
+        let written = |most: u64| {
+            let mut markup = Markup::new(most);
+            (0..5_000).for_each(|_| markup.empty("a", &[("x", &long)]));
+            let kept: usize = markup.parts.iter().map(String::len).sum();
+            (kept, markup.finish())
+        };
+        let (_, whole) = written(u64::MAX);
+        let whole = whole.unwrap();
+        assert_eq!(whole.len(), 39 + 5_000 * 1_011);
+        assert!(whole.ends_with(b"x\"/>\n"));
+        let (kept, refused) = written(2_500_000);
+        assert_eq!(refused.unwrap_err().kind(), io::ErrorKind::FileTooLarge);
+        assert!(kept <= 2_500_000, "{kept}");
     }
 }

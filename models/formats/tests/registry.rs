@@ -138,3 +138,18 @@ fn a_table_has_a_line_for_each_road_user_future_and_step() {
     let log = ExportOptions { motion: formats::ExportedMotion::Log, ..Default::default() };
     assert_eq!(text(&[&scene], &log).lines().count(), 1 + logged);
 }
+
+#[test]
+fn no_cell_of_a_table_is_a_formula_and_names_stay() {
+    let csv = registry::by_id("csv").unwrap();
+    for name in ["=HYPERLINK(\"http://x\")", "+1", "-1", "@a", "'=a", "''a", "plain 'a'"] {
+        let mut scene = formats::native::read(JUNCTION).unwrap();
+        scene.name = name.into();
+        let bytes = csv.export(&[&scene], &ExportOptions::default()).unwrap().bytes;
+        let text = String::from_utf8(bytes.clone()).unwrap();
+        let cell = text.lines().nth(1).unwrap().trim_start_matches('"');
+        assert!(!cell.starts_with(['=', '+', '-', '@']), "{cell}");
+        let again = csv.import(&bytes, &ImportOptions::default()).pop().unwrap().unwrap().0;
+        assert_eq!(again.name, name);
+    }
+}

@@ -55,8 +55,8 @@ pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;
 pub use map::LaneMap;
 pub use scene::{
-    MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_NAME_CHARS, MAX_NOTES_CHARS, MAX_POLYLINE_POINTS,
-    MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
+    MAX_AGENTS, MAX_AREA_CORNERS, MAX_COORDINATE_M, MAX_LANE_LINKS, MAX_MAP_LINKS, MAX_MAP_POINTS,
+    MAX_NAME_CHARS, MAX_NOTES_CHARS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
 };
 pub use scene::{Meta, Origin, Scene, SceneError, Timing};
 pub use shared::Shared;

@@ -208,6 +208,19 @@ impl LaneMap {
         self.lanes.iter().position(|l| l.id == id)
     }
 
+    /// All its lines and areas, each with whether it is closed.
+    pub fn outlines(&self) -> impl Iterator<Item = (&[Vec2], bool)> {
+        let lines = self.road_lines.iter().chain(&self.road_edges).map(|line| &line.points);
+        let open = self.lanes.iter().map(|lane| &lane.points).chain(lines).map(|line| (&*line.xy, false));
+        let rings = self.areas().flat_map(|area| std::iter::once(&area.polygon).chain(&area.holes));
+        open.chain(rings.map(|ring| (&*ring.xy, true)))
+    }
+
+    /// All its areas, whatever they are.
+    pub fn areas(&self) -> impl Iterator<Item = &Area> {
+        [&self.crosswalks, &self.speed_bumps, &self.driveways, &self.drivable].into_iter().flatten()
+    }
+
     /// The mirror image: y negated, left and right swapped. Right-hand traffic becomes left-hand traffic.
     pub fn mirrored(&self) -> Self {
         let point = |p: Vec2| Vec2::new(p.x, -p.y);

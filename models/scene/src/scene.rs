@@ -1,5 +1,6 @@
 //! The whole scene and what makes one valid.
 
+use crate::geometry::crowding::Crowding;
 use crate::message::Message;
 use crate::sentences;
 use crate::{
@@ -20,12 +21,21 @@ pub const MAX_STEPS: usize = 600;
 pub const MAX_POLYLINES: usize = 20_000;
 /// Most map points in all.
 pub const MAX_MAP_POINTS: usize = 400_000;
+/// Most corners of all areas of a map.
+pub const MAX_AREA_CORNERS: usize = 20_000;
+/// Most lanes that follow a lane, lead to it or obey a stop sign, and most stretches beside a lane.
+pub const MAX_LANE_LINKS: usize = 64;
+/// Most links of a map's lanes in all: to other lanes, to lines beside them, and of stop signs.
+pub const MAX_MAP_LINKS: usize = 200_000;
 /// Most points in one polyline.
 pub const MAX_POLYLINE_POINTS: usize = 4_096;
 /// Most signals.
 pub const MAX_SIGNALS: usize = 512;
 /// Farthest a coordinate may lie from the origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
+
+/// Stretches of a lane's side that count as one link.
+const BOUNDARIES_A_LINK: usize = 4;
 
 /// The motion of an agent before the start, as far as an answer depends on it.
 #[derive(Serialize)]
@@ -119,7 +129,8 @@ pub struct Scene {
 pub struct SceneError {
     /// Where.
     pub at: String,
-    /// Machine word: `out-of-range`, `duplicate`, `too-many-agents`, `map-too-large`, `invalid-field`.
+    /// Machine word: `out-of-range`, `duplicate`, `too-many-agents`, `map-too-large`, `map-too-complex`,
+    /// `invalid-field`.
     pub code: &'static str,
     /// What was found and what was expected.
     pub reason: String,
@@ -166,6 +177,7 @@ impl Scene {
         self.check_words(&mut problems);
         self.check_time(&mut problems);
         self.check_map(&mut problems);
+        self.check_complexity(&mut problems);
         self.check_signals(&mut problems);
         self.check_agents(&mut problems);
         problems.truncate(32);
@@ -266,6 +278,7 @@ impl Scene {
                 }
             }
         }
+        total.0 += map.stop_signs.len();
         for (i, sign) in map.stop_signs.iter().enumerate() {
             check_points(&format!("/map/stop_signs/{i}/position_m"), &[sign.position], 1, problems);
         }
@@ -283,6 +296,60 @@ impl Scene {
         }
         for (kind, list) in areas {
             check_ids(&format!("/map/{kind}"), list.iter().map(|a| &a.id), problems);
+        }
+    }
+
+    /// Bounds what work on the map grows with beside its size: links, corners of areas, lines over each other.
+    fn check_complexity(&self, problems: &mut Vec<SceneError>) {
+        let map = &*self.map;
+        let mut links = 0;
+        let mut check = |at: &dyn Fn() -> String, count: usize, problems: &mut Vec<SceneError>| {
+            links += count;
+            if count > MAX_LANE_LINKS {
+                let reason = format!("{count} links; at most {MAX_LANE_LINKS}");
+                problems.push(SceneError::new(at(), "map-too-complex", reason));
+            }
+        };
+        for (i, lane) in map.lanes.iter().enumerate() {
+            let beside = lane.left_neighbors.iter().chain(&lane.right_neighbors);
+            let between = beside.clone().map(|neighbor| neighbor.boundaries.len());
+            let lists = [
+                ("successors", lane.successors.len()),
+                ("predecessors", lane.predecessors.len()),
+                ("left_neighbors", lane.left_neighbors.len()),
+                ("right_neighbors", lane.right_neighbors.len()),
+            ];
+            for (name, count) in lists {
+                check(&|| format!("/map/lanes/{i}/{name}"), count, problems);
+            }
+            let lists = [
+                ("left_boundary", lane.left_boundary.len()),
+                ("right_boundary", lane.right_boundary.len()),
+                ("neighbors", between.sum()),
+            ];
+            for (name, count) in lists {
+                // A line may bound a lane from point to point.
+                check(&|| format!("/map/lanes/{i}/{name}"), count.div_ceil(BOUNDARIES_A_LINK), problems);
+            }
+        }
+        for (i, sign) in map.stop_signs.iter().enumerate() {
+            check(&|| format!("/map/stop_signs/{i}/lanes"), sign.lanes.len(), problems);
+        }
+        if links > MAX_MAP_LINKS {
+            let reason = format!("{links} links of lanes; at most {MAX_MAP_LINKS}");
+            problems.push(SceneError::new("/map/lanes", "map-too-complex", reason));
+        }
+        let rings = map.areas().flat_map(|area| std::iter::once(&area.polygon).chain(&area.holes));
+        let corners: usize = rings.map(|ring| ring.xy.len()).sum();
+        if corners > MAX_AREA_CORNERS {
+            let reason = format!("{corners} corners of areas; at most {MAX_AREA_CORNERS}");
+            problems.push(SceneError::new("/map", "map-too-complex", reason));
+        }
+        // Only of places that are numbers within their bounds.
+        if problems.is_empty()
+            && let Some(reason) = Crowding::of(map.outlines()).excess()
+        {
+            problems.push(SceneError::new("/map", "map-too-complex", reason));
         }
     }
 
@@ -389,6 +456,7 @@ fn check_ids<'a>(at: &str, ids: impl Iterator<Item = &'a String>, problems: &mut
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::{Area, Lane, Points, StopSign};
     use crate::{Size, State, Subtype};
 
     fn scene_of(agent: Agent) -> Scene {
@@ -427,5 +495,58 @@ mod tests {
             Agent { track: crate::Track { first_step: 0, states, z_m: None }.into(), ..put_at(0.0) }
         };
         assert_ne!(scene_of(recorded(1.0)).input_hash(), scene_of(recorded(2.0)).input_hash());
+    }
+
+    fn refused(map: LaneMap) -> Option<(String, &'static str)> {
+        let problems = Scene { map: map.into(), ..scene_of(put_at(0.0)) }.checked().err()?;
+        problems.into_iter().next().map(|problem| (problem.at, problem.code))
+    }
+
+    fn street(i: usize, y_m: f64) -> Lane {
+        Lane::street(i.to_string(), vec![Vec2::new(0.0, y_m), Vec2::new(1.0, y_m)])
+    }
+
+    #[test]
+    fn links_of_lanes_and_signs_are_bounded_each_and_in_all() {
+        let ids = |count: usize| (0..count).map(|i| i.to_string()).collect::<Vec<_>>();
+        let lane = |links: usize| Lane { successors: ids(links), ..street(0, 0.0) };
+        assert_eq!(refused(LaneMap { lanes: vec![lane(MAX_LANE_LINKS)], ..LaneMap::default() }), None);
+        let too_many = refused(LaneMap { lanes: vec![lane(MAX_LANE_LINKS + 1)], ..LaneMap::default() });
+        assert_eq!(too_many, Some(("/map/lanes/0/successors".into(), "map-too-complex")));
+        let sign = |i: usize, links: usize| StopSign {
+            id: i.to_string(),
+            position: Vec2::zeros(),
+            z_m: None,
+            lanes: ids(links),
+        };
+        let signs = |count: usize, links: usize| {
+            let stop_signs = (0..count).map(|i| sign(i, links)).collect();
+            refused(LaneMap { stop_signs, ..LaneMap::default() })
+        };
+        assert_eq!(signs(1, MAX_LANE_LINKS + 1).unwrap().1, "map-too-complex");
+        assert_eq!(signs(MAX_MAP_LINKS / 50, 50), None);
+        assert_eq!(signs(MAX_MAP_LINKS / 50 + 1, 50), Some(("/map/lanes".into(), "map-too-complex")));
+        assert_eq!(signs(MAX_POLYLINES + 1, 0), Some(("/map".into(), "map-too-large")));
+    }
+
+    #[test]
+    fn corners_of_areas_and_lines_over_each_other_are_bounded() {
+        let ring = |corners: usize| {
+            let corner = |i: usize| crate::geometry::direction(i as f64 / corners as f64 * 6.28) * 2_000.0;
+            Points::from((0..corners).map(corner).collect::<Vec<_>>())
+        };
+        let area = |holes: usize| Area {
+            id: "a".into(),
+            polygon: ring(4_000),
+            holes: (0..holes).map(|_| ring(4_000)).collect(),
+        };
+        let with = |holes: usize| refused(LaneMap { driveways: vec![area(holes)], ..LaneMap::default() });
+        assert_eq!((with(4), with(5)), (None, Some(("/map".into(), "map-too-complex"))));
+        let lanes = |count: usize, apart_m: f64| {
+            let lanes = (0..count).map(|i| street(i, apart_m * i as f64)).collect();
+            refused(LaneMap { lanes, ..LaneMap::default() })
+        };
+        assert_eq!(lanes(5_000, 0.5), None);
+        assert_eq!(lanes(5_000, 0.0), Some(("/map".into(), "map-too-complex")));
     }
 }

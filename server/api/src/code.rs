@@ -61,7 +61,8 @@ codes! {
     UnknownMap "unknown-map" "Map not known here" "No map with this hash is known to the server; send the map inline.";
     TooManyAgents "too-many-agents" "Too many road users" "More road users than a scene may hold or a call may regenerate.";
     MapTooLarge "map-too-large" "Map too large" "The map has more lines, points or signals than a scene may hold.";
-    ReplyTooLarge "reply-too-large" "Reply would be too large" "samples x modes x road users x steps is above `limit`.";
+    MapTooComplex "map-too-complex" "Map too complex" "The map has more links, corners of areas, or lines over each other in one place than a scene may have; `errors` gives the bounds.";
+    ReplyTooLarge "reply-too-large" "Reply would be too large" "samples x modes x road users x steps of a generation, or the bytes of an exported file, are above `limit`.";
     UnsupportedVersion "unsupported-version" "Newer version" "The document was written by a newer version of the format.";
     FormatUnknown "format-unknown" "Format not recognised" "The file is in no format this server reads, or no format has this name.";
     CannotRepresent "cannot-represent" "Format cannot hold this" "The format has no place for something that the scene cannot do without.";

@@ -7,6 +7,7 @@ use crate::problem::Problem;
 use formats::{ExportOptions, ExportedMotion, registry};
 use scene::Scene;
 use serde::Deserialize;
+use std::io::ErrorKind;
 
 /// A file on its way out.
 pub struct WrittenFile {
@@ -32,20 +33,32 @@ pub enum MotionChoice {
     Log,
 }
 
-/// Writes a scene as a file.
+/// Writes a scene as a file of at most so many bytes.
 ///
 /// # Errors
-/// `format-unknown`, `cannot-represent`, or `out-of-range` for a sample that is not there.
+/// `format-unknown`, `cannot-represent`, `reply-too-large`, or `out-of-range` for a sample that is not there.
 pub fn write(
     scene: &Scene,
     format: &str,
     sample: Option<usize>,
     motion: MotionChoice,
+    most_bytes: Option<u64>,
 ) -> Result<WrittenFile, Problem> {
-    write_part(scene, format, sample, motion, None, false)
+    write_part(scene, format, sample, motion, FilePart { most_bytes, ..FilePart::default() })
 }
 
-/// As [`write`], for a file of several scenes: what the scene is called there, and whether others come before it.
+/// Place of a scene in its file.
+#[derive(Clone, Debug, Default)]
+pub struct FilePart {
+    /// Name of the scene in a file of several scenes.
+    pub label: Option<String>,
+    /// Other scenes come before it.
+    pub continued: bool,
+    /// Most bytes of the file.
+    pub most_bytes: Option<u64>,
+}
+
+/// As [`write`], for a file of several scenes.
 ///
 /// # Errors
 /// Those of [`write`].
@@ -54,8 +67,7 @@ pub fn write_part(
     format: &str,
     sample: Option<usize>,
     motion: MotionChoice,
-    label: Option<String>,
-    continued: bool,
+    part: FilePart,
 ) -> Result<WrittenFile, Problem> {
     let found = registry::by_id(known(format)).ok_or_else(|| {
         let shown: String = format.chars().take(40).collect();
@@ -78,10 +90,19 @@ pub fn write_part(
         MotionChoice::Chosen => ExportedMotion::Chosen,
         MotionChoice::Log => ExportedMotion::Log,
     };
-    let options = ExportOptions { motion, gzip: false, sample, label, continued };
-    let exported = found
-        .export(&[copy.as_ref().unwrap_or(scene)], &options)
-        .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
+    let FilePart { label, continued, most_bytes } = part;
+    let options = ExportOptions { motion, gzip: false, sample, label, continued, most_bytes };
+    let too_large =
+        |detail: String| Problem::new(Code::ReplyTooLarge, detail).limit(most_bytes.unwrap_or_default());
+    let exported =
+        found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| match error.kind() {
+            ErrorKind::FileTooLarge => too_large(error.to_string()),
+            _ => Problem::new(Code::CannotRepresent, error.to_string()),
+        })?;
+    let bytes = exported.bytes.len() as u64;
+    if most_bytes.is_some_and(|most| bytes > most) {
+        return Err(too_large(format!("the file has {bytes} bytes")));
+    }
     let info = found.info();
     debug_assert!(
         exported.losses.iter().all(|loss| info.loses.contains(&loss.code)),

@@ -136,7 +136,7 @@ impl Operations {
         sample: Option<usize>,
         motion: MotionChoice,
     ) -> Result<WrittenFile, Problem> {
-        export::write(scene, format, sample, motion)
+        export::write(scene, format, sample, motion, None)
     }
 
     /// Version, weights, limits and formats.

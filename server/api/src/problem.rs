@@ -34,6 +34,9 @@ pub struct ProblemMembers {
     /// Seconds after which to ask again, as in Retry-After.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_s: Option<u64>,
+    /// The same in milliseconds, more precise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retry_after_ms: Option<u64>,
     /// Byte of the decoded file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset: Option<u64>,
@@ -135,7 +138,16 @@ impl Problem {
     /// Seconds after which to ask again.
     #[must_use]
     pub fn retry_after(self, seconds: u64) -> Self {
-        self.with(|m| m.retry_after_s = Some(seconds))
+        self.retry_after_ms(1_000 * seconds)
+    }
+
+    /// Milliseconds after which to ask again; the header has whole seconds.
+    #[must_use]
+    pub fn retry_after_ms(self, milliseconds: u64) -> Self {
+        self.with(|m| {
+            m.retry_after_s = Some(milliseconds.div_ceil(1_000));
+            m.retry_after_ms = Some(milliseconds);
+        })
     }
 
     /// Puts a prefix before the pointers: the problem is about a part of the body.

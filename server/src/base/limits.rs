@@ -1,6 +1,7 @@
 //! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
 
 use api::limits::{Bound, CallLimits, MODES, SAMPLES};
+use scene::geometry::crowding;
 use std::collections::BTreeMap;
 
 macro_rules! limits {
@@ -43,27 +44,27 @@ limits! {
     import_scenes = 200, "scenes taken from one upload";
     import_files = 32, "files in one form";
     running = 0, "calls worked on at the same time, and as many long ones beside them; 0 means half the cores, 1 to 8";
-    queue = 16, "calls that wait, and as many long ones beside them";
+    queue = 16, "calls that wait, and as many long ones beside them; in a full queue the newest call of the party with most of them is refused";
     generate_s = 60, "wall time of a generation and of other work";
     stream_s = 120, "wall time of a reply, waiting included";
     stalled_s = 15, "time a reader may leave an event waiting";
     buffered_events = 8, "events kept for a slow reader before steps are dropped";
     heartbeat_s = 10, "time between signs of life in a stream";
     header_read_s = 10, "time for a request's head, and between requests of a connection";
-    body_read_s = 30, "time for a JSON body";
+    body_read_s = 30, "time for a JSON body, and for a message of an open line";
     import_read_s = 120, "time for an upload";
     body_grace_s = 5, "time before a body must come at least at `body_rate`";
     body_rate = 10_000, "bytes a second, on average, that a body must come at";
     line_bytes = 1 << 20, "one question over an open line";
     line_questions = 8, "questions of an open line at the same time; the next one waits to be heard";
-    connections = 256, "open connections; the longest idle one makes room";
+    connections = 256, "open connections, as far as the process may have descriptors; a refused one makes room first, then the longest idle one, of parties with over a quarter before others";
     clients = 1_024, "clients whose revisions are remembered";
     client_idle_s = 600, "time after which a client is forgotten";
     stored_scenes = 10_000, "scenes in the store";
     store_bytes = 4 << 30, "size of the store's file";
     map_keep_s = 86_400, "time an unused map is kept";
-    cached_map_bytes = 128 << 20, "maps kept in memory";
-    cached_scene_bytes = 128 << 20, "open scenes kept in memory: saved ones, and as much for demos and the data folder";
+    cached_map_bytes = 128 << 20, "memory of maps that are kept";
+    cached_scene_bytes = 128 << 20, "memory of open scenes: saved and held ones, and as much for demos and the data folder; the party with most of them makes room";
     shutdown_s = 10, "time running work gets when the server stops";
 }
 
@@ -72,7 +73,7 @@ const NEVER_ZERO: [&str; 7] =
     ["connections", "imports", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
 
 /// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
-fn fixed() -> [(&'static str, u64, &'static str); 10] {
+fn fixed() -> [(&'static str, u64, &'static str); 16] {
     [
         ("json_depth", 128, "nesting of a JSON document"),
         ("agents", scene::MAX_AGENTS as u64, "road users in a scene"),
@@ -80,6 +81,24 @@ fn fixed() -> [(&'static str, u64, &'static str); 10] {
         ("map_polylines", scene::MAX_POLYLINES as u64, "lines and areas of a map"),
         ("map_points", scene::MAX_MAP_POINTS as u64, "points of a map"),
         ("polyline_points", scene::MAX_POLYLINE_POINTS as u64, "points of one line"),
+        ("area_corners", scene::MAX_AREA_CORNERS as u64, "corners of all areas of a map"),
+        ("lane_links", scene::MAX_LANE_LINKS as u64, "lanes in one list of a lane or a stop sign"),
+        (
+            "map_links",
+            scene::MAX_MAP_LINKS as u64,
+            "links of a map: to other lanes, to lines beside them, of stop signs",
+        ),
+        ("cell_pieces", crowding::MAX_CELL_PIECES, "straight pieces of lines in one square of 8 m"),
+        (
+            "cell_pairs",
+            crowding::MAX_CELL_PAIRS,
+            "pairs of straight pieces in the same square of 8 m, over a map",
+        ),
+        (
+            "map_cells",
+            crowding::MAX_CELLS as u64,
+            "squares of 8 m that pieces pass through, counted for each piece",
+        ),
         ("signals", scene::MAX_SIGNALS as u64, "signals in a scene"),
         ("coordinate_m", scene::MAX_COORDINATE_M as u64, "distance from the origin"),
         ("samples", SAMPLES, "joint scenes per call"),

@@ -2,9 +2,11 @@
 
 pub mod cache;
 pub mod clock;
+pub mod descriptors;
 pub mod id;
 pub mod limits;
 pub mod metrics;
 pub mod netconvert;
+pub mod party;
 pub mod problem;
 mod status;

@@ -134,7 +134,10 @@ mod tests {
         assert_eq!(body["code"], "busy");
         assert_eq!(body["instance"], "/v1/generate");
         assert_eq!(body["request_id"], "r1");
-        assert_eq!(body["retry_after_s"], 3);
+        assert_eq!((&body["retry_after_s"], &body["retry_after_ms"]), (&3.into(), &3_000.into()));
+        let soon = ProblemDoc::of(&Problem::new(Code::Busy, "full").retry_after_ms(120), None, None);
+        let soon: serde_json::Value = serde_json::from_str(&soon.text()).unwrap();
+        assert_eq!((&soon["retry_after_s"], &soon["retry_after_ms"]), (&1.into(), &120.into()));
         assert!(body.get("errors").is_none());
     }
 

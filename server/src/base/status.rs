@@ -27,6 +27,7 @@ pub fn status_of(code: Code) -> u16 {
         | Code::UnknownMap
         | Code::TooManyAgents
         | Code::MapTooLarge
+        | Code::MapTooComplex
         | Code::ReplyTooLarge
         | Code::UnsupportedVersion
         | Code::FormatUnknown

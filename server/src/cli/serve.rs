@@ -3,7 +3,7 @@
 use super::{Common, Exit, Failure, output};
 use crate::app::{App, AppParts};
 use crate::base::limits::Limits;
-use crate::base::metrics;
+use crate::base::{descriptors, metrics};
 use crate::http::body::Room;
 use crate::http::guard::Guard;
 use crate::http::net;
@@ -81,6 +81,16 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     }
     if let Some(threads) = args.threads {
         limits.running = threads;
+    }
+    let wanted = limits.connections;
+    limits.connections = descriptors::connections(wanted);
+    if limits.connections < wanted {
+        let most = limits.connections;
+        tracing::warn!(
+            wanted,
+            most,
+            "fewer connections than the limit: the process may not have more descriptors"
+        );
     }
     let limits = Arc::new(limits);
     if let Some(folder) = args.data.as_ref().filter(|folder| !folder.is_dir()) {

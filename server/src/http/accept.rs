@@ -45,10 +45,10 @@ impl ReplyFormat {
     pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
         let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
         let lines: Vec<&str> = lines.collect();
-        if lines.is_empty() {
+        if lines.iter().all(|line| line.trim().is_empty()) {
             return Ok(Self::Json);
         }
-        let accept = Accept::from_str(&lines.join(",")).ok();
+        let accept = Accept::from_str(&without_charset(&lines.join(","))).ok();
         let best = accept.as_ref().and_then(|accept| accept.negotiate(OFFERED));
         let form = FORMS.into_iter().zip(OFFERED).find(|(_, offered)| best == Some(*offered));
         form.map(|(form, _)| form).ok_or_else(|| {
@@ -56,6 +56,18 @@ impl ReplyFormat {
             Problem::new(Code::NotAcceptable, format!("Replies come as {known}."))
         })
     }
+}
+
+/// Accept without the charset of its types: all replies are UTF-8.
+fn without_charset(accept: &str) -> String {
+    let plain = |range: &str| {
+        let is_charset = |part: &&str| {
+            let name = part.split('=').next().unwrap_or_default().trim();
+            name.eq_ignore_ascii_case("charset")
+        };
+        range.split(';').filter(|part| !is_charset(part)).collect::<Vec<_>>().join(";")
+    };
+    accept.split(',').map(plain).collect::<Vec<_>>().join(",")
 }
 
 #[cfg(test)]
@@ -83,6 +95,10 @@ mod tests {
         assert_eq!(form("APPLICATION/X-NDJSON"), Some(ReplyFormat::Ndjson));
         assert_eq!(form("text/event-stream;q=0"), None);
         assert_eq!(form("nonsense"), None);
+        assert_eq!(form(""), Some(ReplyFormat::Json));
+        assert_eq!(form("application/json;charset=utf-8"), Some(ReplyFormat::Json));
+        assert_eq!(form("application/x-ndjson; Charset=UTF-8; q=0.9, */*;q=0.1"), Some(ReplyFormat::Ndjson));
+        assert_eq!(form("image/png;charset=utf-8"), None);
     }
 
     #[test]

@@ -153,6 +153,21 @@ impl Blocks {
         BlockReader { now: blocks.next().map_or(&[][..], Vec::as_slice), blocks }
     }
 
+    /// As [`Self::reader`], from an offset on.
+    pub fn reader_at(&self, mut at: u64) -> impl Read + Send + '_ {
+        let mut blocks = self.0.iter();
+        let mut now = &[][..];
+        for block in blocks.by_ref() {
+            let skipped = usize::try_from(at).unwrap_or(usize::MAX).min(block.len());
+            now = block.get(skipped..).unwrap_or_default();
+            at -= skipped as u64;
+            if !now.is_empty() {
+                break;
+            }
+        }
+        BlockReader { now, blocks }
+    }
+
     fn joined(mut self) -> Bytes {
         match self.0.pop() {
             Some(only) if self.0.is_empty() => only.into(),

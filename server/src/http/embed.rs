@@ -14,8 +14,7 @@ use rust_embed::{EmbeddedFile, RustEmbed};
 #[allow_missing = true]
 struct Editor;
 
-/// Everything without a route of its own: the editor's files; its page for unknown addresses;
-/// a problem below `/v1`.
+/// Everything without a route of its own: the editor's files, its page at its own addresses, a problem elsewhere.
 pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     let path = uri.path();
     if path == "/v1" || path.starts_with("/v1/") {
@@ -25,12 +24,15 @@ pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response 
         let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
         return Refusal::from(problem.fact(ALLOWED, "GET, HEAD")).into_response();
     }
-    let name = path.trim_start_matches('/');
+    let name = path.strip_prefix('/').unwrap_or(path);
     match Editor::get(name).filter(|_| !is_packed(name)) {
         Some(file) => asset(name, &file, &headers),
         // A missing script must not come back as a page.
         None if name.starts_with("assets/") => {
             Refusal::from(Problem::new(Code::NotFound, "The editor has no such file.")).into_response()
+        }
+        None if !is_page(path) => {
+            Refusal::from(Problem::new(Code::NotFound, "Nothing has this address.")).into_response()
         }
         None => match Editor::get("index.html") {
             Some(page) => asset("index.html", &page, &headers),
@@ -40,6 +42,11 @@ pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response 
             }
         },
     }
+}
+
+/// An address of the editor's page: its root, and those of scenes.
+fn is_page(path: &str) -> bool {
+    path == "/" || path == "/index.html" || path == "/scenes" || path.starts_with("/scenes/")
 }
 
 /// Codings in which the build lays texts beside themselves, smallest first, with the ending of these files.

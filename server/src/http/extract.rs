@@ -1,6 +1,7 @@
 //! Parts of a request: ids in the path, query parameters, preconditions.
 
 use crate::base::id::is_id;
+use crate::base::party::Party;
 use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::work::Caller;
@@ -30,6 +31,10 @@ impl<S: Send + Sync> FromRequestParts<S> for Id {
 pub struct Connection {
     /// Unique while the server runs.
     pub number: u64,
+    /// Whose it is.
+    pub party: Party,
+    /// It is a WebSocket.
+    pub is_line: bool,
     /// It is known to belong to another user of this machine.
     pub strangers: bool,
 }
@@ -45,7 +50,8 @@ impl<S: Send + Sync> FromRequestParts<S> for Connection {
 
 impl From<Connection> for Caller {
     fn from(connection: Connection) -> Self {
-        Self { connection: Some(connection.number), ..Self::default() }
+        let Connection { number, party, is_line, .. } = connection;
+        Self { connection: Some(number), party, line: is_line.then_some(number), ..Self::default() }
     }
 }
 

@@ -125,7 +125,15 @@ fn check_host(guard: &Guard, request: &Request) -> Result<(), Problem> {
     let (Some(host), None) = (given.next(), given.next()) else {
         return Err(Problem::new(Code::BadHost, "Exactly one Host header is needed."));
     };
-    let allowed = |host: &str| guard.hosts.contains(&host.to_ascii_lowercase());
+    let allowed = |host: &str| {
+        let host = host.to_ascii_lowercase();
+        // A full name may end with a dot (RFC 3986, 3.2.2).
+        let undotted = match host.rsplit_once(':') {
+            Some((name, port)) => format!("{}:{port}", name.strip_suffix('.').unwrap_or(name)),
+            None => host.strip_suffix('.').unwrap_or(&host).to_owned(),
+        };
+        guard.hosts.contains(&undotted)
+    };
     let host = host.to_str().unwrap_or_default();
     let authority_fits = request.uri().authority().is_none_or(|a| allowed(a.as_str()));
     if allowed(host) && authority_fits {
@@ -205,11 +213,11 @@ mod tests {
 
     #[test]
     fn host_matrix() {
-        for host in ["127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080"] {
+        for host in ["127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080", "localhost.:8080"] {
             assert_eq!(verdict("GET", &[("host", host)]), None, "{host}");
         }
         for host in
-            ["evil.example:8080", "localhost", "127.0.0.1:9", "localhost.:8080", "127.0.0.1.nip.io:8080"]
+            ["evil.example:8080", "localhost", "127.0.0.1:9", "localhost..:8080", "127.0.0.1.nip.io:8080"]
         {
             assert_eq!(verdict("GET", &[("host", host)]), Some("host-not-allowed"), "{host}");
         }

@@ -4,16 +4,17 @@
 //! second. The server passes each one to the router as the `POST` that it replaces, so that limits, refusals,
 //! counters and log are the same.
 
+use super::frames::WholeMessages;
 use super::net::Carrier;
 use crate::base::limits::Limits;
 use crate::base::problem::{ProblemDoc, Refusal};
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
-use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
-use axum::http::{HeaderMap, HeaderValue, Request, header};
+use axum::http::{HeaderMap, HeaderValue, Method, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::{FutureExt, SinkExt, StreamExt};
 use http_body_util::BodyExt;
+use hyper_util::rt::TokioIo;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use std::collections::{HashMap, VecDeque};
@@ -21,6 +22,12 @@ use std::time::Duration;
 use tokio::sync::mpsc;
 use tokio::task::{self, AbortHandle, JoinSet};
 use tokio::time::Instant;
+use tokio_tungstenite::WebSocketStream;
+use tokio_tungstenite::tungstenite::handshake::derive_accept_key;
+use tokio_tungstenite::tungstenite::protocol::frame::Frame;
+use tokio_tungstenite::tungstenite::protocol::frame::coding::{CloseCode, Data, OpCode};
+use tokio_tungstenite::tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
+use tokio_tungstenite::tungstenite::{Error, Message};
 
 /// Pieces of replies that wait for the reader, over all requests.
 const PIECES: usize = 8;
@@ -32,6 +39,16 @@ const REPLIES: usize = 64;
 const PING: Duration = Duration::from_secs(30);
 /// Time after which a refused client may repeat its request, seconds.
 const RETRY_AFTER_S: u64 = 1;
+/// Bytes that are read from the connection at once.
+const READ_BUFFER: usize = 16 << 10;
+/// Largest frame that is sent. Larger messages go out in fragments, so that little waits in memory for the reader.
+const FRAME_BYTES: usize = 16 << 10;
+/// Most that waits for the reader in the WebSocket itself: a frame, and pongs. Beyond this, the newest pong alone
+/// is kept.
+const WRITE_BUFFER: usize = 64 << 10;
+/// Pings and pongs of the client that are taken in a burst, and each second.
+const CONTROL_BURST: f64 = 64.0;
+const CONTROL_RATE: f64 = 10.0;
 /// Most of a reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
 
@@ -62,25 +79,25 @@ struct ServerMessage {
 
 impl ServerMessage {
     /// With a piece of the body behind it.
-    fn with(&self, piece: &[u8]) -> Result<Message, axum::Error> {
+    fn with(&self, piece: &[u8]) -> Result<Bytes, axum::Error> {
         let mut text = serde_json::to_vec(self).map_err(axum::Error::new)?;
         text.push(b'\n');
-        text.extend_from_slice(piece);
-        Ok(Message::Text(Utf8Bytes::try_from(Bytes::from(text)).map_err(axum::Error::new)?))
+        text.extend_from_slice(std::str::from_utf8(piece).map_err(axum::Error::new)?.as_bytes());
+        Ok(Bytes::from(text))
     }
 
     /// The last message of a cancelled request.
-    fn given_up(ask: u64) -> Result<Message, axum::Error> {
+    fn given_up(ask: u64) -> Result<Bytes, axum::Error> {
         Self { ask, head: None, last: true }.with(b"")
     }
 
     /// The last message of a request that arrives during shutdown.
-    fn closing(ask: u64) -> Result<Message, axum::Error> {
+    fn closing(ask: u64) -> Result<Bytes, axum::Error> {
         Self::failed(ask, Problem::new(Code::ShuttingDown, "The server ends."))
     }
 
     /// The last message of a request that failed, at once or midway.
-    fn failed(ask: u64, problem: Problem) -> Result<Message, axum::Error> {
+    fn failed(ask: u64, problem: Problem) -> Result<Bytes, axum::Error> {
         let refusal = Refusal::from(problem);
         let document = ProblemDoc::of(&refusal.0, None, None).text();
         Self { ask, head: Some(ReplyHead::of(&refusal.into_response())), last: true }
@@ -110,20 +127,54 @@ impl ReplyHead {
 }
 
 /// Upgrades a connection to a WebSocket. Requests go to `path`, with the headers of the page or program that
-/// opened it.
-pub fn open(
-    upgrade: WebSocketUpgrade,
-    carrier: Carrier,
-    path: &'static str,
-    headers: &HeaderMap,
-) -> Response {
+/// opened it. `None` for a request that is no handshake (RFC 6455, 4.2.1).
+pub fn open(mut request: Request<Body>, carrier: Carrier, path: &'static str) -> Option<Response> {
+    let accept = HeaderValue::try_from(accept_key(&request)?).ok()?;
     let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION];
-    let given = given.into_iter().filter_map(|name| Some((name.clone(), headers.get(name)?.clone())));
+    let given =
+        given.into_iter().filter_map(|name| Some((name.clone(), request.headers().get(name)?.clone())));
     let own = [(header::CONTENT_TYPE, "application/json"), (header::ACCEPT, "application/x-ndjson")];
     let own = own.map(|(name, value)| (name, HeaderValue::from_static(value)));
+    let headers = given.chain(own).collect();
     let most = carrier.limits.line_bytes as usize;
-    let line = Line { carrier, path, headers: given.chain(own).collect() };
-    upgrade.max_message_size(most).max_frame_size(most).on_upgrade(move |socket| line.serve(socket))
+    let config = WebSocketConfig::default()
+        .max_message_size(Some(most))
+        .max_frame_size(Some(most))
+        .read_buffer_size(READ_BUFFER)
+        .write_buffer_size(0)
+        .max_write_buffer_size(WRITE_BUFFER);
+    let line = Line { carrier, path, headers };
+    let upgrade = hyper::upgrade::on(&mut request);
+    tokio::spawn(async move {
+        let Ok(stream) = upgrade.await else { return };
+        let patience = Duration::from_secs(line.carrier.limits.body_read_s.max(1));
+        let stream = WholeMessages::new(TokioIo::new(stream), patience);
+        line.serve(WebSocketStream::from_raw_socket(stream, Role::Server, Some(config)).await).await;
+    });
+    let upgraded = [
+        (header::CONNECTION, HeaderValue::from_static("upgrade")),
+        (header::UPGRADE, HeaderValue::from_static("websocket")),
+        (header::SEC_WEBSOCKET_ACCEPT, accept),
+    ];
+    Some((StatusCode::SWITCHING_PROTOCOLS, upgraded).into_response())
+}
+
+/// The server's half of a handshake; `None` where the client's is none.
+fn accept_key(request: &Request<Body>) -> Option<String> {
+    let fields = |name| request.headers().get_all(name).iter().filter_map(|value| value.to_str().ok());
+    let lists = |name, word: &str| {
+        fields(name).flat_map(|value| value.split(',')).any(|given| given.trim().eq_ignore_ascii_case(word))
+    };
+    let key = fields(header::SEC_WEBSOCKET_KEY).next()?.as_bytes();
+    let is_base64 = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'/');
+    // 16 bytes in base64.
+    let is_key = key.len() == 24 && key.strip_suffix(b"==").is_some_and(|key| key.iter().all(is_base64));
+    let is_handshake = request.method() == Method::GET
+        && lists(header::CONNECTION, "upgrade")
+        && lists(header::UPGRADE, "websocket")
+        && fields(header::SEC_WEBSOCKET_VERSION).eq(["13"])
+        && is_key;
+    is_handshake.then(|| derive_accept_key(key))
 }
 
 struct Line {
@@ -137,7 +188,7 @@ struct ReplyPiece {
     ask: u64,
     /// Id of the request's task, because clients reuse numbers.
     task: task::Id,
-    message: Message,
+    text: Bytes,
     is_last: bool,
 }
 
@@ -191,22 +242,69 @@ impl Questions {
     }
 }
 
+/// Something that waits for the reader.
+enum Outgoing {
+    /// The rest of a message, and whether its first frame is still to come.
+    Text(Bytes, bool),
+    Ping,
+}
+
+impl Outgoing {
+    /// The next frame, and what is left behind it.
+    fn frame(self) -> (Message, Option<Self>) {
+        match self {
+            Self::Ping => (Message::Ping(Bytes::new()), None),
+            Self::Text(mut text, is_first) => {
+                let piece = text.split_to(text.len().min(FRAME_BYTES));
+                let code = OpCode::Data(if is_first { Data::Text } else { Data::Continue });
+                let frame = Message::Frame(Frame::message(piece, code, text.is_empty()));
+                (frame, (!text.is_empty()).then_some(Self::Text(text, false)))
+            }
+        }
+    }
+}
+
+/// Pings and pongs that the client may still send.
+struct ControlAllowance {
+    left: f64,
+    at: Instant,
+}
+
+impl ControlAllowance {
+    fn new() -> Self {
+        Self { left: CONTROL_BURST, at: Instant::now() }
+    }
+
+    /// Takes one; false if the client sends them too fast.
+    fn take(&mut self) -> bool {
+        let since = std::mem::replace(&mut self.at, Instant::now());
+        self.left = (self.left + CONTROL_RATE * since.elapsed().as_secs_f64()).min(CONTROL_BURST) - 1.0;
+        self.left >= 0.0
+    }
+}
+
+type Socket = WebSocketStream<WholeMessages<TokioIo<hyper::upgrade::Upgraded>>>;
+
 impl Line {
     /// Until the client leaves, sends what cannot be understood or takes nothing more, or the server ends.
-    async fn serve(mut self, socket: WebSocket) {
+    async fn serve(mut self, socket: Socket) {
         let (mut sink, mut stream) = socket.split();
         let (pieces, mut ready) = mpsc::channel(PIECES);
         let mut questions = Questions::default();
-        let mut replies = VecDeque::new();
+        let mut replies: VecDeque<Outgoing> = VecDeque::new();
         let mut ping = tokio::time::interval_at(Instant::now() + PING, PING);
-        // Until when the reader may leave the message that is being sent.
+        let mut controls = ControlAllowance::new();
+        let text = |text| Outgoing::Text(text, true);
+        // Until when the reader may leave the frame that is being sent.
         let mut sending = None;
         let parting = loop {
             if sending.is_none()
-                && let Some(message) = replies.pop_front()
+                && let Some(reply) = replies.pop_front()
             {
-                // The sink has room for one message, so this does not wait.
-                if sink.feed(message).await.is_err() {
+                let (frame, rest) = reply.frame();
+                rest.into_iter().for_each(|rest| replies.push_front(rest));
+                // All that was sent before has been taken, so this does not wait.
+                if sink.feed(frame).await.is_err() {
                     return;
                 }
                 sending = Some(Instant::now() + self.carrier.patience);
@@ -224,7 +322,7 @@ impl Line {
                 () = tokio::time::sleep_until(sending.unwrap_or_else(Instant::now)), if sending.is_some() => return,
                 Some(piece) = ready.recv(), if sending.is_none() => {
                     if questions.takes(&piece) {
-                        replies.push_back(piece.message);
+                        replies.push_back(text(piece.text));
                     }
                     continue;
                 }
@@ -232,7 +330,7 @@ impl Line {
                     if let Err(error) = ended
                         && let Some(number) = questions.broken(error.id())
                     {
-                        replies.extend(ServerMessage::failed(number, Problem::internal(error)));
+                        replies.extend(ServerMessage::failed(number, Problem::internal(error)).map(text));
                     }
                     self.start_waiting(&mut questions, &pieces);
                     continue;
@@ -241,30 +339,48 @@ impl Line {
                 () = self.carrier.closes(), if !questions.closing => {
                     questions.closing = true;
                     let waiting = std::mem::take(&mut questions.waiting);
-                    replies.extend(waiting.into_iter().flat_map(|(number, _)| ServerMessage::closing(number)));
+                    let closing = waiting.into_iter().flat_map(|(number, _)| ServerMessage::closing(number));
+                    replies.extend(closing.map(text));
                     continue;
                 }
                 _ = ping.tick() => {
-                    replies.push_back(Message::Ping(Bytes::new()));
+                    replies.push_back(Outgoing::Ping);
                     continue;
                 }
-                () = std::future::ready(()), if is_over => break parting(close_code::AWAY, "The server ends."),
+                () = std::future::ready(()), if is_over => break parting(CloseCode::Away, "The server ends."),
             };
             match heard {
-                Some(Ok(Message::Text(text))) => match self.hear(&text, &mut questions, &pieces) {
-                    Ok(reply) => replies.extend(reply),
-                    Err(why) => break parting(close_code::POLICY, &why),
+                Some(Ok(Message::Text(said))) => match self.hear(&said, &mut questions, &pieces) {
+                    Ok(reply) => replies.extend(reply.map(text)),
+                    Err(why) => break parting(CloseCode::Policy, &why),
                 },
-                Some(Ok(Message::Binary(_))) => break parting(close_code::UNSUPPORTED, "Text expected."),
-                Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
-                Some(Err(error)) => break parting(close_code::PROTOCOL, &error.to_string()),
+                Some(Ok(Message::Ping(_) | Message::Pong(_))) if !controls.take() => {
+                    let why = format!("More than {CONTROL_RATE} pings a second.");
+                    break parting(CloseCode::Policy, &why);
+                }
+                // The pong waits in the socket: nothing else is sent before the reader has taken it.
+                Some(Ok(Message::Ping(_))) => {
+                    sending.get_or_insert_with(|| Instant::now() + self.carrier.patience);
+                }
+                Some(Ok(Message::Pong(_))) => {}
+                Some(Ok(Message::Binary(_) | Message::Frame(_))) => {
+                    break parting(CloseCode::Unsupported, "Text expected.");
+                }
+                Some(Err(error)) => break parting(close_code(&error), &error.to_string()),
                 Some(Ok(Message::Close(_))) | None => {
+                    drop(questions);
                     let _ = tokio::time::timeout(self.carrier.patience, sink.close()).await;
                     return;
                 }
             }
         };
-        let _ = tokio::time::timeout(self.carrier.patience, sink.send(parting)).await;
+        // What is open ends now, not when the reader has taken the last frame.
+        drop(questions);
+        let parted = async {
+            sink.flush().await?;
+            sink.send(parting).await
+        };
+        let _ = tokio::time::timeout(self.carrier.patience, parted).await;
     }
 
     /// Starts, holds back, refuses or cancels a request; returns the immediate reply, if any.
@@ -276,7 +392,10 @@ impl Line {
         text: &str,
         questions: &mut Questions,
         pieces: &mpsc::Sender<ReplyPiece>,
-    ) -> Result<Option<Message>, String> {
+    ) -> Result<Option<Bytes>, String> {
+        if !text.trim_start().starts_with('{') {
+            return Err("An object is expected.".to_owned());
+        }
         let reply = match serde_json::from_str(text).map_err(|error| error.to_string())? {
             ClientMessage { ask: Some(number), body: Some(body), end: None } => {
                 if questions.knows(number) {
@@ -315,7 +434,7 @@ impl Line {
     /// The `POST` that a message replaces.
     fn request(&self, body: String) -> Request<Body> {
         let mut request = Request::new(Body::from(body));
-        *request.method_mut() = axum::http::Method::POST;
+        *request.method_mut() = Method::POST;
         *request.uri_mut() = axum::http::Uri::from_static(self.path);
         *request.headers_mut() = self.headers.clone();
         request
@@ -339,13 +458,13 @@ async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
         let following =
             if matches!(piece, Some(Ok(_))) { next(&mut body).now_or_never() } else { Some(None) };
         head.last = matches!(following, Some(None));
-        let message = piece.unwrap_or_else(|| Ok(Bytes::new())).and_then(|bytes| head.with(&bytes));
-        let message = message.or_else(|error| {
+        let text = piece.unwrap_or_else(|| Ok(Bytes::new())).and_then(|bytes| head.with(&bytes));
+        let text = text.or_else(|error| {
             head.last = true;
             ServerMessage::failed(ask, Problem::internal(error))
         });
-        let Ok(message) = message else { return };
-        let part = ReplyPiece { ask, task: task::id(), message, is_last: head.last };
+        let Ok(text) = text else { return };
+        let part = ReplyPiece { ask, task: task::id(), text, is_last: head.last };
         if pieces.send(part).await.is_err() {
             return;
         }
@@ -371,7 +490,17 @@ async fn next(body: &mut Body) -> Option<Result<Bytes, axum::Error>> {
     }
 }
 
-fn parting(code: u16, reason: &str) -> Message {
+/// Why a line ends after an error (RFC 6455, 7.4.1).
+fn close_code(error: &Error) -> CloseCode {
+    match error {
+        Error::Capacity(_) => CloseCode::Size,
+        Error::Utf8(_) => CloseCode::Invalid,
+        Error::Io(error) if error.kind() == std::io::ErrorKind::TimedOut => CloseCode::Policy,
+        _ => CloseCode::Protocol,
+    }
+}
+
+fn parting(code: CloseCode, reason: &str) -> Message {
     let reason: String = reason.chars().filter(char::is_ascii).take(REASON_BYTES).collect();
     Message::Close(Some(CloseFrame { code, reason: reason.into() }))
 }
@@ -389,7 +518,7 @@ mod tests {
         tokio::spawn(pass_on(reply, 7, pieces)).await.unwrap();
         let mut texts = Vec::new();
         while let Some(piece) = ready.recv().await {
-            texts.push((piece.is_last, piece.message.into_text().unwrap().to_string()));
+            texts.push((piece.is_last, String::from_utf8(piece.text.to_vec()).unwrap()));
         }
         assert_eq!(texts.len(), 2, "{texts:?}");
         assert_eq!(texts[0], (false, "{\"ask\":7,\"status\":200}\n{}\n".to_owned()));

@@ -5,12 +5,16 @@
 //! has waited longest without a request makes room. A client that has left is noticed whatever it sent before.
 
 use super::extract::Connection;
+use super::pause::RefusalPause;
 use super::wire::{self, Socket, Wire};
 use super::{observe, owner};
 use crate::base::limits::Limits;
+use crate::base::party::Party;
+use api::{Code, Problem};
 use axum::Router;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use std::collections::HashMap;
 use std::convert::Infallible;
 use std::future::Future;
 use std::pin::{Pin, pin};
@@ -18,15 +22,23 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Notify, mpsc, watch};
+use tokio::sync::{Notify, Semaphore, mpsc, watch};
 
 /// Heads up to this size reach our own check, which answers with a problem document.
 const HEAD_BUFFER: usize = 128 << 10;
+/// Questions about the server's health.
+const HEALTH: [&str; 2] = ["/healthz", "/readyz"];
 /// Header fields up to this number reach our own check.
 const HEAD_FIELDS: usize = 512;
 
 /// Time between two looks at all connections.
 const LOOK: Duration = Duration::from_millis(250);
+/// Least connections beyond all places whose clients are told so; half as many as there are places where that is more.
+const OVERFLOW: usize = 8;
+/// Time in which such a client sends its request, and takes the answer.
+const OVERFLOW_TIME: Duration = Duration::from_secs(2);
+/// Time for a refused client to take its answer after its place was given away.
+const HURRY: Duration = Duration::from_millis(500);
 /// Before this the arrival rate of a body is unknown.
 const ARRIVING_GRACE: Duration = Duration::from_secs(1);
 
@@ -39,6 +51,10 @@ struct ConnectionEntry {
     asked: Mutex<Option<Instant>>,
     /// The body that is arriving.
     arriving: Mutex<Option<BodyProgress>>,
+    /// Whose it is.
+    party: Party,
+    /// Pause before the answer to a refused client.
+    pause: RefusalPause,
     close: Notify,
 }
 
@@ -58,10 +74,19 @@ impl BodyProgress {
 }
 
 /// All open connections.
-#[derive(Default)]
 struct ConnectionTable {
     places: Mutex<Vec<Arc<ConnectionEntry>>>,
     next: AtomicU64,
+    /// Most of them.
+    most: usize,
+}
+
+/// What a new connection gets.
+enum Admission {
+    /// A place like all others.
+    Place(Arc<ConnectionEntry>),
+    /// Work is under way on all places: only questions about the server's health are answered.
+    Overflow(Arc<ConnectionEntry>),
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -72,33 +97,82 @@ impl ConnectionEntry {
     fn is_busy(&self) -> bool {
         self.socket.requests.load(Ordering::Relaxed) > 0
     }
+
+    /// As its requests carry it.
+    fn connection(&self) -> Connection {
+        let stream = self.socket.stream();
+        let ends = stream.peer_addr().ok().zip(stream.local_addr().ok());
+        let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
+        Connection { number: self.number, party: self.party, is_line: false, strangers }
+    }
+
+    /// Ends the connection. One that waits for a refusal gets it before, if it takes it soon.
+    fn make_room(self: &Arc<Self>) {
+        if self.pause.since().is_none() {
+            return self.close.notify_one();
+        }
+        self.pause.hurry();
+        let entry = Arc::clone(self);
+        tokio::spawn(async move {
+            tokio::time::sleep(HURRY).await;
+            entry.close.notify_one();
+        });
+    }
 }
 
 impl ConnectionTable {
-    /// A place for a new connection. A full table closes the connection that is idle longest, else the one
-    /// with the slowest request. `None` if work is under way on all of them.
-    fn enter(&self, stream: TcpStream, most: usize) -> Option<Arc<ConnectionEntry>> {
-        let mut places = lock(&self.places);
-        if places.len() >= most {
-            let oldest = places.iter().filter(|p| !p.is_busy()).min_by_key(|p| *lock(&p.idle_since));
-            let slow = |p: &Arc<ConnectionEntry>| {
-                Some((lock(&p.arriving).and_then(BodyProgress::rate)?, Arc::clone(p)))
-            };
-            let slowest = || places.iter().filter_map(slow).min_by_key(|(rate, _)| *rate).map(|(_, p)| p);
-            let leaves = oldest.cloned().or_else(slowest)?;
-            leaves.close.notify_one();
-            places.retain(|p| p.number != leaves.number);
-        }
+    fn new(most: usize) -> Self {
+        Self { places: Mutex::default(), next: AtomicU64::new(0), most: most.max(1) }
+    }
+
+    /// A place for a new connection. A full table takes one from the connection that waits longest for a refusal, else
+    /// closes the one that is idle longest, else the one with the slowest request; first among those of parties with
+    /// more than a quarter of all places. Of these, a party with less may even take the newest one with work under way.
+    fn enter(&self, stream: TcpStream, party: Party) -> Admission {
         let place = Arc::new(ConnectionEntry {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             socket: Arc::new(Socket::new(stream)),
             idle_since: Mutex::new(Instant::now()),
             asked: Mutex::new(None),
             arriving: Mutex::new(None),
+            party,
+            pause: RefusalPause::default(),
             close: Notify::new(),
         });
+        let mut places = lock(&self.places);
+        if places.len() >= self.most {
+            let Some(leaves) = self.leaving(&places, party) else {
+                return Admission::Overflow(place);
+            };
+            leaves.make_room();
+            places.retain(|p| p.number != leaves.number);
+        }
         places.push(Arc::clone(&place));
-        Some(place)
+        Admission::Place(place)
+    }
+
+    fn leaving(&self, places: &[Arc<ConnectionEntry>], new: Party) -> Option<Arc<ConnectionEntry>> {
+        let mut counts: HashMap<Party, usize> = HashMap::new();
+        places.iter().for_each(|p| *counts.entry(p.party).or_default() += 1);
+        let is_greedy = |party: Party| counts.get(&party).is_some_and(|count| 4 * count > self.most);
+        let greedy: Vec<_> = places.iter().filter(|p| is_greedy(p.party)).cloned().collect();
+        let refused = |of: &[Arc<ConnectionEntry>]| {
+            of.iter()
+                .filter_map(|p| Some((p.pause.since()?, p)))
+                .min_by_key(|(since, _)| *since)
+                .map(|(_, p)| p.clone())
+        };
+        let idle = |of: &[Arc<ConnectionEntry>]| {
+            of.iter().filter(|p| !p.is_busy()).min_by_key(|p| *lock(&p.idle_since)).cloned()
+        };
+        let slow = |of: &[Arc<ConnectionEntry>]| {
+            let rate =
+                |p: &Arc<ConnectionEntry>| Some((lock(&p.arriving).and_then(BodyProgress::rate)?, p.clone()));
+            of.iter().filter_map(rate).min_by_key(|(rate, _)| *rate).map(|(_, p)| p)
+        };
+        let of = |some: &[Arc<ConnectionEntry>]| refused(some).or_else(|| idle(some)).or_else(|| slow(some));
+        let newest = || greedy.iter().max_by_key(|p| p.number).filter(|_| !is_greedy(new)).cloned();
+        of(&greedy).or_else(newest).or_else(|| of(places))
     }
 
     /// Closes connections whose reader has taken nothing of a reply for this long.
@@ -156,7 +230,7 @@ impl Carrier {
     /// Answers a request as one that came by this connection, which is busy until what comes with the reply is gone.
     pub async fn ask(&self, mut request: axum::extract::Request) -> (axum::response::Response, Busy) {
         let busy = Busy::new(&self.place);
-        request.extensions_mut().insert(self.connection);
+        request.extensions_mut().insert(Connection { is_line: true, ..self.connection });
         let Ok(reply) = tower::ServiceExt::oneshot(self.router.clone(), request).await;
         (reply, busy)
     }
@@ -177,7 +251,8 @@ pub async fn serve(
     stop: impl Future<Output = ()>,
     on_stop: impl FnOnce(),
 ) {
-    let table = Arc::new(ConnectionTable::default());
+    let table = Arc::new(ConnectionTable::new(limits.connections as usize));
+    let overflow = Arc::new(Semaphore::new(OVERFLOW.max(limits.connections as usize / 2)));
     let (closing, closed) = watch::channel(false);
     // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
@@ -194,8 +269,8 @@ pub async fn serve(
             }
             accepted = listener.accept() => accepted,
         };
-        let stream = match accepted {
-            Ok((stream, _)) => stream,
+        let (stream, peer) = match accepted {
+            Ok(accepted) => accepted,
             Err(error) => {
                 // Out of file descriptors, or a peer that left: the next one may be fine.
                 tracing::warn!(%error, "accept failed");
@@ -203,7 +278,20 @@ pub async fn serve(
                 continue;
             }
         };
-        let Some(place) = table.enter(stream, limits.connections as usize) else { continue };
+        let place = match table.enter(stream, Party::of(peer.ip())) {
+            Admission::Place(place) => place,
+            Admission::Overflow(place) => {
+                // Beyond these, new connections are closed: each takes a descriptor.
+                if let Ok(held) = Arc::clone(&overflow).try_acquire_owned() {
+                    let router = router.clone();
+                    tokio::spawn(async move {
+                        let _ = tokio::time::timeout(OVERFLOW_TIME, answer_health(router, &place)).await;
+                        drop(held);
+                    });
+                }
+                continue;
+            }
+        };
         let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
         let limits = Arc::clone(&limits);
         tokio::spawn(async move {
@@ -221,6 +309,27 @@ pub async fn serve(
     }
 }
 
+/// Answers one request of a connection beyond all places: about the server's health, else that it is busy.
+async fn answer_health(router: Router, place: &Arc<ConnectionEntry>) {
+    let connection = place.connection();
+    let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
+        let router = router.clone();
+        async move {
+            if HEALTH.contains(&request.uri().path()) {
+                request.extensions_mut().insert(connection);
+                return tower::ServiceExt::oneshot(router, request.map(axum::body::Body::new)).await;
+            }
+            let problem =
+                Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1);
+            Ok(observe::unread(problem, 0.0))
+        }
+    });
+    let mut http = hyper::server::conn::http1::Builder::new();
+    http.keep_alive(false).max_headers(HEAD_FIELDS).max_buf_size(HEAD_BUFFER);
+    let wire = TokioIo::new(Wire(Arc::clone(&place.socket)));
+    let _ = http.serve_connection(wire, TowerToHyperService::new(service)).await;
+}
+
 async fn connection(
     router: Router,
     place: &Arc<ConnectionEntry>,
@@ -230,9 +339,7 @@ async fn connection(
 ) {
     let socket = &place.socket;
     let counted = Arc::clone(place);
-    let ends = socket.stream().peer_addr().ok().zip(socket.stream().local_addr().ok());
-    let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
-    let connection = Connection { number: place.number, strangers };
+    let connection = place.connection();
     let (held, mut in_use) = mpsc::channel(1);
     let carrier = Carrier {
         router: router.clone(),
@@ -245,6 +352,7 @@ async fn connection(
     };
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
         request.extensions_mut().insert(connection);
+        request.extensions_mut().insert(counted.pause.clone());
         if request.headers().contains_key(hyper::header::UPGRADE) {
             request.extensions_mut().insert(carrier.clone());
         }

@@ -2,6 +2,7 @@
 //! problems are written.
 
 use super::guard::{self, Guard};
+use super::pause::RefusalPause;
 use crate::base::limits::Limits;
 use crate::base::problem::{ProblemDoc, Refusal, code_of, status_of};
 use crate::base::{id, metrics};
@@ -43,6 +44,7 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     let route =
         request.extensions().get::<MatchedPath>().map_or(NO_ROUTE.to_owned(), |p| p.as_str().to_owned());
     let foreign = gate.guard.foreign_origin(&request);
+    let pause = request.extensions().get::<RefusalPause>().cloned();
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
@@ -56,7 +58,13 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     let status = response.status();
     if status == StatusCode::SERVICE_UNAVAILABLE {
         // A client that retries at once would take cores from requests in progress.
-        tokio::time::sleep(REFUSAL_PAUSE).await;
+        match pause {
+            Some(pause) if pause.wait(REFUSAL_PAUSE).await => {
+                response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
+            }
+            Some(_) => {}
+            None => tokio::time::sleep(REFUSAL_PAUSE).await,
+        }
     }
     let seconds = began.elapsed().as_secs_f64();
     metrics::request(&route, Some(&method), status, seconds);

@@ -48,6 +48,16 @@ impl Upload {
         Ok(Unpacking { upload: self, inner })
     }
 
+    /// Its bytes from an offset on. One that came as it is need not be read up to there.
+    fn open_at(&self, at: u64) -> io::Result<Box<dyn Read + Send + '_>> {
+        if self.encoding == Encoding::Identity {
+            return Ok(Box::new(self.encoded.reader_at(at)));
+        }
+        let mut reader = self.open()?;
+        io::copy(&mut reader.by_ref().take(at), &mut io::sink())?;
+        Ok(reader)
+    }
+
     fn found(&self, fault: Problem) -> io::Error {
         let told = io::Error::other(fault.detail.clone());
         self.fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
@@ -104,18 +114,22 @@ pub struct FormPart {
     pub label: Option<String>,
     form: Arc<Upload>,
     boundary: String,
-    /// Position in the form.
-    index: usize,
+    /// Where the line before it begins, in the unpacked form.
+    at: u64,
 }
 
 fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// The parts of each of these names in a form, in its order; of each name at most so many.
+/// Most parts of a form, whatever they are called.
+const MOST_PARTS: usize = 100;
+
+/// The parts of each of these names in a form, in its order; of each name at most so many. The form is read once, and
+/// each part then from its own beginning.
 ///
 /// # Errors
-/// `malformed-file`, and `invalid-field` for more of a name: none is passed over in silence.
+/// `malformed-file`, and `invalid-field` for more of a name or another name: none is passed over in silence.
 pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
@@ -124,30 +138,77 @@ pub fn parts<const N: usize>(
     let boundary = multer::parse_boundary(content_type)
         .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
     let mut found = [const { Vec::new() }; N];
-    let mut read = form_of(form, &boundary).map_err(broken)?;
+    let lines = Arc::new(Mutex::new(BoundaryLines::new(&boundary)));
+    let mut read = form_of(form, &boundary, 0, Some(Arc::clone(&lines))).map_err(broken)?;
     while let Some(mut field) = now(read.next_field()).map_err(broken)? {
-        let named = |((name, _), _): &(&(&str, usize), &mut Vec<FormPart>)| Some(*name) == field.name();
-        if let Some((&(name, most), of_name)) = names.iter().zip(&mut found).find(named) {
-            if of_name.len() == most {
-                let detail = format!("at most {most} {name} expected; send the others in calls of their own");
-                return Err(
-                    Problem::field(&format!("/{name}"), Code::InvalidField, detail).limit(most as u64)
-                );
-            }
-            let label = field.file_name().map(str::to_owned);
-            let (form, boundary) = (Arc::clone(form), boundary.clone());
-            of_name.push(FormPart { label, form, boundary, index: field.index() });
+        let index = field.index();
+        if index == MOST_PARTS {
+            let detail = format!("at most {MOST_PARTS} parts of a form expected");
+            return Err(Problem::field("", Code::InvalidField, detail).limit(MOST_PARTS as u64));
         }
+        let named = |((name, _), _): &(&(&str, usize), &mut Vec<FormPart>)| Some(*name) == field.name();
+        let Some((&(name, most), of_name)) = names.iter().zip(&mut found).find(named) else {
+            let known = names.map(|(name, _)| name).join(", ");
+            let detail = format!("part {} has another name; {known} expected", index + 1);
+            return Err(Problem::field("", Code::InvalidField, detail));
+        };
+        if of_name.len() == most {
+            let detail = format!("at most {most} {name} expected; send the others in calls of their own");
+            return Err(Problem::field(&format!("/{name}"), Code::InvalidField, detail).limit(most as u64));
+        }
+        let label = field.file_name().map(str::to_owned);
+        // The line before a part has passed when its name is known.
+        let at = lines.lock().unwrap_or_else(PoisonError::into_inner).at.get(index).copied();
+        let at = at.ok_or_else(|| broken("a part without a line before it"))?;
+        of_name.push(FormPart { label, form: Arc::clone(form), boundary: boundary.clone(), at });
         while now(field.chunk()).map_err(broken)?.is_some() {}
     }
     Ok(found)
 }
 
-/// A form that is unpacked piece by piece.
-fn form_of<'a>(form: &'a Upload, boundary: &str) -> io::Result<Multipart<'a>> {
-    let reader = form.open()?;
+/// Finds where the lines that separate the parts of a form begin, in pieces of it.
+struct BoundaryLines {
+    /// The end of a line, and the boundary after it.
+    line: Vec<u8>,
+    /// Bytes of it that the last ones so far are.
+    matched: usize,
+    read: u64,
+    /// Offset of the dashes before each boundary, so far.
+    at: Vec<u64>,
+}
+
+impl BoundaryLines {
+    fn new(boundary: &str) -> Self {
+        // The first line has none before it.
+        Self { line: format!("\r\n--{boundary}").into_bytes(), matched: 2, read: 0, at: Vec::new() }
+    }
+
+    fn read(&mut self, piece: &[u8]) {
+        for byte in piece {
+            self.read += 1;
+            // The line has its first byte nowhere else: a boundary has no carriage return.
+            self.matched = match self.line.get(self.matched) {
+                Some(expected) if expected == byte => self.matched + 1,
+                _ => usize::from(*byte == b'\r'),
+            };
+            if self.matched == self.line.len() {
+                self.at.push(self.read + 2 - self.line.len() as u64);
+                self.matched = 0;
+            }
+        }
+    }
+}
+
+/// A form from a line between its parts on, unpacked piece by piece.
+fn form_of<'a>(
+    form: &'a Upload,
+    boundary: &str,
+    at: u64,
+    lines: Option<Arc<Mutex<BoundaryLines>>>,
+) -> io::Result<Multipart<'a>> {
+    let reader = form.open_at(at)?;
     // The parser takes in whatever is ready, so after each piece there is none for once.
-    let pieces = stream::unfold((reader, false), |(mut reader, pause)| async move {
+    let pieces = stream::unfold((reader, lines, false), |(mut reader, lines, pause)| async move {
         if pause {
             pause_once().await;
         }
@@ -156,9 +217,12 @@ fn form_of<'a>(form: &'a Upload, boundary: &str) -> io::Result<Multipart<'a>> {
             Ok(0) => None,
             Ok(count) => {
                 piece.truncate(count);
-                Some((Ok(Bytes::from(piece)), (reader, true)))
+                if let Some(lines) = &lines {
+                    lines.lock().unwrap_or_else(PoisonError::into_inner).read(&piece);
+                }
+                Some((Ok(Bytes::from(piece)), (reader, lines, true)))
             }
-            Err(error) => Some((Err(error), (reader, true))),
+            Err(error) => Some((Err(error), (reader, lines, true))),
         }
     });
     Ok(Multipart::new(pieces, boundary))
@@ -186,14 +250,11 @@ fn now<F: Future>(future: F) -> F::Output {
 
 impl Source for FormPart {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
-        let mut form = form_of(&self.form, &self.boundary)?;
-        while let Some(mut field) = now(form.next_field()).map_err(io::Error::other)? {
-            if field.index() == self.index {
-                return Ok(Box::new(PartReader { field, piece: Bytes::new() }));
-            }
-            while now(field.chunk()).map_err(io::Error::other)?.is_some() {}
+        let mut form = form_of(&self.form, &self.boundary, self.at, None)?;
+        match now(form.next_field()).map_err(io::Error::other)? {
+            Some(field) => Ok(Box::new(PartReader { field, piece: Bytes::new() })),
+            None => Err(io::ErrorKind::UnexpectedEof.into()),
         }
-        Err(io::ErrorKind::UnexpectedEof.into())
     }
 
     /// Size of the whole form.
@@ -218,5 +279,20 @@ impl Read for PartReader<'_> {
         let piece = self.piece.split_to(self.piece.len().min(buffer.len()));
         buffer.iter_mut().zip(piece.iter()).for_each(|(to, from)| *to = *from);
         Ok(piece.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BoundaryLines;
+
+    #[test]
+    fn lines_between_parts_are_found_wherever_the_bytes_are_cut() {
+        let form = b"--b\r\nname\r\n\r\n\r\r\n--a\r\n-\r\n--b\r\nx--b\r\n\r\n--b--";
+        for step in 1..form.len() {
+            let mut lines = BoundaryLines::new("b");
+            form.chunks(step).for_each(|piece| lines.read(piece));
+            assert_eq!(lines.at, [0, 24, 37], "step {step}");
+        }
     }
 }

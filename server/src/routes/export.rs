@@ -12,11 +12,17 @@ use api::{Home, import};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
+use experts::preparation;
 use formats::native::SceneDoc;
 use scene::Scene;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Most bytes of a file: for each byte that the scene has as JSON, and for a small one. With what is worked out
+/// on the way, a writer takes 8 times the scene's JSON and 64 MB.
+const FILE_FACTOR: u64 = 6;
+const FILE_BYTES: u64 = 40 << 20;
 
 /// Query of an export.
 #[derive(Debug, Deserialize, utoipa::IntoParams)]
@@ -39,8 +45,8 @@ impl Default for ExportParams {
     }
 }
 
-refusals!(Refused: QUERY STORE WORK, NotFound, FormatUnknown, CannotRepresent);
-refusals!(Unwritten: CHANGES BODY SCENE STORE WORK, FormatUnknown, CannotRepresent);
+refusals!(Refused: QUERY STORE WORK, NotFound, FormatUnknown, CannotRepresent, ReplyTooLarge);
+refusals!(Unwritten: CHANGES BODY SCENE STORE WORK, FormatUnknown, CannotRepresent, ReplyTooLarge);
 
 /// Exports a scene of this server.
 #[utoipa::path(get, path = "/v1/scenes/{id}/export", operation_id = "exportScene", tag = "files",
@@ -53,8 +59,8 @@ pub async fn stored(
     connection: Connection,
     QueryParams(params): QueryParams<ExportParams>,
 ) -> Result<Response, Refusal> {
-    let opened = app.catalog.open(&id).await?;
-    export(&app, connection, opened.scene, params).await
+    let scene = app.catalog.whole(&id).await?;
+    export(&app, connection, scene, params).await
 }
 
 /// Exports a scene given in the body.
@@ -82,9 +88,13 @@ async fn export(
     let licence = scene.licence();
     let name = scene.name.clone();
     let format = import::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
-    let write = move |_: &_| export::write(&scene, &params.format, params.sample, params.mode);
+    let map = scene.map.clone();
+    let most = Some(FILE_FACTOR * bytes as u64 + FILE_BYTES);
+    let write = move |_: &_| export::write(&scene, &params.format, params.sample, params.mode, most);
     // Writers take about this long a byte.
     let cost = Duration::from_nanos(20 * bytes as u64);
+    // Some formats need the lane graph, which is worked out for each file.
+    let cost = cost + app.pool.document(bytes, move || Ok(preparation(&map))).await?;
     let asked = JobRequest { kind: JobKind::Export, cost, caller: connection.into() };
     let written = app.pool.run(asked, write).await;
     let file = written.inspect_err(|_| metrics::transfer(true, format, "error"))?;

@@ -14,10 +14,8 @@ use crate::scenes::bytes_of;
 use crate::work::Caller;
 use api::{AboutScene, Code, GenerateRequest, Problem, Subject};
 use axum::Extension;
-use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::{FromRequest, Request, State};
-use axum::http::{HeaderMap, HeaderValue};
+use axum::http::HeaderValue;
 use axum::response::Response;
 use std::time::Duration;
 
@@ -44,10 +42,12 @@ pub async fn generate(
 ) -> Result<Response, Refusal> {
     let form = ReplyFormat::negotiate(request.headers())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
-    let caller = Caller { connection: Some(connection.number), ..caller_of(&body)? };
+    let Caller { job, client, background, .. } = caller_of(&body)?;
+    let caller = Caller { job, client, background, ..connection.into() };
     // Opening and preparing a scene costs more than a refusal may.
-    app.pool.expects(caller.client.as_ref().map(|client| client.0.as_str()))?;
-    let Subject { scene, standings, held } = body.take_scene().open(&app.catalog).await?;
+    app.pool.expects(&caller)?;
+    let home = app.catalog.of(connection.party);
+    let Subject { scene, standings, held } = body.take_scene().open(&home).await?;
     let streams = form != ReplyFormat::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
     let prepare = move || {
@@ -78,19 +78,16 @@ refusals!(NoLine: CHANGES, UpgradeRequired);
 /// as a `POST` streams them as NDJSON, or the problem. A cancelled request also ends with `{"ask": 1, "last":
 /// true}`, and then its number is free. An interrupted reply ends with a second `status` and its problem.
 /// Requests beyond `line_questions` wait until another one ends; while 64 wait, or 1 MB (`line_bytes`), a
-/// further one is refused with 503 `busy`.
+/// further one is refused with 503 `busy`. A message must arrive within `body_read_s`. More than 10 pings a second,
+/// or a message that cannot be read, end the WebSocket with its close code.
 #[utoipa::path(get, path = "/v1/generate", operation_id = "openLine", tag = "generate",
     responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
-pub async fn line(
-    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
-    carrier: Option<Extension<Carrier>>,
-    headers: HeaderMap,
-) -> Result<Response, Refusal> {
-    let (Ok(upgrade), Some(Extension(carrier))) = (upgrade, carrier) else {
+pub async fn line(carrier: Option<Extension<Carrier>>, request: Request) -> Result<Response, Refusal> {
+    let opened = carrier.and_then(|Extension(carrier)| line::open(request, carrier, "/v1/generate"));
+    opened.ok_or_else(|| {
         let detail = "A generation is asked for by POST, or over a WebSocket.";
-        return Err(Problem::new(Code::UpgradeRequired, detail).into());
-    };
-    Ok(line::open(upgrade, carrier, "/v1/generate", &headers))
+        Problem::new(Code::UpgradeRequired, detail).into()
+    })
 }
 
 /// Caller named by the body.
@@ -112,5 +109,5 @@ fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
             return Err(Problem::field("/revision", Code::InvalidField, detail));
         }
     };
-    Ok(Caller { job: body.job.clone(), client, connection: None, background: body.background })
+    Ok(Caller { job: body.job.clone(), client, background: body.background, ..Caller::default() })
 }

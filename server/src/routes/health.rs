@@ -2,6 +2,7 @@
 
 use crate::app::App;
 use crate::base::problem::Refusal;
+use crate::work::PoolLane;
 use api::{Code, Problem};
 use axum::extract::State;
 use axum::http::header;
@@ -37,15 +38,19 @@ pub async fn healthz() -> axum::Json<Health> {
     axum::Json(Health { status: Condition::Ok })
 }
 
-/// Experts are warm, the store takes writes, the queue has room.
+/// Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer.
+/// `failing` lists `experts`, `store`, `queue`, `workers`, `readers` and `data` where they do not.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "server",
     responses((status = 200, description = "ready for work", body = ref("#/components/schemas/Health")),
         NotYet))]
 pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusal> {
     let checks = [
         ("experts", app.warm.load(Ordering::Relaxed)),
-        ("store", app.catalog.store.is_writable().await),
+        ("store", app.catalog.store.is_ready().await),
         ("queue", app.pool.has_room()),
+        ("workers", app.pool.answers(PoolLane::Quick).await),
+        ("readers", app.pool.answers(PoolLane::Document).await),
+        ("data", app.catalog.library.answers().await),
     ];
     let failing: Vec<_> = checks.iter().filter(|(_, fine)| !fine).map(|(name, _)| *name).collect();
     if failing.is_empty() {

@@ -36,8 +36,10 @@ pub async fn place(
     WithScene(body, Subject { scene, .. }): WithScene<PlaceBody>,
 ) -> Result<JsonText, Refusal> {
     let placer = Arc::clone(&app.placer);
+    let preparation = app.map_preparation(&scene.map).await?;
     let work =
         move |cancel: &Cancel| JsonText::of(&PlaceReply::of(&body.run(&scene, &placer, cancel)?, &scene));
-    let asked = JobRequest { kind: JobKind::Place, cost: PLACE_COST, caller: connection.into() };
+    let asked =
+        JobRequest { kind: JobKind::Place, cost: PLACE_COST + preparation, caller: connection.into() };
     Ok(app.pool.run(asked, work).await?)
 }

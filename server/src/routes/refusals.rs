@@ -8,7 +8,7 @@ use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
 use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
 
-/// Any operation: checks before its handler.
+/// Any operation: checks before its handler, and too many connections at work.
 pub const ANYWHERE: &[Code] = &[
     Code::BadHeader,
     Code::BadHost,
@@ -18,6 +18,7 @@ pub const ANYWHERE: &[Code] = &[
     Code::CrossSite,
     Code::UriTooLong,
     Code::HeadersTooLarge,
+    Code::Busy,
     Code::Internal,
 ];
 /// Operations that are no mere reading.
@@ -42,6 +43,7 @@ pub const SCENE: &[Code] = &[
     Code::UnknownAgent,
     Code::TooManyAgents,
     Code::MapTooLarge,
+    Code::MapTooComplex,
     Code::UnsupportedVersion,
 ];
 /// Operations that take a scene or the id of one.

@@ -3,6 +3,8 @@
 use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::body::Json;
+use crate::http::extract::Connection;
+use crate::work::Caller;
 use api::{AboutScene, Subject};
 use axum::extract::{FromRequest, Request};
 use serde::de::DeserializeOwned;
@@ -14,10 +16,12 @@ impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for Wit
     type Rejection = Refusal;
 
     async fn from_request(request: Request, app: &App) -> Result<Self, Refusal> {
+        let connection = request.extensions().get::<Connection>().copied();
+        let caller = connection.map_or_else(Caller::default, Caller::from);
         let Json(mut body) = Json::<T>::from_request(request, app).await?;
         // Opening a scene costs more than a refusal may.
-        app.pool.expects(None)?;
-        let scene = body.take_scene().open(&app.catalog).await?;
+        app.pool.expects(&caller)?;
+        let scene = body.take_scene().open(&app.catalog.of(caller.party)).await?;
         Ok(Self(body, scene))
     }
 }

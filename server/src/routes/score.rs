@@ -28,6 +28,7 @@ pub async fn score(
     let scene = &about.scene;
     // Measured: 256 road users over 600 steps take half a second.
     let cost = Duration::from_nanos(3_200 * (scene.agents.len() * scene.time.steps) as u64);
+    let cost = cost + app.map_preparation(&scene.map).await?;
     let asked = JobRequest { kind: JobKind::Score, cost, caller: connection.into() };
     let work = move |_: &_| JsonText::of(&api::score::score(&about, &request, generator.maps())?);
     Ok(app.pool.run(asked, work).await?)

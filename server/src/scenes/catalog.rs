@@ -4,9 +4,11 @@
 use super::library::Library;
 use super::record::{self, size};
 use super::store::{Expect, PackedScene, SceneRecord, Store, Written};
+use super::weight;
 use crate::base::cache::Cache;
 use crate::base::id;
 use crate::base::limits::Limits;
+use crate::base::party::Party;
 use crate::work::Pool;
 use api::home::not_found;
 use api::{Code, Home, Opened, Problem};
@@ -34,6 +36,8 @@ pub struct Catalog {
     maps: Arc<Cache<ContentHash, Shared<LaneMap>>>,
     open: Arc<Cache<String, Opened>>,
     pool: Arc<Pool>,
+    /// Whose scenes it keeps in memory.
+    party: Party,
 }
 
 impl Catalog {
@@ -41,7 +45,12 @@ impl Catalog {
     pub fn new(store: Store, library: Library, pool: Arc<Pool>, limits: &Limits) -> Self {
         let maps = Arc::new(Cache::new(limits.cached_map_bytes as usize));
         let open = Arc::new(Cache::new(limits.cached_scene_bytes as usize));
-        Self { store, library, maps, open, pool }
+        Self { store, library, maps, open, pool, party: Party::default() }
+    }
+
+    /// The same for a caller: what is kept in memory for it counts as its own.
+    pub fn of(&self, party: Party) -> Self {
+        Self { party, ..self.clone() }
     }
 
     /// The map of a hash, wherever it is.
@@ -57,9 +66,27 @@ impl Catalog {
             None => self.library.map(&hash).await?,
         };
         if let Some(map) = &map {
-            self.maps.put(hash, map.clone(), map_bytes(map));
+            self.maps.put(hash, map.clone(), weight::of_map(map), self.party);
         }
         Ok(map)
+    }
+
+    /// A scene with all its members, as it is saved or in the library.
+    ///
+    /// # Errors
+    /// `not-found`, or when it cannot be read.
+    pub async fn whole(&self, id: &str) -> Result<Arc<Scene>, Problem> {
+        match self.library.open(id).await? {
+            Some(opened) => Ok(opened.scene),
+            None => Ok(Arc::new(self.saved(id).await?.0)),
+        }
+    }
+
+    /// A saved scene and its ETag.
+    async fn saved(&self, id: &str) -> Result<(Scene, String), Problem> {
+        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
+        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
+        Ok((self.read(doc).await?, summary.etag))
     }
 
     /// JSON of an open scene.
@@ -138,12 +165,12 @@ impl Home for Catalog {
             Some(hash) => self.map(hash).await?,
             None => None,
         };
-        let (bytes, maps) = (doc_bytes(&doc), Arc::clone(&self.maps));
+        let (bytes, maps, party) = (doc_bytes(&doc), Arc::clone(&self.maps), self.party);
         let read = move || {
             let inline = matches!(doc.map, MapField::Inline(_));
             let scene = doc.into_scene(|_| known)?;
             if inline {
-                maps.put(scene.map.hash(), scene.map.clone(), map_bytes(&scene.map));
+                maps.put(scene.map.hash(), scene.map.clone(), weight::of_map(&scene.map), party);
             }
             Ok(scene)
         };
@@ -166,17 +193,19 @@ impl Home for Catalog {
             }
             self.open.forget(&key);
         }
-        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
-        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
-        let opened = Opened::new(self.read(doc).await?, summary.etag);
-        self.open.put(key, opened.clone(), held_bytes(&opened.scene));
+        let (mut scene, etag) = self.saved(id).await?;
+        // No answer depends on these, however long they are.
+        scene.extra.clear();
+        let opened = Opened::new(scene, etag);
+        self.open.put(key, opened.clone(), weight::of_open(&opened.scene), self.party);
         Ok(opened)
     }
 
-    fn hold(&self, scene: Scene) -> (Option<String>, Opened) {
+    fn hold(&self, mut scene: Scene) -> (Option<String>, Opened) {
         let name = format!("{HELD}{}", id::fresh());
+        scene.extra.clear();
         let opened = Opened::new(scene, String::new());
-        self.open.put(name.clone(), opened.clone(), held_bytes(&opened.scene));
+        self.open.put(name.clone(), opened.clone(), weight::of_open(&opened.scene), self.party);
         (Some(name), opened)
     }
 }
@@ -193,11 +222,6 @@ pub fn bytes_of(scene: &Scene) -> usize {
     let modes = samples.flat_map(|s| s.agents.values()).flat_map(|f| &f.modes);
     let made: usize = modes.map(|future| future.states.len()).sum();
     (steps + made) * STEP_BYTES + map_bytes(&scene.map)
-}
-
-/// About how many bytes of memory an open scene takes, with what is worked out about it.
-pub fn held_bytes(scene: &Scene) -> usize {
-    4 * bytes_of(scene)
 }
 
 /// About how many bytes a map has as JSON.

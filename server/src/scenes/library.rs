@@ -3,12 +3,14 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
-use super::catalog::held_bytes;
+use super::folder::{Folder, FolderReader};
 use super::item::{Facts, SceneItem};
+use super::weight;
 use crate::base::cache::Cache;
 use crate::base::clock;
 use crate::base::id;
 use crate::base::netconvert::companions;
+use crate::base::party::Party;
 use crate::work::Pool;
 use api::import::SceneFile;
 use api::{Code, Opened, Problem};
@@ -16,7 +18,7 @@ use formats::native;
 use rust_embed::RustEmbed;
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::SystemTime;
@@ -29,14 +31,12 @@ struct DemoScenes;
 
 /// Most files taken from the data folder.
 const MOST_FILES: usize = 5_000;
-/// Largest file taken from it.
-const MOST_BYTES: u64 = 256 << 20;
 
 #[derive(Clone, Debug)]
 enum ScenePlace {
     /// Name of an embedded file.
     Demo(String),
-    /// File and the position of the scene in it.
+    /// Name of a file of the data folder, and the position of the scene in it.
     File(PathBuf, usize),
 }
 
@@ -50,6 +50,7 @@ struct LibraryState {
     entries: RwLock<BTreeMap<String, Entry>>,
     open: Cache<String, Opened>,
     pool: Arc<Pool>,
+    folder: Option<FolderReader>,
 }
 
 /// All read-only scenes. Cheap to clone.
@@ -61,16 +62,25 @@ impl Library {
     /// most.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the folder cannot be opened, or the system gives no thread.
     pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached_bytes: usize) -> io::Result<Self> {
-        let inside = LibraryState { entries: RwLock::default(), open: Cache::new(cached_bytes), pool };
-        let library = Self(Arc::new(inside));
+        let reader = folder.map(FolderReader::start).transpose()?;
+        let (entries, open) = (RwLock::default(), Cache::new(cached_bytes));
+        let library = Self(Arc::new(LibraryState { entries, open, pool, folder: reader }));
         library.add_demos();
-        if let Some(folder) = folder.map(Path::to_owned) {
+        if let Some(folder) = folder.map(Folder::open).transpose()? {
             let filled = library.clone();
             std::thread::Builder::new().name("library".into()).spawn(move || filled.add_folder(&folder))?;
         }
         Ok(library)
+    }
+
+    /// True if the data folder, where there is one, answers.
+    pub async fn answers(&self) -> bool {
+        match &self.0.folder {
+            Some(folder) => folder.answers().await,
+            None => true,
+        }
     }
 
     fn with<T>(&self, look: impl FnOnce(&BTreeMap<String, Entry>) -> T) -> T {
@@ -98,14 +108,18 @@ impl Library {
         }
         let Some(entry) = self.with(|entries| entries.get(id).cloned()) else { return Ok(None) };
         let bytes = usize::try_from(entry.item.bytes).unwrap_or(usize::MAX);
+        let file = match (&entry.place, &self.0.folder) {
+            (ScenePlace::File(name, _), Some(folder)) => Some(folder.read(name.clone()).await?),
+            _ => None,
+        };
         let open = move || {
-            let mut scene = read(&entry.place)?;
+            let mut scene = read(&entry, file)?;
             scene.id = Some(entry.item.id.clone());
             scene.name.clone_from(&entry.item.name);
             Ok(Opened::new(scene, entry.item.etag))
         };
         let opened = self.0.pool.document(bytes, open).await?;
-        self.0.open.put(key, opened.clone(), held_bytes(&opened.scene));
+        self.0.open.put(key, opened.clone(), weight::of_open(&opened.scene), Party::default());
         Ok(Some(opened))
     }
 
@@ -124,11 +138,10 @@ impl Library {
     }
 
     fn add(&self, id: String, scene: &Scene, place: ScenePlace, bytes: &[u8], modified: SystemTime) {
-        let hash = ContentHash::of_bytes(bytes).hex();
         let time = clock::text(modified);
         let item = SceneItem {
             name: if scene.name.is_empty() { id.clone() } else { scene.name.clone() },
-            etag: format!("\"ro-{}\"", hash.get(..16).unwrap_or_default()),
+            etag: etag_of(bytes),
             created_at: time.clone(),
             updated_at: time,
             facts: Facts::of(scene),
@@ -157,30 +170,20 @@ impl Library {
         }
     }
 
-    fn add_folder(&self, folder: &Path) {
-        let listed = match std::fs::read_dir(folder) {
-            Ok(listed) => listed,
+    fn add_folder(&self, folder: &Folder) {
+        let mut files = match folder.names() {
+            Ok(names) => names,
             Err(error) => {
-                tracing::error!(folder = %folder.display(), %error, "data folder cannot be read");
+                tracing::error!(%error, "data folder cannot be read");
                 return;
             }
         };
-        let Ok(own) = folder.canonicalize() else { return };
-        let inside = |path: &PathBuf| {
-            let real = path.canonicalize().is_ok_and(|real| real.starts_with(&own) && real.is_file());
-            if !real {
-                tracing::debug!(file = %path.display(), "no file of the data folder");
-            }
-            real
-        };
-        let mut files: Vec<PathBuf> = listed.flatten().map(|f| f.path()).filter(inside).collect();
-        files.sort();
         files.truncate(MOST_FILES);
         for path in files {
-            match read_file(&path) {
-                Ok((bytes, scenes)) => {
-                    let modified =
-                        path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+            let bytes = folder.read(&path).map_err(|error| error.to_string());
+            match bytes.and_then(|bytes| Ok((scenes_of(&path, &bytes)?, bytes))) {
+                Ok((scenes, bytes)) => {
+                    let modified = folder.modified(&path).unwrap_or(SystemTime::UNIX_EPOCH);
                     for (index, scene) in scenes.iter().enumerate() {
                         // Existing scenes stay: a file replaces neither a demo nor another file's scene.
                         let ids = [file_id(&path, scene, index), name_id(&path, index)];
@@ -197,8 +200,14 @@ impl Library {
     }
 }
 
-fn read(place: &ScenePlace) -> Result<Scene, Problem> {
-    match place {
+fn etag_of(bytes: &[u8]) -> String {
+    let hash = ContentHash::of_bytes(bytes).hex();
+    format!("\"ro-{}\"", hash.get(..16).unwrap_or_default())
+}
+
+/// The scene of an entry; of a file of the data folder from what its name leads to now.
+fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Problem> {
+    match &entry.place {
         ScenePlace::Demo(name) => {
             let file = DemoScenes::get(name).ok_or_else(|| Problem::internal("demo scene is gone"))?;
             Ok(native::read(&file.data)?)
@@ -211,27 +220,26 @@ fn read(place: &ScenePlace) -> Result<Scene, Problem> {
                     "The file of this scene is gone from the data folder, or has changed.",
                 )
             };
-            let (_, mut scenes) = read_file(path).map_err(changed)?;
+            let file = file.ok_or_else(|| Problem::internal("no data folder"))?;
+            let bytes = file.map_err(|error| changed(error.to_string()))?;
+            if etag_of(&bytes) != entry.item.etag {
+                return Err(changed("another content".into()));
+            }
+            let mut scenes = scenes_of(path, &bytes).map_err(changed)?;
             if *index >= scenes.len() {
-                return Err(changed("it holds fewer scenes than before".into()));
+                return Err(changed("fewer scenes than before".into()));
             }
             Ok(scenes.swap_remove(*index))
         }
     }
 }
 
-fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(format!("larger than {MOST_BYTES} bytes"));
-    }
+fn scenes_of(path: &Path, bytes: &[u8]) -> Result<Vec<Scene>, String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let file = SceneFile::of(&bytes, None, &name, &companions(), (0, MOST_FILES));
     let read = file.and_then(|file| file.read(&bytes));
     let read = read.map_err(|problem| problem.detail)?;
-    Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
+    Ok(read.scenes.into_iter().map(|s| s.scene).collect())
 }
 
 /// `womd-<scenario id>` where the source has an id, else a name made from the file's.

@@ -1,11 +1,13 @@
 //! Scenes and maps: saved by the user, shipped as demos, in the data folder, in files.
 
 mod catalog;
+mod folder;
 mod item;
 mod library;
 mod preview;
 pub mod record;
 pub mod store;
+mod weight;
 
 pub use catalog::{Catalog, bytes_of, map_bytes};
 pub use item::{Counts, Facts, SceneItem, tags_of};

@@ -1,7 +1,7 @@
 //! Calls with one answer: a closure in, its result out.
 
 use super::job::{Caller, Ending, JobRequest, Stop};
-use super::kind::JobKind;
+use super::kind::{JobKind, PoolLane};
 use super::sync::Mutex;
 use super::{Pool, lock};
 use crate::base::metrics;
@@ -13,6 +13,9 @@ use tokio::sync::oneshot;
 
 /// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
 const SMALL_BYTES: usize = 32 << 10;
+
+/// Time in which the threads of a lane must take a small call.
+const ANSWER: Duration = Duration::from_secs(2);
 
 /// Sender of a call's one reply.
 struct ReplySlot<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
@@ -71,6 +74,14 @@ impl Pool {
         receiver.await.unwrap_or_else(|_| Err(Problem::internal("a call ended without its answer")))
     }
 
+    /// True if the threads of a lane take a small call soon.
+    pub async fn answers(self: &Arc<Self>, lane: PoolLane) -> bool {
+        let kind = if lane == PoolLane::Document { JobKind::Document } else { JobKind::Score };
+        let asked = JobRequest { kind, cost: Duration::ZERO, caller: Caller::default() };
+        let call = tokio::time::timeout(ANSWER, self.run(asked, |_| Ok(())));
+        matches!(call.await, Ok(Ok(())))
+    }
+
     /// Work on a document of about so many bytes: at once when that is little, else like all other work.
     ///
     /// # Errors
@@ -95,6 +106,7 @@ impl Pool {
 mod tests {
     use super::super::{Caller, JobKind, JobRequest, Pool};
     use crate::base::limits::Limits;
+    use crate::base::party::Party;
     use api::{Code, Problem};
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::{Arc, Mutex};
@@ -264,6 +276,52 @@ mod tests {
         }
         assert_eq!(*done.lock().unwrap(), ["small", "long", "as long", "own"]);
         drop(hold);
+        pool.stop();
+    }
+
+    #[tokio::test]
+    async fn a_full_queue_refuses_the_newest_of_the_greediest() {
+        let pool = pool(Limits { running: 1, queue: 4, ..Limits::default() });
+        let release = Arc::new(AtomicBool::new(false));
+        let call = |last: u8, connection: u64, line: Option<u64>| {
+            let party = Party::of(std::net::IpAddr::from([10, 0, 0, last]));
+            let caller = Caller { connection: Some(connection), party, line, ..Caller::default() };
+            let asked = JobRequest { kind: JobKind::Place, cost: Duration::from_millis(1), caller };
+            let (pool, release) = (Arc::clone(&pool), Arc::clone(&release));
+            let work = move |_: &experts::Cancel| {
+                while !release.load(Ordering::Relaxed) {
+                    std::thread::sleep(Duration::from_millis(2));
+                }
+                Ok(())
+            };
+            tokio::spawn(async move { pool.run(asked, work).await.map_err(|problem| problem.code) })
+        };
+        let pause = || tokio::time::sleep(Duration::from_millis(30));
+        let mut greedy = Vec::new();
+        for connection in 1..=6 {
+            greedy.push(call(1, connection, None));
+            pause().await;
+        }
+        // One at work, four wait, the last is refused.
+        assert_eq!(greedy.pop().unwrap().await.unwrap(), Err(Code::Busy));
+        let other = call(2, 7, None);
+        pause().await;
+        assert_eq!(greedy.pop().unwrap().await.unwrap(), Err(Code::Busy), "its newest gives way");
+        let line = call(1, 8, Some(8));
+        pause().await;
+        assert_eq!(greedy.pop().unwrap().await.unwrap(), Err(Code::Busy), "plain requests count together");
+        // Two parties with two each and none greedier than a third one would be: it still finds a place.
+        let third = call(3, 9, None);
+        pause().await;
+        release.store(true, Ordering::Relaxed);
+        for kept in [other, line, third] {
+            assert_eq!(kept.await.unwrap(), Ok(()));
+        }
+        let mut ends = Vec::new();
+        for call in greedy {
+            ends.push(call.await.unwrap());
+        }
+        assert_eq!(ends, [Ok(()), Ok(()), Err(Code::Busy)]);
         pool.stop();
     }
 }

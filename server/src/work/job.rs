@@ -4,6 +4,7 @@ use super::kind::{JobKind, PoolLane};
 use super::lock;
 use super::sync::Mutex;
 use crate::base::metrics;
+use crate::base::party::Party;
 use api::{Code, Problem};
 use experts::Cancel;
 use std::sync::Arc;
@@ -21,19 +22,38 @@ pub struct Caller {
     pub client: Option<(String, u64)>,
     /// The connection it came by.
     pub connection: Option<u64>,
+    /// Whose it is.
+    pub party: Party,
+    /// The WebSocket it came by, which has a share of its own among those of its party.
+    pub line: Option<u64>,
     /// No caller waits for the answer.
     pub background: bool,
 }
 
 impl Caller {
-    /// The name under which callers take turns: the client where one is named, else the connection.
-    pub(super) fn name(&self) -> String {
-        match (&self.client, self.connection) {
-            (Some((client, _)), _) => client.clone(),
-            (None, Some(number)) => format!("#{number}"),
-            (None, None) => String::new(),
-        }
+    /// The names under which callers take turns, from the whole to its parts: the party; the client or the WebSocket,
+    /// or all plain requests of the party together; the connection.
+    pub(super) fn names(&self) -> CallerNames {
+        let party = match self.party {
+            Party::Own => String::new(),
+            Party::Peer(address) => address.to_string(),
+        };
+        let share = match (&self.client, self.line) {
+            (Some((client, _)), _) => format!("{party} {client}"),
+            (None, Some(number)) => format!("{party} #{number}"),
+            (None, None) => format!("{party} "),
+        };
+        let own = self.connection.map_or_else(|| share.clone(), |number| format!("{share} #{number}"));
+        CallerNames { party, share, own }
     }
+}
+
+/// Names of a caller, each a part of the one before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct CallerNames {
+    pub party: String,
+    pub share: String,
+    pub own: String,
 }
 
 /// A request for a job.
@@ -117,7 +137,7 @@ pub struct Job {
     pub(super) kind: JobKind,
     pub(super) lane: PoolLane,
     pub(super) cost: Duration,
-    pub(super) caller: String,
+    pub(super) caller: CallerNames,
     pub(super) ticket: Arc<Ticket>,
     ending: Arc<dyn Ending>,
     work: Mutex<Option<Work>>,
@@ -132,7 +152,7 @@ impl Job {
         kind: JobKind,
         lane: PoolLane,
         cost: Duration,
-        caller: String,
+        caller: CallerNames,
         ticket: Arc<Ticket>,
         ending: Arc<dyn Ending>,
         work: Work,

@@ -29,7 +29,7 @@ use crate::base::id;
 use crate::base::limits::Limits;
 use crate::base::metrics;
 use api::{Code, Problem};
-use job::Job;
+use job::{CallerNames, Job};
 use state::PoolState;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -37,6 +37,9 @@ use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 use sync::atomic::{AtomicBool, Ordering};
 use sync::{Condvar, Mutex, MutexGuard, thread};
+
+/// Soonest time after which a refused call is to be repeated, seconds.
+const SOONEST_S: f64 = 0.05;
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -107,7 +110,7 @@ impl Pool {
         asked: JobRequest,
         make: impl FnOnce(&Arc<Ticket>) -> (Arc<E>, Work),
     ) -> Result<(Arc<E>, Handle), Problem> {
-        let (lane, caller_name) = (asked.lane(), asked.caller.name());
+        let (lane, names) = (asked.lane(), asked.caller.names());
         let JobRequest { kind, cost, caller } = asked;
         let mut state = lock(&self.state);
         // Documents of calls that are under way are still read and written while the server closes.
@@ -126,7 +129,13 @@ impl Pool {
                 Problem::new(Code::StaleRevision, detail).with(|m| m.highest_revision = Some(highest))
             })?;
         }
-        self.check_room(&mut state, lane, caller.client.as_ref().map(|client| client.0.as_str()))?;
+        let client = caller.client.as_ref().map(|client| client.0.as_str());
+        let gives_way = self.check_room(&mut state, lane, client, &names)?;
+        if let Some(job) = gives_way {
+            let busy = self.busy(&mut state, lane);
+            job.fail(busy);
+            state.forget_queued(&job);
+        }
         if let Some((client, revision)) = &caller.client {
             state.clients.advance(client, *revision, now);
             state.supersede(client, *revision);
@@ -135,7 +144,7 @@ impl Pool {
         let ticket = Arc::new(Ticket::new(id, caller.client, before));
         let (ending, work) = make(&ticket);
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
-        let job = Arc::new(Job::new(kind, lane, cost, caller_name, ticket, end, work));
+        let job = Arc::new(Job::new(kind, lane, cost, names, ticket, end, work));
         state.arrived(&job);
         // A worker reads documents too, while all readers are at it or have been called for others already.
         let reads = lane == PoolLane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
@@ -145,15 +154,31 @@ impl Pool {
         Ok((ending, Handle { job, pool: Arc::clone(self) }))
     }
 
-    fn check_room(&self, state: &mut PoolState, lane: PoolLane, client: Option<&str>) -> Result<(), Problem> {
-        let waiting = state.waiting_beside(lane, client);
-        if (waiting as u64) < self.limits.queue {
-            return Ok(());
+    /// A place in the queue of a lane. In a full one the newest call of the greediest caller gives it up, and is
+    /// returned; the greediest one itself is refused.
+    ///
+    /// # Errors
+    /// `busy`.
+    fn check_room(
+        &self,
+        state: &mut PoolState,
+        lane: PoolLane,
+        client: Option<&str>,
+        names: &CallerNames,
+    ) -> Result<Option<Arc<Job>>, Problem> {
+        if (state.waiting_beside(lane, client) as u64) < self.limits.queue {
+            return Ok(None);
         }
+        state.gives_way(lane, names).map(Some).ok_or_else(|| self.busy(state, lane))
+    }
+
+    /// Refusal of a call for which there is no room in a lane.
+    fn busy(&self, state: &mut PoolState, lane: PoolLane) -> Problem {
+        let waiting = state.lane(lane).queue.len();
         let threads = if lane == PoolLane::Document { self.limits.readers() } else { self.limits.workers() };
-        let wait_s = state.lane(lane).wait_s(threads).ceil().clamp(1.0, 60.0);
+        let wait_s = state.lane(lane).wait_s(threads).clamp(SOONEST_S, 60.0);
         let detail = format!("{waiting} calls are waiting already.");
-        Err(Problem::new(Code::Busy, detail).retry_after(wait_s as u64))
+        Problem::new(Code::Busy, detail).retry_after_ms((1e3 * wait_s).ceil() as u64)
     }
 
     /// Refuses a call before anything is done for it where it would be refused afterwards: what a small call of
@@ -161,8 +186,9 @@ impl Pool {
     ///
     /// # Errors
     /// `busy`.
-    pub fn expects(&self, client: Option<&str>) -> Result<(), Problem> {
-        self.check_room(&mut lock(&self.state), PoolLane::Quick, client)
+    pub fn expects(&self, caller: &Caller) -> Result<(), Problem> {
+        let client = caller.client.as_ref().map(|client| client.0.as_str());
+        self.check_room(&mut lock(&self.state), PoolLane::Quick, client, &caller.names()).map(drop)
     }
 
     /// Cancels a job by its id; unknown ids are nothing to do.
@@ -241,7 +267,7 @@ impl Pool {
     pub fn let_smaller_go(&self, ticket: &Ticket) {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
         let began = Instant::now();
-        let goes = |job: &Job| job.caller != own.caller && 4 * job.cost <= own.cost;
+        let goes = |job: &Job| job.caller.own != own.caller.own && 4 * job.cost <= own.cost;
         while own.lane == PoolLane::Patient && !self.stopped.load(Ordering::Relaxed) {
             let Some(job) = lock(&self.state).next(PoolLane::Patient, goes) else { break };
             self.perform(&job);

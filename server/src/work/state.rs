@@ -2,11 +2,11 @@
 
 use super::clients::Clients;
 use super::fair_queue::FairQueue;
-use super::job::{Job, Stop};
+use super::job::{CallerNames, Job, Stop};
 use super::kind::PoolLane;
 use crate::base::limits::Limits;
 use crate::base::metrics;
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -34,6 +34,13 @@ impl LaneQueue {
         let pace = took.as_secs_f64() / job.cost.as_secs_f64().max(1e-3);
         self.pace = Some(self.pace.map_or(pace, |mean| 0.8 * mean + 0.2 * pace));
     }
+}
+
+/// The name that is there most often, and how often.
+fn most<'a>(names: impl Iterator<Item = &'a String>) -> Option<(&'a String, usize)> {
+    let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
+    names.for_each(|name| *counts.entry(name).or_default() += 1);
+    counts.into_iter().max_by_key(|(_, count)| *count)
 }
 
 /// All lanes and jobs.
@@ -82,6 +89,23 @@ impl PoolState {
         queue.len() - queue.iter().filter(own).count()
     }
 
+    /// In a full queue: the newest job of the party that has most of them there, and in that party of the caller that
+    /// has most. `None` where that is the new caller itself, whose job would be the newest.
+    pub fn gives_way(&mut self, lane: PoolLane, new: &CallerNames) -> Option<Arc<Job>> {
+        let queue = &self.lane(lane).queue;
+        let (greediest, count) = most(queue.iter().map(|job| &job.caller.party))?;
+        let own = queue.iter().filter(|job| job.caller.party == new.party).count();
+        // The new job would make its party the greediest: then its shares decide.
+        let party = if count > own + 1 { greediest } else { &new.party };
+        let of_party = || queue.iter().filter(|job| job.caller.party == *party);
+        let (share, count) = most(of_party().map(|job| &job.caller.share))?;
+        let own = of_party().filter(|job| job.caller.share == new.share).count();
+        if *party == new.party && count <= own + 1 {
+            return None;
+        }
+        of_party().filter(|job| job.caller.share == *share).next_back().cloned()
+    }
+
     /// A job waits from now on.
     pub fn arrived(&mut self, job: &Arc<Job>) {
         self.lane(job.lane).queue.push_back(Arc::clone(job));
@@ -93,9 +117,17 @@ impl PoolState {
     pub fn next(&mut self, lane: PoolLane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
-        let (at, _) = fitting.min_by_key(|(_, job)| self.fair_queue.last_turn(&job.caller))?;
+        let turns = |job: &Job| {
+            let CallerNames { party, share, own } = &job.caller;
+            [party, share, own].map(|name| self.fair_queue.last_turn(name))
+        };
+        let (at, _) = fitting.min_by_key(|(_, job)| turns(job))?;
         let job = self.lane(lane).queue.remove(at)?;
-        self.fair_queue.serve(&job.caller);
+        let CallerNames { party, share, own } = &job.caller;
+        // A caller may be all of its share, and that all of its party.
+        let mut names = vec![party, share, own];
+        names.dedup();
+        names.into_iter().for_each(|name| self.fair_queue.serve(name));
         self.lane(lane).running += 1;
         self.show();
         Some(job)

@@ -43,7 +43,7 @@ impl Placer {
     /// # Errors
     /// An unknown id among those kept, and [`GenerateError::Cancelled`].
     pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
-        let map = self.maps.known(&request.scene.map);
+        let map = self.maps.known_unless(&request.scene.map, cancel).ok_or(GenerateError::Cancelled)?;
         place(self.model(), &map.graph, request, cancel)
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let drawn = MapElements::of(scene, steps, &mut ids, &mut losses);
     let problem = PlanningTask::of(scene, &shown);
     let name = benchmark_id(scene);
-    let mut out = Markup::new();
+    let mut out = Markup::new(options.most());
     let licence = scene.licence().map(|licence| format!("{LICENCE}{licence}")).unwrap_or_default();
     out.open(
         super::document::ROOT,
@@ -73,7 +73,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         losses.insert(Loss::new(code::NO_NOTES, detail));
     }
     losses.extend(unwritten::futures(scene, options.motion));
-    Ok(Exported { bytes: out.finish(), losses: losses.into_iter().collect() })
+    Ok(Exported { bytes: out.finish()?, losses: losses.into_iter().collect() })
 }
 
 /// The day on which futures were made, where that is known.

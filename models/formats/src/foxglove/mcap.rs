@@ -118,6 +118,11 @@ impl McapWriter {
         }
     }
 
+    /// Bytes of the file so far.
+    pub fn size(&self) -> u64 {
+        self.bytes.len() as u64
+    }
+
     /// A schema in JSON Schema.
     pub fn schema(&mut self, name: &str, data: &str) -> u16 {
         self.schemas += 1;

@@ -9,6 +9,7 @@ use crate::format::{
 };
 use crate::loss::{Loss, code};
 use crate::source::Source;
+use crate::written::too_long;
 use mcap::McapWriter;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
 use serde_json::{Value, json};
@@ -51,7 +52,7 @@ impl Format for Mcap {
         let [scene] = scenes else {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "an MCAP file holds one scene"));
         };
-        Ok(Exported { bytes: log(scene, options.motion)?, losses: lost(scene, options.motion) })
+        Ok(Exported { bytes: log(scene, options)?, losses: lost(scene, options.motion) })
     }
 }
 
@@ -63,7 +64,7 @@ fn time(step: usize) -> Value {
     json!({"sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000})
 }
 
-fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
+fn log(scene: &Scene, options: &ExportOptions) -> io::Result<Vec<u8>> {
     let mut file = McapWriter::new(concat!("dragtraffic ", env!("CARGO_PKG_VERSION")));
     let update = file.schema("foxglove.SceneUpdate", SCENE_UPDATE);
     let transform = file.schema("foxglove.FrameTransform", FRAME_TRANSFORM);
@@ -76,7 +77,7 @@ fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
     };
     put(&mut file, frames, 0, &scene_update::transform(scene))?;
     put(&mut file, map, 0, &scene_update::map(&scene.map))?;
-    let (shown, steps) = motion.all(scene);
+    let (shown, steps) = options.motion.all(scene);
     let tracks: Vec<(&Agent, Shown<'_>)> = scene.agents.iter().zip(shown).collect();
     for step in 0..steps {
         let changes = scene.signals.iter().any(|signal| signal.runs.iter().any(|(first, _)| *first == step));
@@ -84,6 +85,9 @@ fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
             put(&mut file, signals, step, &scene_update::signals(scene, step))?;
         }
         put(&mut file, users, step, &scene_update::users(&tracks, step))?;
+        if file.size() > options.most() {
+            return Err(too_long(file.size(), options.most()));
+        }
     }
     file.metadata("dragtraffic", &about(scene));
     file.finish()

@@ -9,6 +9,7 @@ use crate::format::{
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
 use crate::source::Source;
+use crate::written::BoundedFile;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use scene::geometry::cross;
@@ -53,15 +54,15 @@ impl Format for GeoJson {
         let [scene] = scenes else {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "a GeoJSON file holds one scene"));
         };
-        let mut bytes = Vec::new();
+        let mut file = BoundedFile::new(options.most());
         if options.gzip {
-            let mut encoder = GzEncoder::new(&mut bytes, Compression::default());
+            let mut encoder = GzEncoder::new(&mut file, Compression::default());
             write(scene, options, &mut encoder)?;
             encoder.finish()?;
         } else {
-            write(scene, options, &mut bytes)?;
+            write(scene, options, &mut file)?;
         }
-        Ok(Exported { bytes, losses: lost(scene, options.motion) })
+        Ok(Exported { bytes: file.bytes, losses: lost(scene, options.motion) })
     }
 }
 

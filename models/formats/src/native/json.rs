@@ -5,7 +5,8 @@ use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use crate::source::Source;
 use crate::unpack;
 use scene::objects::Objects;
-use serde::de::DeserializeOwned;
+use serde::Deserialize;
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Deserializer;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
@@ -105,17 +106,22 @@ fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
         Ok(value) => Ok(value),
         // The plain parser is twice as fast; the one that tracks places runs only for a fault.
         Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
-        Err(error) => Err(locate::<R, T>(open()?, &error)),
+        // A word that is none of a kind, such as null, is a fault of the text to the plain parser.
+        Err(error) if error.classify() == Category::Data || is_json(open()?) => {
+            Err(locate::<R, T>(open()?, &error))
+        }
+        Err(error) => Err(ReadError::malformed_json(&error, reason(&error))),
     }
+}
+
+fn is_json<'de, R: serde_json::de::Read<'de>>(mut parser: Deserializer<R>) -> bool {
+    IgnoredAny::deserialize(&mut parser).is_ok() && parser.end().is_ok()
 }
 
 fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     mut parser: Deserializer<R>,
     error: &serde_json::Error,
 ) -> ReadError {
-    if error.classify() != Category::Data {
-        return ReadError::malformed_json(error, reason(error));
-    }
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
         Ok(_) => (String::new(), plain_words(error)),
@@ -140,6 +146,7 @@ fn plain_words(error: &serde_json::Error) -> String {
         ("expected u64", "expected a whole number from 0"),
         ("expected u32", "expected a whole number from 0"),
         ("floating point", "number"),
+        ("expected value", "expected a word"),
     ];
     let text = words.iter().fold(text, |text, (from, to)| text.replace(from, to));
     let text = match text.find("expected struct ") {
@@ -206,6 +213,32 @@ mod tests {
         // Lists stay lists.
         let read: Goal = from_json(br#"{"x_m":1,"pair":[2,3],"list":[]}"#).unwrap();
         assert_eq!(read.pair, Some((2.0, 3.0)));
+    }
+
+    #[test]
+    fn a_value_that_is_no_word_has_a_place_and_is_json() {
+        #[derive(Debug, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        enum Kind {
+            Car,
+        }
+        #[derive(Debug, Deserialize)]
+        struct Agent {
+            #[serde(rename = "subtype")]
+            _kind: Kind,
+        }
+        for value in ["null", "7", "[]", "true"] {
+            let text = format!("[{{\"subtype\":{value}}}]");
+            let refused = from_json::<Vec<Agent>>(text.as_bytes()).unwrap_err();
+            let fault = refused.problems.first().unwrap();
+            assert_eq!(
+                (fault.pointer.as_str(), fault.code.as_ref()),
+                ("/0/subtype", "invalid-field"),
+                "{value}"
+            );
+        }
+        let broken = from_json::<Vec<Agent>>(b"[{\"subtype\":nul}]").unwrap_err();
+        assert_eq!(broken.code(), "malformed-json");
     }
 
     #[test]

@@ -8,8 +8,9 @@ use crate::markup::{Markup, decimal};
 use crate::polyline::{arc_lengths, distance_to, length};
 use crate::sentences;
 use scene::geometry::polyline::Polyline;
+use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::map::{LaneMap, LaneType};
-use scene::{Scene, Vec2};
+use scene::{MAX_COORDINATE_M, Scene, Vec2};
 use std::collections::{BTreeMap, HashMap};
 use std::io;
 
@@ -32,14 +33,14 @@ pub(crate) fn light_id(signal: usize) -> String {
 ///
 /// # Errors
 /// `InvalidInput` for a scene without a lane, since a map has one road at least.
-pub(crate) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
+pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let drawn = roads(&scene.map);
     if drawn.roads.iter().all(|road| length(&road.points) < SHORTEST_M) {
         let detail = "an OpenDRIVE map has one road or more; this scene has no lane";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     }
     let beside = Roadside::of(scene, &drawn);
-    let mut out = Markup::new();
+    let mut out = Markup::new(options.most());
     out.open("OpenDRIVE", &[]);
     header(scene, &mut out);
     let mut off_m = 0.0_f64;
@@ -50,7 +51,7 @@ pub(crate) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
         write_junction(*number, connecting, &drawn, &mut out);
     }
     out.close();
-    Ok(Exported { bytes: out.finish(), losses: losses(scene, &drawn, off_m) })
+    Ok(Exported { bytes: out.finish()?, losses: losses(scene, &drawn, off_m) })
 }
 
 fn header(scene: &Scene, out: &mut Markup) {
@@ -118,11 +119,12 @@ impl Roadside {
                 beside.stop_signs.entry(*lane).or_default().push((i, sign.position));
             }
         }
+        let lines = drawn.roads.iter().take(scene.map.lanes.len()).zip(0..);
+        let lines = SegmentIndex::new(lines.flat_map(|(road, i)| pieces(&road.points, i)).collect());
         for (i, area) in scene.map.crosswalks.iter().enumerate() {
-            let middle = middle(&area.polygon.xy);
-            let away = |road: &usize| distance_to(&drawn.roads[*road].points, middle);
-            let nearest = (0..scene.map.lanes.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-            beside.crosswalks.entry(nearest.unwrap_or_default()).or_default().push(i);
+            let nearest = lines.nearest(middle(&area.polygon.xy), 4.0 * MAX_COORDINATE_M);
+            let road = nearest.map_or(0, |(piece, ..)| piece.owner as usize);
+            beside.crosswalks.entry(road).or_default().push(i);
         }
         beside
     }

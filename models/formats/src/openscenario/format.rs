@@ -21,7 +21,7 @@ fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
         false => Some(opendrive::export::write(scene, options)?),
     };
     let road_file = map.as_ref().map(|_| format!("{name}.xodr"));
-    let scenario = scenario::write(scene, options, road_file.as_deref(), &mut losses);
+    let scenario = scenario::write(scene, options, road_file.as_deref(), &mut losses)?;
     let mut files = vec![(format!("{name}.xosc"), scenario)];
     if let (Some(map), Some(file)) = (map, road_file) {
         files.push((file, map.bytes));

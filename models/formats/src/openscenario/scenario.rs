@@ -8,6 +8,7 @@ use crate::unwritten;
 use scene::geometry::direction;
 use scene::{Agent, AgentType, STEP_S, Scene, Shown, Size, State, Subtype};
 use std::collections::{BTreeSet, HashSet};
+use std::io;
 
 /// Distance of the rear axle behind the middle of a vehicle and of the front axle ahead of it, as shares of
 /// the length. Scenarios give positions of the rear axle.
@@ -53,11 +54,11 @@ pub(super) fn write(
     options: &ExportOptions,
     road_file: Option<&str>,
     losses: &mut BTreeSet<Loss>,
-) -> Vec<u8> {
+) -> io::Result<Vec<u8>> {
     let written = road_users(scene, options, losses);
     let end =
         written.iter().map(ScenarioEntity::last_step).fold(scene.time.steps.saturating_sub(1), usize::max);
-    let mut out = Markup::new();
+    let mut out = Markup::new(options.most());
     out.open("OpenSCENARIO", &[]);
     header(scene, &mut out);
     out.empty("CatalogLocations", &[]);

@@ -57,7 +57,7 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     if ways.is_empty() {
         return Err(cannot("no roads: nothing in it is tagged `highway`".into()));
     }
-    let mut out = Markup::new();
+    let mut out = Markup::new(u64::MAX);
     out.open("osm", &[("version", "0.6")]);
     let mut places = Vec::new();
     let mut members = 0;
@@ -93,7 +93,8 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
         let detail = format!("roads over {:.0} km; cut out some kilometres", reach_deg * 111.0);
         return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
     };
-    Ok(Extract { xml: out.finish(), projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
+    let xml = out.finish().map_err(|error| crate::unpack::fault(&error, 0))?;
+    Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
 }
 
 /// Writes an item as OpenStreetMap does.

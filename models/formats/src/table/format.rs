@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes
 use crate::source::Source;
 use crate::table::notes::{KEY, Notes};
 use crate::unpack;
+use crate::written::BoundedFile;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use scene::Scene;
@@ -69,18 +70,18 @@ impl Format for Csv {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        let mut bytes = Vec::new();
+        let mut file = BoundedFile::new(options.most());
         let named = write::named(scenes, options);
         if options.gzip {
-            let mut encoder = GzEncoder::new(&mut bytes, Compression::default());
+            let mut encoder = GzEncoder::new(&mut file, Compression::default());
             write::csv(&named, options, &mut encoder)?;
             encoder.finish()?;
         } else {
-            write::csv(&named, options, &mut bytes)?;
+            write::csv(&named, options, &mut file)?;
         }
         let losses: BTreeSet<_> =
             scenes.iter().flat_map(|scene| write::lost(scene, options.motion, false)).collect();
-        Ok(Exported { bytes, losses: losses.into_iter().collect() })
+        Ok(Exported { bytes: file.bytes, losses: losses.into_iter().collect() })
     }
 }
 

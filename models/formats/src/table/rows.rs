@@ -5,6 +5,7 @@ use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Read};
 
@@ -163,9 +164,22 @@ impl<'a> CsvRows<'a> {
     fn value(&self, column: usize) -> ColumnValue<'_> {
         match self.record.get(column).map(str::trim) {
             None | Some("") => ColumnValue::Nothing,
-            Some(text) => ColumnValue::Text(text),
+            Some(text) => ColumnValue::Text(unmarked(text)),
         }
     }
+}
+
+/// Beginnings of a text that spreadsheets take for a formula, and of one with a mark.
+const MARKED: [char; 7] = ['=', '+', '-', '@', '\t', '\r', '\''];
+
+/// A text with a mark before it where spreadsheets would run it as a formula.
+pub(super) fn marked(text: &str) -> Cow<'_, str> {
+    if text.starts_with(MARKED) { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) }
+}
+
+/// A text without that mark.
+fn unmarked(text: &str) -> &str {
+    text.strip_prefix('\'').filter(|rest| rest.starts_with(MARKED)).unwrap_or(text)
 }
 
 /// Separator of values: the most frequent candidate in the first line.

@@ -1,5 +1,6 @@
 //! Rows of scenes, as CSV and as columns.
 
+use super::rows::marked;
 use super::{COLUMNS, GENERATED, LOG};
 use crate::columnar::{Column, ColumnValues};
 use crate::format::{ExportOptions, ExportedMotion};
@@ -141,8 +142,8 @@ pub(super) fn csv(scenes: &[(&Scene, String)], options: &ExportOptions, out: imp
                 Some((sample, mode, p)) => (sample.to_string(), mode.to_string(), decimal(p)),
             };
             let record = [
-                row.scenario,
-                row.agent,
+                &*marked(row.scenario),
+                &*marked(row.agent),
                 row.agent_type,
                 row.subtype,
                 &sample,

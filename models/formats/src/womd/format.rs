@@ -5,6 +5,7 @@ use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes
 use crate::limits::memory_for;
 use crate::loss;
 use crate::source::Source;
+use crate::written::BoundedFile;
 use crate::{identities, unpack};
 use scene::Scene;
 use std::io;
@@ -80,8 +81,8 @@ impl Format for Womd {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        let mut bytes = Vec::new();
-        let losses = super::write(scenes, &mut bytes, options.gzip, options.motion)?;
-        Ok(Exported { bytes, losses })
+        let mut file = BoundedFile::new(options.most());
+        let losses = super::write(scenes, &mut file, options.gzip, options.motion)?;
+        Ok(Exported { bytes: file.bytes, losses })
     }
 }

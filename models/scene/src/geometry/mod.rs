@@ -1,5 +1,6 @@
 //! Plane geometry of traffic: angles, oriented boxes, polylines.
 
+pub mod crowding;
 pub mod obb;
 pub mod overlap_energy;
 pub mod polyline;

@@ -306,7 +306,7 @@ fn column_of(key: u64) -> i32 {
 }
 
 /// Calls `found` with the cells around a piece, stretch by stretch.
-fn cells_along(segment: &Segment, mut found: impl FnMut(u64)) {
+pub(super) fn cells_along(segment: &Segment, mut found: impl FnMut(u64)) {
     let (a, b) = (segment.from, segment.to);
     let stretches = ((b - a).norm() / CELL_M).ceil().clamp(1.0, MOST_STRETCHES);
     let mut from = a;

@@ -158,6 +158,11 @@ impl LaneGraph {
     /// within 0.6 m and 30 degrees of another's start, sides as recorded or, where the map has none at
     /// all, from the geometry.
     pub fn new(map: &LaneMap) -> Self {
+        Self::unless(map, &|| false).unwrap_or_default()
+    }
+
+    /// As [`Self::new`]; `None` once the work is cancelled.
+    pub fn unless(map: &LaneMap, is_cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let by_id: HashMap<&str, usize> =
             map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
         let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
@@ -173,10 +178,13 @@ impl LaneGraph {
         let by_id = by_id.into_iter().map(|(id, i)| (id.to_owned(), i)).collect();
         let numbered = (0..).zip(&lanes);
         let index = SegmentIndex::new(numbered.flat_map(|(i, lane)| pieces(lane.path.points(), i)).collect());
+        if is_cancelled() {
+            return None;
+        }
         let ground = Arc::new(Drivable::new(map));
         let mut graph = Self { lanes, by_id, index, ground };
-        links::sides(map, &mut graph);
-        graph
+        links::sides(map, &mut graph, is_cancelled);
+        (!is_cancelled()).then_some(graph)
     }
 
     /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.
@@ -205,8 +213,20 @@ impl LaneGraph {
         radius_m: f64,
         keep: impl Fn(usize, &GraphLane) -> bool,
     ) -> Vec<LaneHit> {
+        self.nearest_counted(point, radius_m, keep).0
+    }
+
+    /// As [`Self::nearest_lanes`], with the number of pieces of lanes that were looked at.
+    pub(super) fn nearest_counted(
+        &self,
+        point: Vec2,
+        radius_m: f64,
+        keep: impl Fn(usize, &GraphLane) -> bool,
+    ) -> (Vec<LaneHit>, usize) {
+        let mut looked = 0;
         let mut feet: Vec<(usize, f64, usize, f64)> = Vec::new();
         for segment in self.index.near(point, radius_m) {
+            looked += 1;
             let (lane, piece) = (segment.owner as usize, segment.piece as usize);
             let (s, d2) = self.lanes[lane].path.foot_on(piece, point);
             if d2 > radius_m * radius_m {
@@ -235,7 +255,7 @@ impl LaneGraph {
         };
         let mut hits: Vec<LaneHit> = feet.into_iter().map(hit).collect();
         hits.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.lane.cmp(&b.lane)));
-        hits
+        (hits, looked)
     }
 
     /// Lanes within `radius_m` of `point` that `agent_type` may use, nearest first.

@@ -20,6 +20,8 @@ const SIDE_STEP_M: f64 = 10.0;
 const FOUND_A_PLACE: usize = 16;
 const FOUND_ANYWAY: usize = 200_000;
 const MOST_FOUND: usize = 800_000;
+/// Most pieces of lanes that are looked at there, in all: ten times what a large town needs.
+const MOST_LOOKED: usize = 40_000_000;
 
 /// Adds the link from lane `from` to lane `to` once.
 pub(super) fn connect(lanes: &mut [GraphLane], from: usize, to: usize) {
@@ -47,18 +49,18 @@ pub(super) fn record(map: &LaneMap, by_id: &HashMap<&str, usize>, lanes: &mut [G
 /// ends at their start.
 pub(super) fn rebuild(lanes: &mut [GraphLane]) {
     let usable: Vec<usize> = (0..lanes.len()).filter(|i| lanes[*i].path.length_m() > 0.0).collect();
-    let starts = ByX::new(usable.iter().map(|i| (*i, lanes[*i].path.first().position)));
+    let starts = NearPoints::new(usable.iter().map(|i| (*i, lanes[*i].path.first().position)), LINK_GAP_M);
     let open_ends: Vec<usize> = usable.iter().copied().filter(|i| lanes[*i].successors.is_empty()).collect();
     let open_starts: Vec<usize> =
         usable.iter().copied().filter(|i| lanes[*i].predecessors.is_empty()).collect();
-    let ends = ByX::new(usable.iter().map(|i| (*i, lanes[*i].path.last().position)));
+    let ends = NearPoints::new(usable.iter().map(|i| (*i, lanes[*i].path.last().position)), LINK_GAP_M);
     for from in open_ends {
-        for to in starts.near(lanes[from].path.last().position, LINK_GAP_M) {
+        for to in starts.near(lanes[from].path.last().position) {
             connect_if_smooth(lanes, from, to);
         }
     }
     for to in open_starts {
-        for from in ends.near(lanes[to].path.first().position, LINK_GAP_M) {
+        for from in ends.near(lanes[to].path.first().position) {
             connect_if_smooth(lanes, from, to);
         }
     }
@@ -78,34 +80,54 @@ fn same_users(a: &GraphLane, b: &GraphLane) -> bool {
     vehicles || cyclists || a.lane_type == b.lane_type
 }
 
-/// Points sorted by x, to find those near a place.
-pub(super) struct ByX(Vec<(f64, f64, usize)>);
+/// Points in squares, to find those near a place.
+pub(super) struct NearPoints {
+    /// By square: places with their numbers.
+    squares: HashMap<(i64, i64), Vec<(Vec2, usize)>>,
+    /// Radius of every search, and side of the squares, metres.
+    radius_m: f64,
+}
 
-impl ByX {
-    pub(super) fn new(points: impl Iterator<Item = (usize, Vec2)>) -> Self {
-        let mut sorted: Vec<_> = points.map(|(i, p)| (p.x, p.y, i)).collect();
-        sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
-        Self(sorted)
+impl NearPoints {
+    pub(super) fn new(points: impl Iterator<Item = (usize, Vec2)>, radius_m: f64) -> Self {
+        let mut near = Self { squares: HashMap::new(), radius_m };
+        for (i, point) in points {
+            near.squares.entry(near.square(point)).or_default().push((point, i));
+        }
+        near
     }
 
-    /// Those within `radius_m` of `point`, by rising x; none where they are so many that they say nothing.
-    pub(super) fn near(&self, point: Vec2, radius_m: f64) -> Vec<usize> {
-        let first = self.0.partition_point(|p| p.0 < point.x - radius_m);
-        let close = self.0[first..].iter().take_while(|p| p.0 <= point.x + radius_m);
-        let within = close.filter(|p| (p.0 - point.x).hypot(p.1 - point.y) <= radius_m).map(|p| p.2);
-        let found: Vec<usize> = within.take(MOST_TOGETHER + 1).collect();
-        if found.len() > MOST_TOGETHER { Vec::new() } else { found }
+    fn square(&self, point: Vec2) -> (i64, i64) {
+        ((point.x / self.radius_m).floor() as i64, (point.y / self.radius_m).floor() as i64)
+    }
+
+    /// Those within the radius of `point`, by rising x; none where they are so many that they say nothing.
+    pub(super) fn near(&self, point: Vec2) -> Vec<usize> {
+        let (column, row) = self.square(point);
+        let around = (column - 1..=column + 1).flat_map(|c| (row - 1..=row + 1).map(move |r| (c, r)));
+        let close = around.filter_map(|square| self.squares.get(&square)).flatten();
+        let within = close.filter(|(p, _)| (p.x - point.x).hypot(p.y - point.y) <= self.radius_m);
+        let mut found: Vec<(f64, usize)> = within.take(MOST_TOGETHER + 1).map(|(p, i)| (p.x, *i)).collect();
+        if found.len() > MOST_TOGETHER {
+            return Vec::new();
+        }
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.into_iter().map(|(_, i)| i).collect()
     }
 }
 
-/// Fills in left and right of all lanes: as recorded, or from the geometry where the map records none.
-pub(super) fn sides(map: &LaneMap, graph: &mut LaneGraph) {
+/// Fills in left and right of all lanes: as recorded, or from the geometry where the map records none. Ends where it
+/// is cancelled.
+pub(super) fn sides(map: &LaneMap, graph: &mut LaneGraph, is_cancelled: &dyn Fn() -> bool) {
     if map.lanes.iter().all(|l| l.left_neighbors.is_empty() && l.right_neighbors.is_empty()) {
-        rebuild_sides(graph);
+        rebuild_sides(graph, is_cancelled);
         return;
     }
     let arcs: Vec<Vec<f64>> = map.lanes.iter().map(point_arcs).collect();
     for (i, lane) in map.lanes.iter().enumerate() {
+        if is_cancelled() {
+            return;
+        }
         let left = lane.left_neighbors.iter().filter_map(|n| recorded(graph, &arcs, i, n)).collect();
         let right = lane.right_neighbors.iter().filter_map(|n| recorded(graph, &arcs, i, n)).collect();
         let lane = &mut graph.lanes_mut()[i];
@@ -144,16 +166,24 @@ fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbo
 
 /// Lanes a lane's width apart with the same heading lie side by side. Where lanes lie over each other too often for
 /// that to mean anything, none has sides.
-fn rebuild_sides(graph: &mut LaneGraph) {
+fn rebuild_sides(graph: &mut LaneGraph, is_cancelled: &dyn Fn() -> bool) {
     let own = |(i, lane): (usize, &GraphLane)| (lane.lane_type != LaneType::Sidewalk).then_some(i);
     let own: Vec<usize> = graph.lanes().iter().enumerate().filter_map(own).collect();
     let places: usize = own.iter().map(|i| 1 + side_pieces(&graph.lanes()[*i])).sum();
-    let mut left_to_find = (FOUND_ANYWAY + FOUND_A_PLACE * places).min(MOST_FOUND);
-    let found: Option<Vec<_>> = own.iter().map(|i| sides_of(graph, *i, &mut left_to_find)).collect();
+    let found = (FOUND_ANYWAY + FOUND_A_PLACE * places).min(MOST_FOUND);
+    let mut budget = SearchBudget { found, looked: MOST_LOOKED };
+    let found: Option<Vec<_>> =
+        own.iter().map(|i| sides_of(graph, *i, &mut budget).filter(|_| !is_cancelled())).collect();
     for (i, (left, right)) in own.into_iter().zip(found.unwrap_or_default()) {
         let lane = &mut graph.lanes_mut()[i];
         (lane.left, lane.right) = (left, right);
     }
+}
+
+/// Lanes that may still be found beside others, and pieces of lanes that may still be looked at.
+struct SearchBudget {
+    found: usize,
+    looked: usize,
 }
 
 /// Stretches between the places at which a lane's sides are searched.
@@ -161,11 +191,11 @@ fn side_pieces(lane: &GraphLane) -> usize {
     (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize
 }
 
-/// What lies left and right; nothing once more lanes have been found than there were left to find.
+/// What lies left and right; nothing once the budget is used up.
 fn sides_of(
     graph: &LaneGraph,
     own: usize,
-    left_to_find: &mut usize,
+    budget: &mut SearchBudget,
 ) -> Option<(Vec<AdjacentLane>, Vec<AdjacentLane>)> {
     let lane = &graph.lanes()[own];
     let (mut left, mut right): (Vec<AdjacentLane>, Vec<AdjacentLane>) = (Vec::new(), Vec::new());
@@ -174,8 +204,10 @@ fn sides_of(
         let s = lane.path.length_m() * k as f64 / pieces as f64;
         let here = lane.path.sample(s);
         let radius = 0.7 * (lane.width_m + 3.5);
-        let hits = graph.nearest_lanes(here.position, radius, |i, l| i != own && same_users(lane, l));
-        *left_to_find = left_to_find.checked_sub(hits.len())?;
+        let others = |i: usize, l: &GraphLane| i != own && same_users(lane, l);
+        let (hits, looked) = graph.nearest_counted(here.position, radius, others);
+        budget.found = budget.found.checked_sub(hits.len())?;
+        budget.looked = budget.looked.checked_sub(looked)?;
         for hit in hits {
             let apart = hit.lateral_m.abs() / (0.5 * (lane.width_m + graph.lanes()[hit.lane].width_m));
             let turn = wrap_angle(hit.heading_rad - here.heading_rad).abs();

@@ -1,7 +1,7 @@
 //! Paths for people on foot: sidewalks both ways, and crosswalks along their longer axis.
 
 use super::graph::{GraphLane, LaneSource};
-use super::links::{ByX, connect};
+use super::links::{NearPoints, connect};
 use crate::geometry::polyline::Polyline;
 use crate::map::LaneType;
 use crate::{LaneMap, Vec2, wrap_angle};
@@ -38,10 +38,10 @@ fn join(lanes: &mut [GraphLane]) {
     let walks: Vec<usize> = (0..lanes.len())
         .filter(|i| lanes[*i].lane_type == LaneType::Sidewalk && lanes[*i].path.length_m() > 0.0)
         .collect();
-    let starts = ByX::new(walks.iter().map(|i| (*i, lanes[*i].path.first().position)));
+    let starts = NearPoints::new(walks.iter().map(|i| (*i, lanes[*i].path.first().position)), WALK_GAP_M);
     for from in walks {
         let end = lanes[from].path.last();
-        for to in starts.near(end.position, WALK_GAP_M) {
+        for to in starts.near(end.position) {
             let turn = wrap_angle(lanes[to].path.first().heading_rad - end.heading_rad).abs();
             if from != to && turn <= WALK_TURN_RAD {
                 connect(lanes, from, to);

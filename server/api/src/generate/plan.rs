@@ -9,7 +9,7 @@ use crate::events::GeneratedHead;
 use crate::limits::CallLimits;
 use crate::opened::Standings;
 use crate::problem::{Problem, refuse, shortened};
-use experts::{Generator, Request};
+use experts::{Generator, MapCost, Request};
 use formats::{FieldProblem, pointer_token};
 use scene::score::Thresholds;
 use scene::{Conditions, ContentHash, Scene, Start, licence};
@@ -27,6 +27,8 @@ pub struct GenerationPlan {
     pub drafts: bool,
     /// Scores of the unchanged scene, for a scene that stays open.
     pub standings: Option<Arc<Standings>>,
+    /// What work on its map costs.
+    map_cost: MapCost,
     /// All alternatives in drafts, not only the chosen ones.
     pub(super) all_modes: bool,
     /// Drafts that stand sooner than this after the work began are left out, until one is sent.
@@ -67,6 +69,7 @@ impl GenerateRequest {
             request,
             drafts: true,
             standings: None,
+            map_cost: generator.maps().cost(&scene.map),
             all_modes: self.stream_modes == StreamModes::All,
             draft_delay: Duration::from_millis(self.draft_delay_ms),
             draft_interval: Duration::from_millis(self.draft_interval_ms),
@@ -155,7 +158,8 @@ impl GenerationPlan {
     }
 
     /// About how long it takes one thread. Measured on two cores of 2.6 GHz, scores included: 4 ms for each road
-    /// user, window and sample, and a tenth of one for each denoising step.
+    /// user, window and sample, and a tenth of one for each denoising step. A map that is not known is worked out
+    /// first, and searches on a crowded one take longer.
     pub fn cost(&self) -> Duration {
         let Request { agents, samples, steps, horizon_steps, replan_steps, .. } = &self.request;
         let windows = horizon_steps.div_ceil(replan_steps.unwrap_or(scene::HORIZON_STEPS).max(1));
@@ -163,7 +167,9 @@ impl GenerationPlan {
         let asked = agents.as_ref().map_or(concerned, BTreeSet::len);
         let each_ms = 4.0 + 0.1 * *steps as f64;
         let others_ms = 0.3 * concerned.saturating_sub(asked) as f64;
-        Duration::from_secs_f64(1e-3 * (windows * samples) as f64 * (each_ms * asked as f64 + others_ms))
+        let work_ms =
+            (windows * samples) as f64 * (each_ms * asked as f64 + others_ms) * self.map_cost.crowded;
+        self.map_cost.preparation + Duration::from_secs_f64(1e-3 * work_ms)
     }
 
     /// The longest wait for a first draft.

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::tally::Tally;
 use super::{Common, Exit, Failure, parallel, values};
 use crate::base::netconvert::companions;
-use api::export::{self, MotionChoice, WrittenFile};
+use api::export::{self, FilePart, MotionChoice, WrittenFile};
 use api::import::{self, Companions};
 use clap::Args;
 use formats::format::Info;
@@ -181,8 +181,8 @@ fn written(
     continued: bool,
     converted: &mut Converted,
 ) -> Result<WrittenFile, Failure> {
-    let label = Some(item.name.clone());
-    let written = export::write_part(&item.scene, args.to, args.sample, args.mode, label, continued)
+    let part = FilePart { label: Some(item.name.clone()), continued, most_bytes: None };
+    let written = export::write_part(&item.scene, args.to, args.sample, args.mode, part)
         .map_err(|problem| sample_missing(args, problem))?;
     for loss in &written.losses {
         converted.losses.entry(loss.code).or_insert_with(|| loss.detail.clone());

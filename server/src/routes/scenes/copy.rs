@@ -7,12 +7,13 @@ use crate::base::problem::Refusal;
 use crate::http::body::{self, Reading};
 use crate::http::extract::Id;
 use crate::scenes::store::Expect;
-use api::{Home, Problem};
+use api::Problem;
 use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::Response;
 use scene::MAX_NAME_CHARS;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// Name of the copy.
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
@@ -42,8 +43,8 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
     } else {
         reading.parse(bytes).await?
     };
-    let opened = app.catalog.open(&id).await?;
-    let mut scene = (*opened.scene).clone();
+    let scene = app.catalog.whole(&id).await?;
+    let mut scene = Arc::unwrap_or_clone(scene);
     scene.name = match options.name {
         Some(name) if name.chars().count() > MAX_NAME_CHARS => {
             return Err(

@@ -90,7 +90,7 @@ async fn scene_reply(app: &App, headers: HeaderMap, etag: &str, json: Vec<u8>) -
     })
 }
 
-refusals!(Unpreviewed: WORK, NotFound);
+refusals!(Unpreviewed: STORE WORK, NotFound);
 
 /// Reads the content of a scene's small picture: the scene with simplified lines, and for each road user
 /// present at the first step its first and last state.

@@ -49,6 +49,9 @@ pub enum StoreError {
     /// A limit is reached.
     #[error("the store is full: {0}")]
     Full(String),
+    /// The file that was opened has no name any more.
+    #[error("the store's file was removed or replaced")]
+    Gone,
     /// The writer thread has ended.
     #[error("the store is closed")]
     Closed,
@@ -66,6 +69,12 @@ impl From<StoreError> for Problem {
             StoreError::MissingScene => Self::new(Code::NotFound, "No scene has this id."),
             StoreError::MissingMap => {
                 Self::new(Code::UnknownMap, "The map is not stored any more; send it inline.")
+            }
+            StoreError::Gone => {
+                tracing::error!(error = text, "the store is gone");
+                let detail = "The file of saved scenes was removed or replaced. Nothing is saved until the server \
+                              is started again.";
+                Self::new(Code::StoreUnavailable, detail).retry_after(60)
             }
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {

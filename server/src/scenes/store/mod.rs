@@ -6,6 +6,7 @@
 
 mod backup;
 mod error;
+mod identity;
 mod list;
 mod migrations;
 mod records;
@@ -17,6 +18,7 @@ pub use list::{PageQuery, Sort};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;
+use identity::FileIdentity;
 use reserve::Reserve;
 use rusqlite::{Connection, OpenFlags};
 use std::path::Path;
@@ -37,6 +39,7 @@ pub struct Store {
     readers: mpsc::Sender<Query>,
     limits: Arc<Limits>,
     reserve: Arc<Reserve>,
+    file: Arc<FileIdentity>,
 }
 
 impl Store {
@@ -63,7 +66,8 @@ impl Store {
             })?;
         }
         let reserve = Arc::new(Reserve::beside(path));
-        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve })
+        let file = Arc::new(FileIdentity::of(path).map_err(StoreError::File)?);
+        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve, file })
     }
 
     /// Runs a read on one of the reading connections.
@@ -88,6 +92,7 @@ impl Store {
         task: impl FnOnce(&rusqlite::Transaction<'_>) -> Result<T, StoreError> + Send + 'static,
     ) -> Result<T, StoreError> {
         let (reply, done) = oneshot::channel();
+        let file = Arc::clone(&self.file);
         let work: Work = Box::new(move |connection| {
             // A caller that left does not want its change any more unless it began already.
             if reply.is_closed() {
@@ -97,6 +102,7 @@ impl Store {
                 let transaction =
                     connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
                 let value = task(&transaction)?;
+                file.check()?;
                 transaction.commit()?;
                 Ok(value)
             })();
@@ -112,25 +118,43 @@ impl Store {
         result
     }
 
-    /// Puts the log's pages to their places and the log back to nothing, which gives its room to the disk.
-    async fn empty_log(&self) -> Result<(), StoreError> {
+    /// Gives the room of deleted pages, and that of the log, back to the disk.
+    async fn give_back(&self) -> Result<(), StoreError> {
         let (reply, done) = oneshot::channel();
         let work: Work = Box::new(move |connection| {
-            let empty = connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
-            let _ = reply.send(empty.map_err(StoreError::from));
+            let given = shrink(connection);
+            let emptied = empty(connection);
+            let _ = reply.send(given.and(emptied));
         });
         self.writer.send(work).map_err(|_| StoreError::Closed)?;
         done.await.unwrap_or(Err(StoreError::Closed))
     }
 
-    /// True when a change is written.
-    pub async fn is_writable(&self) -> bool {
+    /// True when a change is written, and all that read are at work.
+    pub async fn is_ready(&self) -> bool {
         if self.reserve.is_full() {
+            return false;
+        }
+        let read = self.read(|connection| Ok(connection.query_row("SELECT 1", [], |_| Ok(()))?));
+        if !matches!(tokio::time::timeout(Duration::from_secs(2), read).await, Ok(Ok(()))) {
             return false;
         }
         let probe = self.write(|tx| Ok(tx.pragma_update(None, "user_version", migrations::LATEST)?));
         matches!(tokio::time::timeout(Duration::from_secs(2), probe).await, Ok(Ok(())))
     }
+}
+
+/// Takes the pages of what was deleted out of the file, one with each row of the answer.
+fn shrink(connection: &Connection) -> Result<(), StoreError> {
+    let mut query = connection.prepare("PRAGMA incremental_vacuum")?;
+    let mut rows = query.query([])?;
+    while rows.next()?.is_some() {}
+    Ok(())
+}
+
+/// Puts the log's pages to their places and the log back to nothing.
+fn empty(connection: &Connection) -> Result<(), StoreError> {
+    Ok(connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()))?)
 }
 
 /// The next query, for whichever thread comes first; `None` when the store is gone.
@@ -142,10 +166,19 @@ fn spawn(name: String, run: impl FnOnce() + Send + 'static) -> Result<(), StoreE
     std::thread::Builder::new().name(name).spawn(run).map(drop).map_err(StoreError::Thread)
 }
 
+/// Pages of the log after which they are put to their places in the file, 4 kB each. A full disk must hold both.
+const LOG_PAGES: i64 = 256;
+/// Size that the log's file keeps.
+const LOG_BYTES: i64 = 1 << 20;
+
 fn prepare(connection: &Connection) -> Result<(), StoreError> {
     connection.busy_timeout(Duration::from_secs(5))?;
+    // Of a file without content: pages of what is deleted can be given back to the disk.
+    connection.pragma_update(None, "auto_vacuum", "INCREMENTAL")?;
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "FULL")?;
+    connection.pragma_update(None, "wal_autocheckpoint", LOG_PAGES)?;
+    connection.pragma_update(None, "journal_size_limit", LOG_BYTES)?;
     connection.pragma_update(None, "foreign_keys", true)?;
     connection.pragma_update(None, "trusted_schema", false)?;
     Ok(())

@@ -203,27 +203,35 @@ impl Store {
         Ok(etags)
     }
 
-    /// Deletes a scene, on a full disk too: the room that is kept for that is given up then.
+    /// Deletes a scene, on a full disk too: the room that is kept for that is given up then, and what is freed goes back
+    /// to the disk.
     pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
-        let delete = |id: String, expect: Expect| {
+        let delete = |id: String, expect: Expect, with_maps: bool| {
             self.write(move |tx| {
                 let stored = current(tx, &id)?.ok_or(StoreError::MissingScene)?;
                 check(&expect, Some(&stored))?;
                 tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
+                if with_maps {
+                    tx.execute("DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)", [])?;
+                }
                 Ok(())
             })
         };
-        match delete(id.to_owned(), expect.clone()).await {
-            Err(error) if error.is_disk_full() && self.reserve.give_up() => {
-                delete(id.to_owned(), expect).await?;
-                // Without this the log would take the room that is kept for the next delete.
-                if let Err(error) = self.empty_log().await {
-                    tracing::warn!(%error, "the log keeps its room");
-                }
-                self.reserve.restore();
+        let is_short = !self.reserve.is_kept();
+        let deleted = match delete(id.to_owned(), expect.clone(), is_short).await {
+            Err(error) if error.is_disk_full() => {
+                self.reserve.give_up();
+                // What is in the log takes the room first.
+                self.emptied().await;
+                delete(id.to_owned(), expect, true).await
             }
-            done => done?,
+            done => done,
+        };
+        if deleted.is_ok() && !self.reserve.is_kept() {
+            self.emptied().await;
+            self.reserve.restore();
         }
+        deleted?;
         self.tell_size().await;
         Ok(())
     }
@@ -262,6 +270,13 @@ impl Store {
             Ok(tx.execute(sql, [before])?)
         })
         .await
+    }
+
+    /// Gives room back to the disk, where that can be done.
+    async fn emptied(&self) {
+        if let Err(error) = self.give_back().await {
+            tracing::warn!(%error, "the log keeps its room");
+        }
     }
 
     /// Puts the store's size into the metrics.

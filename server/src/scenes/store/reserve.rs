@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A delete writes a few pages to the log first: what is kept for that.
-const RESERVE_BYTES: usize = 512 << 10;
+/// A delete writes a few pages to the log first, and what is in the log must find its place in the file: what is kept
+/// for both. The log has up to 1 MB (`LOG_PAGES`).
+const RESERVE_BYTES: usize = 2 << 20;
 /// A disk with this much room takes writes again.
 const ROOM_BYTES: usize = 256 << 10;
 
@@ -34,8 +35,9 @@ impl Reserve {
 
     /// Makes the file again, where it is missing and there is room.
     pub fn restore(&self) {
-        let whole = self.path.metadata().is_ok_and(|m| m.len() == RESERVE_BYTES as u64);
-        if !whole && let Err(error) = fill(&self.path, RESERVE_BYTES) {
+        if !self.is_kept()
+            && let Err(error) = fill(&self.path, RESERVE_BYTES)
+        {
             tracing::warn!(%error, "no room could be kept for deletes");
             self.give_up();
         }
@@ -44,6 +46,11 @@ impl Reserve {
     /// Gives the room back to the disk. True when there was some.
     pub fn give_up(&self) -> bool {
         std::fs::remove_file(&self.path).is_ok()
+    }
+
+    /// True while room is kept.
+    pub fn is_kept(&self) -> bool {
+        self.path.metadata().is_ok_and(|m| m.len() == RESERVE_BYTES as u64)
     }
 
     /// Notes whether the last write found the disk full.

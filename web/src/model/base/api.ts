@@ -42,7 +42,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Experts are warm, the store takes writes, the queue has room. */
+        /**
+         * Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer.
+         *     `failing` lists `experts`, `store`, `queue`, `workers`, `readers` and `data` where they do not.
+         */
         get: operations["readyz"];
         put?: never;
         post?: never;
@@ -85,7 +88,8 @@ export interface paths {
          *     as a `POST` streams them as NDJSON, or the problem. A cancelled request also ends with `{"ask": 1, "last":
          *     true}`, and then its number is free. An interrupted reply ends with a second `status` and its problem.
          *     Requests beyond `line_questions` wait until another one ends; while 64 wait, or 1 MB (`line_bytes`), a
-         *     further one is refused with 503 `busy`.
+         *     further one is refused with 503 `busy`. A message must arrive within `body_read_s`. More than 10 pings a second,
+         *     or a message that cannot be read, end the WebSocket with its close code.
          */
         get: operations["openLine"];
         put?: never;
@@ -3177,7 +3181,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -3219,6 +3223,11 @@ export interface components {
             reason?: string;
             /** @description Id of the request, as in X-Request-Id and in the server's log. */
             request_id?: string;
+            /**
+             * Format: uint64
+             * @description The same in milliseconds, more precise.
+             */
+            retry_after_ms?: number;
             /**
              * Format: uint64
              * @description Seconds after which to ask again, as in Retry-After.
@@ -5354,7 +5363,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, format-unknown, cannot-represent, reply-too-large */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5362,7 +5371,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "format-unknown" | "cannot-represent" | "reply-too-large";
                     };
                 };
             };
@@ -5728,7 +5737,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, not-asked, reply-too-large */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, not-asked, reply-too-large */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5736,7 +5745,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "not-asked" | "reply-too-large";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "not-asked" | "reply-too-large";
                     };
                 };
             };
@@ -5945,7 +5954,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5953,7 +5962,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused";
                     };
                 };
             };
@@ -7057,7 +7066,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7065,7 +7074,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
                     };
                 };
             };
@@ -7403,7 +7412,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7411,7 +7420,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
                     };
                 };
             };
@@ -7834,7 +7843,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7842,7 +7851,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
                     };
                 };
             };
@@ -8261,7 +8270,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8269,7 +8278,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
                     };
                 };
             };
@@ -8701,7 +8710,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, format-unknown, cannot-represent */
+            /** @description invalid-field, out-of-range, format-unknown, cannot-represent, reply-too-large */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8709,7 +8718,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "format-unknown" | "cannot-represent";
+                        code?: "invalid-field" | "out-of-range" | "format-unknown" | "cannot-represent" | "reply-too-large";
                     };
                 };
             };
@@ -9095,7 +9104,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9103,7 +9112,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
                     };
                 };
             };

@@ -33,6 +33,7 @@ export const refused: Readonly<Record<string, string>> = {
   'unknown-map': 'Die Karte dieser Szene ist hier nicht bekannt.',
   'too-many-agents': 'Das sind mehr Verkehrsteilnehmer als erlaubt.',
   'map-too-large': 'Die Karte ist größer als erlaubt.',
+  'map-too-complex': 'An einer Stelle der Karte liegen zu viele Linien, oder sie hat zu viele Verbindungen.',
   'reply-too-large': 'Die Antwort wäre zu groß: weniger Varianten oder Verkehrsteilnehmer gehen.',
   'unsupported-version': 'Das stammt aus einer neueren Version.',
   'format-unknown': 'Dieses Format wird nicht erkannt.',

@@ -90,7 +90,7 @@ impl<'g> Generation<'g> {
         let started = (resources.clock)();
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
         let request = Arc::new(request);
-        let map = maps.known(&request.scene.map);
+        let map = maps.known_unless(&request.scene.map, &cancel).ok_or(GenerateError::Cancelled)?;
         let start = world(resources, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
         let (roster, base) = Roster::of(&request, &start, &spans)?;

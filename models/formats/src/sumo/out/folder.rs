@@ -29,10 +29,10 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     let mut losses: BTreeSet<Loss> = recording::losses(scene, options, &written).into_iter().collect();
     let mut files = Vec::new();
     let steps = recording::steps(scene, &written);
-    match net::document(scene, &network, steps) {
+    match net::document(scene, &network, steps, options.most())? {
         Some(map) => {
-            let (trips, without) = trips::write(scene, &network, &written);
-            files.push((format!("{name}{CONFIGURATION}"), configuration(&name, steps)));
+            let (trips, without) = trips::write(scene, &network, &written)?;
+            files.push((format!("{name}{CONFIGURATION}"), configuration(&name, steps)?));
             files.push((format!("{name}{NET}"), map));
             files.push((format!("{name}{TRIPS}"), trips));
             losses.extend(net::losses(scene, &network));
@@ -45,7 +45,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
         None => {}
     }
     if !written.is_empty() {
-        files.push((format!("{name}{RECORDING}"), recording::document(scene, &written)));
+        files.push((format!("{name}{RECORDING}"), recording::document(scene, &written, options.most())?));
     }
     if files.is_empty() {
         let detail = "a folder of SUMO has a lane or a road user; this scene has none";
@@ -55,8 +55,8 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
 }
 
 /// Configuration for `sumo -c`: length and step of the scene.
-fn configuration(name: &str, steps: usize) -> Vec<u8> {
-    let mut out = Markup::new();
+fn configuration(name: &str, steps: usize) -> io::Result<Vec<u8>> {
+    let mut out = Markup::new(u64::MAX);
     out.open("configuration", &[]);
     out.open("input", &[]);
     out.empty("net-file", &[("value", &format!("{name}{NET}"))]);

@@ -25,7 +25,7 @@ const MOTORWAY: &str = "highway.motorway";
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let network = ExportedNetwork::of(scene);
     let (_, steps) = options.motion.all(scene);
-    let Some(bytes) = document(scene, &network, steps) else {
+    let Some(bytes) = document(scene, &network, steps, options.most())? else {
         let detail = "a network of SUMO has one lane or more; this scene has none";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     };
@@ -37,11 +37,16 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
 }
 
 /// The file, with lights that go on for so many steps; nothing for a map without lanes.
-pub(super) fn document(scene: &Scene, network: &ExportedNetwork<'_>, steps: usize) -> Option<Vec<u8>> {
+pub(super) fn document(
+    scene: &Scene,
+    network: &ExportedNetwork<'_>,
+    steps: usize,
+    most_bytes: u64,
+) -> io::Result<Option<Vec<u8>>> {
     if network.edges.is_empty() {
-        return None;
+        return Ok(None);
     }
-    let mut out = Markup::new();
+    let mut out = Markup::new(most_bytes);
     out.open("net", &[("version", "1.20"), ("junctionCornerDetail", "5"), ("limitTurnSpeed", "-1")]);
     location(scene, network, &mut out);
     for junction in &network.junctions {
@@ -69,7 +74,7 @@ pub(super) fn document(scene: &Scene, network: &ExportedNetwork<'_>, steps: usiz
         }
     }
     out.close();
-    Some(out.finish())
+    out.finish().map(Some)
 }
 
 fn location(scene: &Scene, network: &ExportedNetwork<'_>, out: &mut Markup) {

@@ -70,12 +70,12 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     if !scene.signals.is_empty() {
         losses.push(Loss::new(code::NO_SIGNALS, "traffic signals"));
     }
-    Ok(Exported { bytes: document(scene, &written), losses })
+    Ok(Exported { bytes: document(scene, &written, options.most())?, losses })
 }
 
-pub(super) fn document(scene: &Scene, written: &[ExportedAgent<'_>]) -> Vec<u8> {
+pub(super) fn document(scene: &Scene, written: &[ExportedAgent<'_>], most_bytes: u64) -> io::Result<Vec<u8>> {
     let frame = Frame::of(&scene.meta.origin);
-    let mut out = Markup::new();
+    let mut out = Markup::new(most_bytes);
     out.open("fcd-export", &[]);
     for step in 0..steps(scene, written) {
         out.open("timestep", &[("time", &decimal(step as f64 * STEP_S))]);

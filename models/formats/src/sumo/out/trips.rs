@@ -9,6 +9,7 @@ use scene::geometry::wrap_angle;
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{AgentType, STEP_S, Scene, State};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::io;
 
 /// Lanes farther from a road user than this are not its own, metres.
 const NEAR_M: f64 = 4.0;
@@ -37,21 +38,21 @@ pub(super) fn write(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
     written: &[ExportedAgent<'_>],
-) -> (Vec<u8>, usize) {
+) -> io::Result<(Vec<u8>, usize)> {
     let graph = LaneGraph::new(&scene.map);
     let ways = Ways::of(network);
     let mut trips: Vec<Trip<'_>> =
         written.iter().filter_map(|user| trip(network, &graph, &ways, user)).collect();
     // SUMO reads them by time.
     trips.sort_by_key(|trip| trip.depart);
-    let mut out = Markup::new();
+    let mut out = Markup::new(u64::MAX);
     out.open("routes", &[]);
     types(&trips, &mut out);
     for trip in &trips {
         write_trip(network, trip, &mut out);
     }
     out.close();
-    (out.finish(), written.len() - trips.len())
+    Ok((out.finish()?, written.len() - trips.len()))
 }
 
 fn types(trips: &[Trip<'_>], out: &mut Markup) {

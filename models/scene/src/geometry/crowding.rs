@@ -1,0 +1,112 @@
+//! How crowded lines are: what work with a grid over them grows with.
+//!
+//! A question about a place looks at the pieces of the cells around it. Lines that lie over each other a thousand
+//! times make each question cost as much as a whole map elsewhere, whatever they are.
+
+use super::Vec2;
+use super::segments::{Segment, cells_along};
+
+/// Most cells that pieces may pass through, counted once for each piece: ten times what a large map has.
+pub const MAX_CELLS: usize = 2_000_000;
+/// Most pieces in one cell of 8 m x 8 m.
+pub const MAX_CELL_PIECES: u64 = 2_048;
+/// Most pairs of pieces that pass through the same cell, over all cells.
+pub const MAX_CELL_PAIRS: u64 = 100_000_000;
+
+/// Pieces of lines by the cells that they pass through.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Crowding {
+    /// Cells, counted once for each piece in them; more than [`MAX_CELLS`] where counting was given up.
+    pub entries: usize,
+    /// Most pieces of one cell.
+    pub most: u64,
+    /// Sum over all cells of the pieces' number squared.
+    pub pairs: u64,
+}
+
+impl Crowding {
+    /// Of lines, each with whether it is closed.
+    pub fn of<'a>(lines: impl Iterator<Item = (&'a [Vec2], bool)>) -> Self {
+        let mut cells: Vec<u64> = Vec::new();
+        let mut own: Vec<u64> = Vec::new();
+        for (points, closed) in lines {
+            let back = closed.then(|| Some((*points.last()?, *points.first()?))).flatten();
+            for (from, to) in points.iter().copied().zip(points.iter().copied().skip(1)).chain(back) {
+                own.clear();
+                cells_along(&Segment { from, to, owner: 0, piece: 0 }, |cell| own.push(cell));
+                own.sort_unstable();
+                own.dedup();
+                cells.extend(&own);
+                if cells.len() > MAX_CELLS {
+                    return Self { entries: cells.len(), most: 0, pairs: 0 };
+                }
+            }
+        }
+        cells.sort_unstable();
+        let counts = cells.chunk_by(|a, b| a == b).map(|cell| cell.len() as u64);
+        let start = Self { entries: cells.len(), ..Self::default() };
+        counts.fold(start, |sum, count| Self {
+            most: sum.most.max(count),
+            pairs: sum.pairs + count * count,
+            ..sum
+        })
+    }
+
+    /// Pieces beside a piece, on average.
+    pub fn mean(&self) -> f64 {
+        self.pairs as f64 / self.entries.max(1) as f64
+    }
+
+    /// What is too much, in words; `None` where all bounds are kept.
+    pub fn excess(&self) -> Option<String> {
+        if self.entries > MAX_CELLS {
+            return Some(format!("lines pass through more than {MAX_CELLS} squares of 8 m"));
+        }
+        if self.most > MAX_CELL_PIECES {
+            let most = self.most;
+            return Some(format!("{most} pieces of lines in 8 m x 8 m; at most {MAX_CELL_PIECES}"));
+        }
+        let pairs = self.pairs;
+        (pairs > MAX_CELL_PAIRS).then(|| {
+            format!("{pairs} pairs of pieces of lines in the same 8 m x 8 m; at most {MAX_CELL_PAIRS}")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Key;
+
+    fn tangle(points: usize, side_m: f64) -> Vec<Vec2> {
+        let mut random = Key::default().text("tangle").stream();
+        let mut at = || side_m * (random.unit() - 0.5);
+        (0..points).map(|_| Vec2::new(at(), at())).collect()
+    }
+
+    #[test]
+    fn pieces_are_counted_once_a_cell() {
+        let line = [Vec2::new(1.0, 1.0), Vec2::new(7.0, 1.0), Vec2::new(15.0, 1.0), Vec2::new(1.0, 2.0)];
+        let open = Crowding::of([(&line[..], false)].into_iter());
+        assert_eq!((open.entries, open.most, open.pairs), (5, 3, 9 + 4));
+        let closed = Crowding::of([(&line[..], true)].into_iter());
+        assert_eq!((closed.entries, closed.most, closed.pairs), (6, 4, 16 + 4));
+        assert_eq!(Crowding::of([(&line[..1], true), (&[][..], true)].into_iter()).most, 1);
+    }
+
+    #[test]
+    fn what_a_street_has_passes_and_tangles_do_not() {
+        let street: Vec<Vec2> = (0..4_000).map(|i| Vec2::new(f64::from(i) * 0.5, 0.0)).collect();
+        let streets = || (0..100).map(|_| (&street[..], false));
+        assert_eq!(Crowding::of(streets()).excess(), None, "a hundred lanes over each other");
+        let one_place = tangle(4_096, 8.0);
+        assert!(Crowding::of([(&one_place[..], false)].into_iter()).excess().unwrap().contains("8 m x 8 m"));
+        let tangled: Vec<Vec<Vec2>> = (0..5).map(|_| tangle(4_096, 400.0)).collect();
+        let of_all = Crowding::of(tangled.iter().map(|line| (&line[..], false)));
+        assert!(of_all.most <= MAX_CELL_PIECES && of_all.excess().unwrap().contains("pairs"), "{of_all:?}");
+        let far: Vec<Vec<Vec2>> = (0..100).map(|_| tangle(4_096, 20_000.0)).collect();
+        let of_all = Crowding::of(far.iter().map(|line| (&line[..], false)));
+        // Counting ends soon behind the bound.
+        assert!(of_all.entries < MAX_CELLS + 20_000 && of_all.excess().is_some(), "{of_all:?}");
+    }
+}
