@@ -75,6 +75,12 @@ impl Deref for App {
     }
 }
 
+impl FromRef<App> for RequestGate {
+    fn from_ref(app: &App) -> Self {
+        app.gate.clone()
+    }
+}
+
 impl FromRef<App> for Reading {
     fn from_ref(app: &App) -> Self {
         let (limits, pool) = (Arc::clone(&app.limits), Arc::clone(&app.pool));

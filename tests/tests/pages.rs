@@ -138,7 +138,6 @@ fn a_token_guards_what_is_not_a_page() {
     assert!(Server::start(&["--token-file", &path]).is_err(), "readable by others");
     set_mode(&file, 0o600);
     let server = Server::start(&["--token-file", &path]).unwrap();
-    assert_eq!(server.get("/").unwrap().status, 200);
     assert_eq!(server.get("/healthz").unwrap().status, 200);
     let refused = server.get("/v1/scenes").unwrap();
     assert_eq!((refused.code().as_str(), refused.header("www-authenticate")), ("unauthorized", "Bearer"));
@@ -148,6 +147,41 @@ fn a_token_guards_what_is_not_a_page() {
     };
     assert_eq!(with(token), 200);
     assert_eq!(with("0123456789abcdef0123456789abcdee"), 401);
+}
+
+#[test]
+fn a_browser_signs_in_with_the_token_and_keeps_a_cookie() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("token");
+    let token = "0123456789abcdef+123456789abcdef";
+    std::fs::write(&file, token).unwrap();
+    set_mode(&file, 0o600);
+    let server = Server::start(&["--token-file", file.to_str().unwrap()]).unwrap();
+    for path in ["/", "/scenes/demo-crossing?at=2"] {
+        let asked = server.get(path).unwrap();
+        assert_eq!(asked.status, 401);
+        assert!(asked.text().contains("This server needs a token") && asked.header("set-cookie").is_empty());
+    }
+    let sent = |form: &str, origin: &str| {
+        let request = Request::new("POST", "/scenes/demo-crossing?at=2");
+        let request =
+            request.header("content-type", "application/x-www-form-urlencoded").header("origin", origin);
+        server.send(&request.body(form.as_bytes().to_vec())).unwrap()
+    };
+    let own = format!("http://{}", server.address);
+    assert_eq!(sent("token=0123456789abcdef%2B123456789abcdee", &own).status, 401);
+    assert_eq!(sent("", &own).status, 401);
+    assert_eq!(sent("token=0123456789abcdef%2B123456789abcdef", "http://evil.example").status, 403);
+    let entered = sent("token=0123456789abcdef%2B123456789abcdef", &own);
+    assert_eq!((entered.status, entered.header("location")), (303, "/scenes/demo-crossing?at=2"));
+    let field = entered.header("set-cookie");
+    assert!(field.contains("; HttpOnly; SameSite=Strict") && !field.contains("Secure"), "{field}");
+    let cookie = field.split(';').next().unwrap();
+    let with = |path: &str, cookie: &str| {
+        server.send(&Request::new("GET", path).header("cookie", cookie)).unwrap().status
+    };
+    assert_eq!((with("/v1/scenes", cookie), with("/", cookie)), (200, 200));
+    assert_eq!((with("/v1/scenes", &cookie[..cookie.len() - 1]), with("/v1/scenes", "a=b")), (401, 401));
 }
 
 fn set_mode(path: &std::path::Path, mode: u32) {

@@ -1,9 +1,11 @@
 //! The editor, which travels inside the program.
 
+use super::observe::RequestGate;
+use super::{coding, sign_in};
 use crate::base::problem::{ALLOWED, Refusal};
-use crate::http::coding;
 use api::{Code, Problem};
 use axum::body::Body;
+use axum::extract::State;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use rust_embed::{EmbeddedFile, RustEmbed};
@@ -14,11 +16,25 @@ use rust_embed::{EmbeddedFile, RustEmbed};
 #[allow_missing = true]
 struct Editor;
 
-/// Everything without a route of its own: the editor's files, its page at its own addresses, a problem elsewhere.
-pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response {
+/// Everything without a route of its own: the editor's files, its page at its own addresses, a problem elsewhere. On a
+/// server with a token the page asks for it first.
+pub async fn fallback(
+    State(gate): State<RequestGate>,
+    method: Method,
+    uri: Uri,
+    headers: HeaderMap,
+    body: Body,
+) -> Response {
     let path = uri.path();
     if path == "/v1" || path.starts_with("/v1/") {
         return Refusal::from(Problem::new(Code::NotFound, "The API has no such address.")).into_response();
+    }
+    if let Some((token, cookie)) = gate.guard.closed_to(&headers).filter(|_| is_page(path)) {
+        let address = uri.path_and_query().map_or(path, |address| address.as_str());
+        return match method {
+            Method::POST => sign_in::enter(token, cookie, address, &headers, body).await,
+            _ => sign_in::page(""),
+        };
     }
     if method != Method::GET && method != Method::HEAD {
         let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");

@@ -3,6 +3,7 @@
 //! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
 
 use super::extract::Connection;
+use super::sign_in::{SessionCookie, same_bytes};
 use crate::base::limits::Limits;
 use api::{Code, Problem};
 use axum::extract::Request;
@@ -19,8 +20,8 @@ pub struct Guard {
     own_origins: Vec<String>,
     /// Origins given with `--allow-origin`.
     foreign_origins: Vec<String>,
-    /// Bearer token, when one is needed.
-    token: Option<String>,
+    /// Bearer token, when one is needed, and the cookie that stands for it.
+    token: Option<(String, SessionCookie)>,
 }
 
 impl Guard {
@@ -52,7 +53,18 @@ impl Guard {
         let own_origins =
             hosts.iter().flat_map(|h| [format!("http://{h}"), format!("https://{h}")]).collect();
         let foreign_origins = allow_origins.iter().map(|o| o.to_ascii_lowercase()).collect();
+        let token = token.map(|token| {
+            let cookie = SessionCookie::of(&token);
+            (token, cookie)
+        });
         Ok(Self { hosts, own_origins, foreign_origins, token })
+    }
+
+    /// The token and its cookie, where a request for a page comes without either.
+    pub fn closed_to(&self, headers: &HeaderMap) -> Option<(&str, &SessionCookie)> {
+        let (token, cookie) = self.token.as_ref()?;
+        let known = is_bearer(headers, token) || cookie.is_in(headers);
+        (!known).then_some((token, cookie))
     }
 
     /// The request's Origin, when it is one given with `--allow-origin`.
@@ -173,12 +185,8 @@ fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
     if open || request.method() == Method::OPTIONS {
         return Ok(());
     }
-    let given = request.headers().get(header::AUTHORIZATION).and_then(|v| v.to_str().ok());
-    let scheme =
-        given.and_then(|v| v.split_once(' ')).filter(|(name, _)| name.eq_ignore_ascii_case("bearer"));
-    let given = scheme.map_or("", |(_, given)| given.trim_start());
-    let detail = match &guard.token {
-        Some(token) if same_bytes(given.as_bytes(), token.as_bytes()) => return Ok(()),
+    let detail = match guard.token {
+        Some(_) if guard.closed_to(request.headers()).is_none() => return Ok(()),
         Some(_) => "A bearer token is needed.",
         None => {
             "This connection belongs to another user of this machine: it needs the token of a server that was \
@@ -188,9 +196,12 @@ fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
     Err(Problem::new(Code::Unauthorized, detail))
 }
 
-/// Compares in a time that depends only on the lengths.
-fn same_bytes(a: &[u8], b: &[u8]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).fold(0, |differ, (x, y)| differ | (x ^ y)) == 0
+/// The request carries this token.
+fn is_bearer(headers: &HeaderMap, token: &str) -> bool {
+    let given = headers.get(header::AUTHORIZATION).and_then(|v| v.to_str().ok());
+    let scheme =
+        given.and_then(|v| v.split_once(' ')).filter(|(name, _)| name.eq_ignore_ascii_case("bearer"));
+    scheme.is_some_and(|(_, given)| same_bytes(given.trim_start().as_bytes(), token.as_bytes()))
 }
 
 #[cfg(test)]

@@ -13,5 +13,6 @@ pub mod observe;
 mod owner;
 pub mod packed;
 mod pause;
+mod sign_in;
 pub mod upload;
 mod wire;

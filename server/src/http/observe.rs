@@ -100,6 +100,8 @@ fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str
     let status = response.status();
     let problem = match response.extensions_mut().remove::<Refusal>() {
         Some(Refusal(problem)) => problem,
+        // The page that asks for the token is a refusal for people.
+        None if is_page(response.headers()) => return response,
         None if status.is_client_error() || status.is_server_error() => bare(status),
         None => return response,
     };
@@ -130,7 +132,7 @@ fn dress(headers: &mut HeaderMap, path: &str, id: &str) {
         (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
     ];
     for (name, value) in fixed {
-        headers.insert(name, HeaderValue::from_static(value));
+        headers.entry(name).or_insert(HeaderValue::from_static(value));
     }
     if let Ok(value) = HeaderValue::from_str(id) {
         headers.insert(REQUEST_ID, value);
@@ -138,8 +140,11 @@ fn dress(headers: &mut HeaderMap, path: &str, id: &str) {
     if path.starts_with("/v1/") && !headers.contains_key(header::CACHE_CONTROL) {
         headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
     }
-    let is_page = headers.get(header::CONTENT_TYPE).is_some_and(|t| t.as_bytes().starts_with(b"text/html"));
-    if is_page {
+    if is_page(headers) && !headers.contains_key(header::CONTENT_SECURITY_POLICY) {
         headers.insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(PAGE_POLICY));
     }
+}
+
+fn is_page(headers: &HeaderMap) -> bool {
+    headers.get(header::CONTENT_TYPE).is_some_and(|t| t.as_bytes().starts_with(b"text/html"))
 }

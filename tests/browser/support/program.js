@@ -12,12 +12,14 @@ export class Program {
   #folder = mkdtempSync(join(tmpdir(), 'dragtraffic-journeys-'));
   #child = null;
   #bin = program;
+  #options = [];
   url = '';
 
-  /** `bin`: another program than the built one. */
-  static async start(bin = program) {
+  /** `bin`: another program than the built one; `options` of `serve`. */
+  static async start(bin = program, options = []) {
     const p = new Program();
     p.#bin = bin;
+    p.#options = options;
     if (running) p.url = running;
     else await p.run();
     return p;
@@ -28,7 +30,7 @@ export class Program {
     const port = this.url ? new URL(this.url).port : '0';
     const child = spawn(
       this.#bin,
-      ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'],
+      ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn', ...this.#options],
       {
         stdio: ['ignore', 'pipe', 'pipe'],
         env: Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('DRAGTRAFFIC_'))),
