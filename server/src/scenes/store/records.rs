@@ -9,6 +9,9 @@ use scene::ContentHash;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+/// Deletes the maps of no scene.
+const UNUSED_MAPS: &str = "DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)";
+
 /// Compression of bodies: beyond this level size hardly falls.
 const LEVEL: i32 = 3;
 
@@ -187,7 +190,7 @@ impl Store {
     /// Writes a scene under an id; checks the precondition in the same transaction.
     pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
         let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
-        let written = self.write(move |tx| put(tx, &limits, &id, &expect, &scene)).await?;
+        let written = self.add(move |tx| put(tx, &limits, &id, &expect, &scene)).await?;
         self.tell_size().await;
         Ok(written)
     }
@@ -198,9 +201,31 @@ impl Store {
         let put_one = move |tx: &Transaction<'_>, (id, scene): &(String, PackedScene)| {
             put(tx, &limits, id, &Expect::Absent, scene).map(|written| written.etag)
         };
-        let etags = self.write(move |tx| scenes.iter().map(|scene| put_one(tx, scene)).collect()).await?;
+        let etags = self.add(move |tx| scenes.iter().map(|scene| put_one(tx, scene)).collect()).await?;
         self.tell_size().await;
         Ok(etags)
+    }
+
+    /// Writes something new; on a full disk once more, after maps that no scene uses have made room.
+    async fn add<T: Send + 'static>(
+        &self,
+        task: impl Fn(&Transaction<'_>) -> Result<T, StoreError> + Send + Sync + 'static,
+    ) -> Result<T, StoreError> {
+        let task = Arc::new(task);
+        let again = Arc::clone(&task);
+        match self.write(move |tx| task(tx)).await {
+            Err(error) if error.is_disk_full() => {
+                let dropped = self.write(|tx| Ok(tx.execute(UNUSED_MAPS, [])?)).await.unwrap_or(0);
+                if dropped == 0 {
+                    // The last write was refused, whatever became of this one.
+                    self.reserve.note(true);
+                    return Err(error);
+                }
+                self.emptied().await;
+                self.write(move |tx| again(tx)).await
+            }
+            done => done,
+        }
     }
 
     /// Deletes a scene, on a full disk too: the room that is kept for that is given up then, and what is freed goes back
@@ -212,7 +237,7 @@ impl Store {
                 check(&expect, Some(&stored))?;
                 tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
                 if with_maps {
-                    tx.execute("DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)", [])?;
+                    tx.execute(UNUSED_MAPS, [])?;
                 }
                 Ok(())
             })
@@ -407,7 +432,7 @@ fn make_room(tx: &Transaction<'_>, grows: u64, most: u64) -> Result<(), StoreErr
     if fits(used_bytes(tx)?) {
         return Ok(());
     }
-    tx.execute("DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)", [])?;
+    tx.execute(UNUSED_MAPS, [])?;
     if fits(used_bytes(tx)?) {
         Ok(())
     } else {
