@@ -4,6 +4,7 @@ use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
 use crate::problem::{ImportWarning, Imported, ReadError, checked};
+use crate::repairs;
 use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
@@ -29,6 +30,7 @@ pub(crate) fn settled(
     let turned = rotate(by, scene.meta.origin.rotation_rad);
     (scene.meta.origin.x_m, scene.meta.origin.y_m) =
         (scene.meta.origin.x_m + turned.x, scene.meta.origin.y_m + turned.y);
+    warnings.extend(repairs::join_lanes(&mut map));
     scene.map = map.into();
     if options.join_identities {
         warnings.extend(identities::join(&mut scene));

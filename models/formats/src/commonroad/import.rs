@@ -19,12 +19,18 @@ use std::collections::{BTreeMap, HashSet};
 /// Text before the licence in the source of a file written by this program.
 pub(super) const LICENCE: &str = "; licence ";
 
+/// Affiliation of a file whose planning problem this program made, because a scenario has one at least.
+pub(super) const MADE: &str = "planning problem made by DragTraffic";
+
 /// Reads a file, plain or gzip.
 ///
 /// # Errors
 /// Those of [`document::read`]; `map-too-large`; the faults of a scene.
 pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
     let mut document = document::read(file)?;
+    if document.affiliation == MADE {
+        document.problems.clear();
+    }
     let shift = about_the_middle(&mut document)?;
     let mut warnings = Vec::new();
     let (map, lanes) = map::lane_map(&document, &mut warnings);

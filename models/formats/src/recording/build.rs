@@ -4,6 +4,7 @@ use super::motion::{Derived, complete, spacing_s, step_at, track};
 use super::{AgentIds, RecordedAgent, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
+use crate::headings;
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
 use crate::sentences;
@@ -14,6 +15,8 @@ use scene::{
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+/// Samples of a road user this near to each other are of one time, seconds.
+const SAME_S: f64 = 1e-6;
 /// Most scenes of one recording: a day of it.
 const MAX_WINDOWS: usize = 10_000;
 /// A file whose coordinates stay within this distance of its zero keeps its frame, metres.
@@ -30,6 +33,8 @@ pub(crate) struct Said {
     pub meta: Meta,
     /// Origin of the scene in the file's frame; derived when absent.
     pub origin: Option<Origin>,
+    /// Projection of the file's frame, for an origin that is derived.
+    pub crs: Option<String>,
     /// Time of the first step in the file, seconds; that of the first sample where absent.
     pub start_s: Option<f64>,
     pub timing: Option<Timing>,
@@ -68,6 +73,11 @@ impl Recording {
         self.said.timing = self.said.timing.filter(can_be);
         for list in self.lists() {
             list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        }
+        self.said.warnings.extend(headings::settle_samples(&mut self.users));
+        let repeated: usize = self.users.iter().map(|user| repeated(&user.samples)).sum();
+        if repeated > 0 {
+            self.said.warnings.push(ImportWarning::new("rows-repeated", sentences::rows_repeated(repeated)));
         }
         let usual = || spacing_s(self.users.iter().map(|user| user.samples.as_slice()));
         let spacing_s = self.said.spacing_s.unwrap_or_else(usual);
@@ -251,7 +261,7 @@ impl PreparedRecording {
         } else {
             present.iter().find(ego).map_or_else(|| middle(places()), |(_, at)| *at).map(f64::round)
         };
-        Origin { x_m: at.x, y_m: at.y, ..Origin::default() }
+        Origin { x_m: at.x, y_m: at.y, crs: self.recording.said.crs.clone(), ..Origin::default() }
     }
 
     /// Road users that fit the scene, in the order of the file: within reach of the origin, and nearest to
@@ -342,6 +352,11 @@ impl PreparedRecording {
         let samples: Vec<scene::Sample> = samples.into_values().map(answer).collect();
         (!samples.is_empty()).then(|| Generated { samples, ..Generated::default() })
     }
+}
+
+/// Samples, in the order of time, at the time of the one before.
+fn repeated(samples: &[RecordedState]) -> usize {
+    samples.windows(2).filter(|pair| (pair[1].time_s - pair[0].time_s).abs() < SAME_S).count()
 }
 
 /// Possible motions of a sample, by road user.

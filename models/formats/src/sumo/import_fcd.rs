@@ -218,7 +218,10 @@ impl<'a> Windows<'a> {
             meta: Meta {
                 source: SOURCE.into(),
                 licence: self.common.licence.clone(),
-                origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+                origin: self.common.net.as_ref().map_or_else(
+                    || Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+                    |net| net.place.clone(),
+                ),
                 timestamps_s: (start_s != 0.0)
                     .then(|| (0..steps).map(|i| start_s + i as f64 * STEP_S).collect()),
                 ..Meta::default()
