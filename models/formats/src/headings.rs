@@ -13,11 +13,26 @@ const MOVES_MPS: f64 = 1.0;
 const ALONG: f64 = 0.8;
 const CLEAR: f64 = 0.2;
 
+/// Least number of moving states that overrule what a format usually has.
+const ENOUGH: usize = 10;
+
+/// The unit of headings as far as the format states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HeadingUnit {
+    /// Radians, by the format's definition.
+    Radians,
+    /// Either, and usually radians or degrees: the file decides.
+    UsuallyRadians,
+    UsuallyDegrees,
+}
+
 /// Votes of road users on the unit of their headings.
 #[derive(Clone, Copy, Debug, Default)]
 struct Votes {
     degrees: usize,
     radians: usize,
+    /// Moving states of those that degrees suit, and radians.
+    states: [usize; 2],
     /// Road users with a heading, and those of them with most headings outside of a turn in radians.
     found: usize,
     outside: usize,
@@ -59,14 +74,23 @@ impl Votes {
         self.any_outside |= outside > 0;
         self.outside += usize::from(2 * outside > known);
         let clear = |own: f64, other: f64| own > ALONG * count && own > other + CLEAR * count;
-        self.degrees += usize::from(count > 0.0 && clear(degrees, radians));
-        self.radians += usize::from(count > 0.0 && clear(radians, degrees));
+        let moving = count as usize;
+        self.degrees += usize::from(moving > 0 && clear(degrees, radians));
+        self.radians += usize::from(moving > 0 && clear(radians, degrees));
+        for (states, sum) in self.states.iter_mut().zip([degrees, radians]) {
+            *states += if sum > ALONG * count { moving } else { 0 };
+        }
     }
 
-    /// Whether there is nothing to decide: radians are the rule, and no heading is outside of a turn. A car that
-    /// reverses to the east votes for degrees, too: one alone says nothing within a turn.
-    fn is_quiet(&self, usual: bool) -> bool {
-        !usual && self.degrees < 2 && !self.any_outside
+    /// Whether there is nothing to decide: no heading is outside of a turn, and the format has radians. Where it only
+    /// usually has, a car that reverses to the east votes for degrees, too: one alone says nothing within a turn.
+    fn is_quiet(&self, unit: HeadingUnit) -> bool {
+        !self.any_outside
+            && match unit {
+                HeadingUnit::Radians => true,
+                HeadingUnit::UsuallyRadians => self.degrees < 2,
+                HeadingUnit::UsuallyDegrees => false,
+            }
     }
 
     fn said_degrees(&self) -> ImportWarning {
@@ -77,31 +101,34 @@ impl Votes {
         ImportWarning::new("headings-in-degrees", message)
     }
 
-    /// Whether headings are degrees; without votes their size decides, else what is usual.
-    fn in_degrees(&self, usual: bool) -> bool {
-        match self.degrees.cmp(&self.radians) {
-            std::cmp::Ordering::Greater => true,
-            std::cmp::Ordering::Less => false,
-            std::cmp::Ordering::Equal => usual || 2 * self.outside > self.found,
+    /// Whether headings are degrees: the majority decides, then the size of headings, then what is usual.
+    fn in_degrees(&self, unit: HeadingUnit) -> bool {
+        let by_size = 2 * self.outside > self.found;
+        let (degrees, radians) = (self.degrees > self.radians, self.radians > self.degrees);
+        match unit {
+            HeadingUnit::Radians => by_size && !radians,
+            HeadingUnit::UsuallyRadians => {
+                (degrees && self.states[0] >= ENOUGH) || (by_size && !radians)
+            }
+            HeadingUnit::UsuallyDegrees => !(radians && self.states[1] >= ENOUGH),
         }
     }
 }
 
-/// Turns headings to radians within a turn. `usual`: the format states degrees, which the votes of moving road users
-/// overrule.
-pub(crate) fn settle(agents: &mut [Agent], usual: bool) -> Vec<ImportWarning> {
+/// Turns headings to radians within a turn, by the votes of the road users that move.
+pub(crate) fn settle(agents: &mut [Agent], unit: HeadingUnit) -> Vec<ImportWarning> {
     let votes = Votes::of(agents);
-    if votes.is_quiet(usual) {
+    if votes.is_quiet(unit) {
         return Vec::new();
     }
     let mut warnings = Vec::new();
-    if votes.in_degrees(usual) {
+    if votes.in_degrees(unit) {
         warnings.push(votes.said_degrees());
         let states = agents.iter_mut().flat_map(|agent| agent.track.states.iter_mut().flatten());
         states.for_each(|state| state.heading_rad = wrap_angle(state.heading_rad.to_radians()));
         return warnings;
     }
-    if usual {
+    if unit == HeadingUnit::UsuallyDegrees {
         let message = sentences::headings_along_radians(votes.radians, votes.degrees + votes.radians);
         warnings.push(ImportWarning::new("headings-in-radians", message));
     }
@@ -129,11 +156,11 @@ pub(crate) fn settle_samples(users: &mut [RecordedAgent]) -> Option<ImportWarnin
         };
         votes.add(samples.iter().enumerate().map(|(i, sample)| (sample.heading_rad, way(i))));
     }
-    if votes.is_quiet(false) {
+    if votes.is_quiet(HeadingUnit::Radians) {
         return None;
     }
     let samples = users.iter_mut().flat_map(|user| &mut user.samples);
-    if votes.in_degrees(false) {
+    if votes.in_degrees(HeadingUnit::Radians) {
         samples.for_each(|sample| sample.heading_rad = sample.heading_rad.to_radians());
         return Some(votes.said_degrees());
     }
@@ -166,8 +193,9 @@ mod tests {
         Agent::bare("1", AgentType::Vehicle, Subtype::Car, (0..5).map(state).collect())
     }
 
-    fn read(mut agents: Vec<Agent>, usual: bool) -> (Vec<f64>, Vec<&'static str>) {
-        let codes = settle(&mut agents, usual).iter().map(|warning| warning.code).collect();
+    fn read(mut agents: Vec<Agent>, degrees: bool) -> (Vec<f64>, Vec<&'static str>) {
+        let unit = if degrees { HeadingUnit::UsuallyDegrees } else { HeadingUnit::UsuallyRadians };
+        let codes = settle(&mut agents, unit).iter().map(|warning| warning.code).collect();
         (agents.iter().map(|agent| agent.track.states[0].unwrap_or_default().heading_rad).collect(), codes)
     }
 

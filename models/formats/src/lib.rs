@@ -85,5 +85,6 @@ pub use format::{
     COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes,
 };
 pub use loss::Loss;
+pub use pack::unzipped;
 pub use problem::{FieldProblem, ImportWarning, Imported, ReadError, RefusalKind, never_null, pointer_token};
 pub use source::Source;

@@ -1,6 +1,6 @@
 //! Faults of files that every reader repairs or reports in the same way, before a scene is checked.
 
-use crate::headings::{self, motion};
+use crate::headings::motion;
 use crate::limits::MAX_POLYLINE_POINTS;
 use crate::polyline::simplify;
 use crate::problem::ImportWarning;
@@ -22,23 +22,28 @@ const ACROSS: f64 = 0.5;
 const ENOUGH: usize = 3;
 
 /// Repairs a scene that was read, and says what was changed.
-pub(crate) fn repair(scene: &mut Scene) -> Vec<ImportWarning> {
-    let mut warnings = headings::settle(&mut scene.agents, false);
-    let across = scene.agents.iter().filter(|agent| lies_across(agent)).count();
-    warnings.extend(warning(across, "boxes-across", sentences::boxes_across));
-    warnings.extend(repair_map(&mut scene.map));
-    warnings
+pub(crate) fn repair(scene: &mut Scene) -> Option<ImportWarning> {
+    warning(thin_lines(&mut scene.map), "lines-thinned", sentences::lines_thinned)
 }
 
-/// Repairs a map that was read. One without a fault stays shared.
-pub(crate) fn repair_map(map: &mut Shared<LaneMap>) -> Vec<ImportWarning> {
-    let thinned = warning(thin_lines(map), "lines-thinned", sentences::lines_thinned);
-    let dropped = warning(drop_gaps(map), "links-dropped", sentences::links_apart);
-    thinned.into_iter().chain(dropped).collect()
+/// Notices road users whose boxes lie across their motion.
+pub(crate) fn notice_boxes(agents: &[Agent]) -> Option<ImportWarning> {
+    let across = agents.iter().filter(|agent| lies_across(agent)).count();
+    warning(across, "boxes-across", sentences::boxes_across)
 }
 
-/// Links lanes that end where others begin, as the engine would, so that the scene and its exports have the links.
+/// Drops links of lanes whose ends lie farther apart than about a lane's width: for the readers of maps, in which
+/// such a link is a fault. Recordings keep their links, since what is exported of them must be what was read.
+pub(crate) fn drop_far_links(map: &mut Shared<LaneMap>) -> Option<ImportWarning> {
+    warning(drop_gaps(map), "links-dropped", sentences::links_apart)
+}
+
+/// Links lanes that end where others begin, as the engine would, so that the scene and its exports have the links. A
+/// map with links of its own stays as it is.
 pub(crate) fn join_lanes(map: &mut LaneMap) -> Option<ImportWarning> {
+    if map.lanes.iter().any(|lane| !lane.successors.is_empty() || !lane.predecessors.is_empty()) {
+        return None;
+    }
     let links = LaneGraph::rebuilt_links(map);
     for (from, to) in &links {
         let [before, after] = [from, to].map(|i| map.lanes[*i].id.clone());

@@ -24,6 +24,7 @@ pub(crate) fn settled(
     options: &ImportOptions,
 ) -> Result<Imported, ReadError> {
     let now = scene.time.now_step;
+    warnings.extend(repairs::notice_boxes(&scene.agents));
     warnings.extend(nearest(&mut scene.agents, now));
     let by = origin(&scene, &map);
     shift(&mut scene, &mut map, by);

@@ -2,7 +2,7 @@
 
 use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
-use crate::headings;
+use crate::headings::{self, HeadingUnit};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
@@ -39,7 +39,8 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
         agents.push(agent(object, i, ids.take(&id.to_string()))?);
     }
     warnings.extend(ids.warning(subject::ROAD_USERS));
-    warnings.extend(headings::settle(&mut agents, flat));
+    let unit = if flat { HeadingUnit::UsuallyDegrees } else { HeadingUnit::UsuallyRadians };
+    warnings.extend(headings::settle(&mut agents, unit));
     let metadata = document.metadata.as_ref();
     let by_index = |i: i64| usize::try_from(i).ok().and_then(|i| agents.get(i)).map(|agent| agent.id.clone());
     let predict = metadata.iter().flat_map(|metadata| &metadata.tracks_to_predict);

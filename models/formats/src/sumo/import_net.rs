@@ -88,7 +88,7 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
         None => Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
     };
     let mut map = Shared::from(drawn.map);
-    warnings.extend(repairs::repair_map(&mut map));
+    warnings.extend(repairs::drop_far_links(&mut map));
     Ok(NetScene { map, origin, place, half, warnings, places, programs })
 }
 

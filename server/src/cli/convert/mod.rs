@@ -251,10 +251,27 @@ fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Conv
         }
         converted.lines.extend(notes(source, &item.notes));
         let file = written(&item, args, true, &mut converted)?;
-        converted.parts.push(file.bytes);
+        converted.parts.push(scenario_alone(args, file.bytes)?);
         Ok(())
     });
     if converted.deferred { Ok(converted) } else { read.map(|_| converted) }
+}
+
+/// For an output that is named `.xosc`, the scenario without its zip; the map that it names goes beside it.
+fn scenario_alone(args: &ConvertArgs, bytes: Vec<u8>) -> Result<Vec<u8>, Failure> {
+    let output = args.output.as_deref();
+    let named = output.filter(|path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("xosc")));
+    let Some(path) = named.filter(|_| args.to == "openscenario") else { return Ok(bytes) };
+    let broken = |error: std::io::Error| Failure::new(Exit::Failure, error.to_string());
+    let mut scenario = Vec::new();
+    for (name, bytes) in formats::unzipped(&bytes).map_err(broken)? {
+        if name.ends_with(".xosc") {
+            scenario = bytes;
+        } else {
+            output::write(Some(&path.with_file_name(name)), &bytes, args.force)?;
+        }
+    }
+    Ok(scenario)
 }
 
 /// A file of many scenes, one after the other into the output.

@@ -22,8 +22,9 @@ const LANE_WIDTH_M: f64 = 3.2;
 
 /// Most characters of a projection.
 const PROJECTION_CHARS: usize = 500;
-/// Ends of lanes this near to each other need no way between them, metres.
-const MEETING_M: f64 = 0.5;
+/// Ends of lanes this near to each other need no way between them, and farther ones than a junction is wide have
+/// none, metres.
+const WAY_M: (f64, f64) = (0.5, 60.0);
 
 /// The element below the root that is open.
 #[derive(Default)]
@@ -187,7 +188,7 @@ fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
         return None;
     };
     let gap_m = (start - end).norm();
-    if gap_m < MEETING_M {
+    if !(WAY_M.0..=WAY_M.1).contains(&gap_m) {
         return None;
     }
     let reach = |way: Vec2| way * (gap_m / way.norm().max(1e-9));
