@@ -134,16 +134,22 @@ mod tests {
             let begin = format!("<?xml version='1.0' encoding='{label}'?><a n='");
             [begin.as_bytes(), letter, b"'/>"].concat()
         };
-        for (label, letter) in [("ISO-8859-1", &b"\xdf"[..]), ("windows-1252", b"\xdf"), ("UTF-8", "ß".as_bytes())]
+        for (label, letter) in
+            [("ISO-8859-1", &b"\xdf"[..]), ("windows-1252", b"\xdf"), ("UTF-8", "ß".as_bytes())]
         {
             assert!(text(&with(label, letter)).ends_with("<a n='ß'/>"), "{label}");
         }
         assert!(text(&with("iso-8859-2", b"\xb3")).ends_with("<a n='ł'/>"));
         let utf_16 = |bytes: fn(u16) -> [u8; 2], mark: bool| -> Vec<u8> {
             let mark = if mark { "\u{feff}" } else { "" };
-            format!("{mark}<?xml version='1.0' encoding='UTF-16'?><a n='ß'/>").encode_utf16().flat_map(bytes).collect()
+            format!("{mark}<?xml version='1.0' encoding='UTF-16'?><a n='ß'/>")
+                .encode_utf16()
+                .flat_map(bytes)
+                .collect()
         };
-        for file in [utf_16(u16::to_le_bytes, true), utf_16(u16::to_be_bytes, true), utf_16(u16::to_le_bytes, false)] {
+        for file in
+            [utf_16(u16::to_le_bytes, true), utf_16(u16::to_be_bytes, true), utf_16(u16::to_le_bytes, false)]
+        {
             assert!(text(&file).ends_with("<a n='ß'/>"));
         }
         let long = format!("<a>{}</a>", "ü".repeat(40_000));

@@ -1,13 +1,12 @@
 //! The unit of headings: what moving road users agree on, and headings outside of a turn.
 
 use crate::problem::ImportWarning;
-use crate::recording::RecordedAgent;
 use crate::sentences;
 use scene::{Agent, STEP_S, State, Vec2, geometry, wrap_angle};
 use std::f64::consts::TAU;
 
 /// Above this speed motion follows the heading, m/s.
-const MOVES_MPS: f64 = 1.0;
+pub(crate) const MOVES_MPS: f64 = 1.0;
 /// Least mean cosine of heading and motion of a road user that goes along its heading, and least difference to the
 /// other unit's: a road user that both units suit has no vote.
 const ALONG: f64 = 0.8;
@@ -28,7 +27,7 @@ pub(crate) enum HeadingUnit {
 
 /// Votes of road users on the unit of their headings.
 #[derive(Clone, Copy, Debug, Default)]
-struct Votes {
+pub(crate) struct Votes {
     degrees: usize,
     radians: usize,
     /// Moving states of those that degrees suit, and radians.
@@ -59,7 +58,7 @@ impl Votes {
     }
 
     /// Adds a road user: its headings, each with its motion where it moves.
-    fn add(&mut self, states: impl Iterator<Item = (f64, Option<Vec2>)>) {
+    pub fn add(&mut self, states: impl Iterator<Item = (f64, Option<Vec2>)>) {
         let (mut count, mut degrees, mut radians) = (0.0, 0.0, 0.0);
         let (mut known, mut outside) = (0, 0);
         for (heading, way) in states.filter(|(heading, _)| heading.is_finite()) {
@@ -84,7 +83,7 @@ impl Votes {
 
     /// Whether there is nothing to decide: no heading is outside of a turn, and the format has radians. Where it only
     /// usually has, a car that reverses to the east votes for degrees, too: one alone says nothing within a turn.
-    fn is_quiet(&self, unit: HeadingUnit) -> bool {
+    pub fn is_quiet(&self, unit: HeadingUnit) -> bool {
         !self.any_outside
             && match unit {
                 HeadingUnit::Radians => true,
@@ -93,7 +92,7 @@ impl Votes {
             }
     }
 
-    fn said_degrees(&self) -> ImportWarning {
+    pub fn said_degrees(&self) -> ImportWarning {
         let message = match self.degrees {
             0 => sentences::headings_in_degrees(self.outside, self.found),
             agree => sentences::headings_along_degrees(agree, agree + self.radians),
@@ -102,14 +101,12 @@ impl Votes {
     }
 
     /// Whether headings are degrees: the majority decides, then the size of headings, then what is usual.
-    fn in_degrees(&self, unit: HeadingUnit) -> bool {
+    pub fn in_degrees(&self, unit: HeadingUnit) -> bool {
         let by_size = 2 * self.outside > self.found;
         let (degrees, radians) = (self.degrees > self.radians, self.radians > self.degrees);
         match unit {
             HeadingUnit::Radians => by_size && !radians,
-            HeadingUnit::UsuallyRadians => {
-                (degrees && self.states[0] >= ENOUGH) || (by_size && !radians)
-            }
+            HeadingUnit::UsuallyRadians => (degrees && self.states[0] >= ENOUGH) || (by_size && !radians),
             HeadingUnit::UsuallyDegrees => !(radians && self.states[1] >= ENOUGH),
         }
     }
@@ -144,31 +141,8 @@ pub(crate) fn settle(agents: &mut [Agent], unit: HeadingUnit) -> Vec<ImportWarni
     warnings
 }
 
-/// The same for samples of a recording, which may stand at any time.
-pub(crate) fn settle_samples(users: &mut [RecordedAgent]) -> Option<ImportWarning> {
-    let mut votes = Votes::default();
-    for user in users.iter() {
-        let samples = &user.samples;
-        let way = |i: usize| {
-            let (a, b) = (samples.get(i)?, samples.get(i + 1)?);
-            let way = (b.at - a.at) / (b.time_s - a.time_s);
-            Some(way).filter(|way| way.norm().is_finite() && way.norm() > MOVES_MPS)
-        };
-        votes.add(samples.iter().enumerate().map(|(i, sample)| (sample.heading_rad, way(i))));
-    }
-    if votes.is_quiet(HeadingUnit::Radians) {
-        return None;
-    }
-    let samples = users.iter_mut().flat_map(|user| &mut user.samples);
-    if votes.in_degrees(HeadingUnit::Radians) {
-        samples.for_each(|sample| sample.heading_rad = sample.heading_rad.to_radians());
-        return Some(votes.said_degrees());
-    }
-    let outside = samples.filter(|sample| sample.heading_rad.abs() > TAU);
-    said_wrapped(outside.map(|sample| sample.heading_rad = wrap_angle(sample.heading_rad)).count())
-}
-
-fn said_wrapped(count: usize) -> Option<ImportWarning> {
+/// Says how many headings were wrapped.
+pub(crate) fn said_wrapped(count: usize) -> Option<ImportWarning> {
     (count > 0).then(|| ImportWarning::new("headings-wrapped", sentences::headings_wrapped(count)))
 }
 

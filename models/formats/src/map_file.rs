@@ -3,8 +3,8 @@
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one_scene, only, only_read,
 };
-use crate::problem::{ImportWarning, Imported, ReadError, checked};
-use crate::repairs;
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::repairs::{self, checked};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::map::LaneMap;

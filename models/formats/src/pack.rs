@@ -28,9 +28,10 @@ pub fn unzipped(bytes: &[u8]) -> io::Result<Vec<(String, Vec<u8>)>> {
     let mut files = Vec::new();
     for i in 0..zip.len() {
         let mut file = zip.by_index(i)?;
+        let name = file.name()?.into_owned();
         let mut content = Vec::new();
         file.read_to_end(&mut content)?;
-        files.push((file.name().to_owned(), content));
+        files.push((name, content));
     }
     Ok(files)
 }

@@ -1,6 +1,5 @@
 //! Faults of outside data, in one shape for every format.
 
-use crate::repairs;
 use crate::sentences;
 use scene::message::Message;
 use scene::{Scene, SceneError};
@@ -270,15 +269,6 @@ impl ImportWarning {
 
 /// A scene and what its reader changed or left out.
 pub type Imported = (Scene, Vec<ImportWarning>);
-
-/// What a reader made, with the faults of its file repaired, if it is within the bounds of a scene.
-pub(crate) fn checked(mut scene: Scene, mut warnings: Vec<ImportWarning>) -> Result<Imported, ReadError> {
-    warnings.extend(repairs::repair(&mut scene));
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
-}
 
 /// Faults collected while reading one document.
 #[derive(Debug, Default)]

@@ -145,8 +145,7 @@ pub fn scenes<'a>(
     format: &str,
     options: &'a ImportOptions,
 ) -> Result<Scenes<'a>, ReadError> {
-    let found =
-        if format == "auto" { identified(file, name)? } else { by_id(format).ok_or_else(unknown)? };
+    let found = if format == "auto" { identified(file, name)? } else { by_id(format).ok_or_else(unknown)? };
     let called = called(name, &found.info());
     let named = move |(mut scene, warnings): Imported| {
         if scene.name.is_empty() {

@@ -3,7 +3,7 @@
 use crate::headings::motion;
 use crate::limits::MAX_POLYLINE_POINTS;
 use crate::polyline::simplify;
-use crate::problem::ImportWarning;
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError};
 use crate::sentences;
 use scene::map::{Boundary, Lane, LaneMap, Neighbor, Points};
 use scene::message::Message;
@@ -21,9 +21,14 @@ const LONG: f64 = 1.3;
 const ACROSS: f64 = 0.5;
 const ENOUGH: usize = 3;
 
-/// Repairs a scene that was read, and says what was changed.
-pub(crate) fn repair(scene: &mut Scene) -> Option<ImportWarning> {
-    warning(thin_lines(&mut scene.map), "lines-thinned", sentences::lines_thinned)
+/// What a reader made, with the faults of its file repaired, if it is within the bounds of a scene.
+pub(crate) fn checked(mut scene: Scene, mut warnings: Vec<ImportWarning>) -> Result<Imported, ReadError> {
+    let thinned = thin_lines(&mut scene.map);
+    warnings.extend(warning(thinned, "lines-thinned", sentences::lines_thinned));
+    match scene.checked() {
+        Ok(scene) => Ok((scene, warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
 }
 
 /// Notices road users whose boxes lie across their motion.
@@ -159,8 +164,7 @@ fn renumber_neighbor(side: &mut Neighbor, own: Option<&Vec<usize>>, other: Optio
 
 /// Drops links of lanes whose ends lie farther apart than about a lane's width. Gives how many there were.
 fn drop_gaps(map: &mut Shared<LaneMap>) -> usize {
-    let by_id: HashMap<&str, &Lane> =
-        map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
+    let by_id: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
     let apart = |from: &Lane, to: &Lane| {
         let width_m = from.width_or_assumed_m().max(to.width_or_assumed_m()).clamp(GAP_M.0, GAP_M.1);
         let ends = from.points.xy.last().zip(to.points.xy.first());
@@ -171,7 +175,9 @@ fn drop_gaps(map: &mut Shared<LaneMap>) -> usize {
         let named = |id: &String| by_id.get(id.as_str()).copied();
         let after = lane.successors.iter().filter_map(named).map(|next| (lane, next));
         let before = lane.predecessors.iter().filter_map(named).map(|before| (before, lane));
-        gaps.extend(after.chain(before).filter(|(a, b)| apart(a, b)).map(|(a, b)| (a.id.clone(), b.id.clone())));
+        gaps.extend(
+            after.chain(before).filter(|(a, b)| apart(a, b)).map(|(a, b)| (a.id.clone(), b.id.clone())),
+        );
     }
     if gaps.is_empty() {
         return 0;
@@ -207,16 +213,18 @@ mod tests {
             boundaries: Vec::new(),
         });
         let map = LaneMap { lanes: vec![lane, other], ..LaneMap::default() };
-        let mut scene = Scene::bare("a", map, Vec::new());
-        let codes: Vec<&str> = repair(&mut scene).iter().map(|warning| warning.code).collect();
+        let (scene, warnings) = checked(Scene::bare("a", map, Vec::new()), Vec::new()).unwrap();
+        let codes: Vec<&str> = warnings.iter().map(|warning| warning.code).collect();
         assert_eq!(codes, ["lines-thinned"]);
         let [lane, other] = &scene.map.lanes[..] else { unreachable!("two lanes") };
         let points = &lane.points;
         assert!((2..=MAX_POLYLINE_POINTS).contains(&points.xy.len()));
         let last = points.xy.len() - 1;
-        assert_eq!((points.xy[last], points.z_m.as_ref().map(|z| z[last])), (line(9_000).xy[8_999], Some(8_999.0)));
+        assert_eq!(
+            (points.xy[last], points.z_m.as_ref().map(|z| z[last])),
+            (line(9_000).xy[8_999], Some(8_999.0))
+        );
         assert_eq!((lane.left_boundary[0].to, other.left_neighbors[0].other_range.1), (last, last));
-        assert!(scene.checked().is_ok());
     }
 
     #[test]
@@ -237,7 +245,8 @@ mod tests {
     #[test]
     fn boxes_across_their_motion_are_noticed() {
         let user = |length_m: f64, width_m: f64, heading_rad: f64| {
-            let state = |i: i32| Some(State { x_m: f64::from(i), heading_rad, vx_mps: 10.0, ..State::default() });
+            let state =
+                |i: i32| Some(State { x_m: f64::from(i), heading_rad, vx_mps: 10.0, ..State::default() });
             let mut agent = Agent::bare("1", AgentType::Vehicle, Subtype::Car, (0..9).map(state).collect());
             (agent.size.length_m, agent.size.width_m) = (length_m, width_m);
             agent

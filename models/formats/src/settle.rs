@@ -3,8 +3,8 @@
 use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{ImportWarning, Imported, ReadError, checked};
-use crate::repairs;
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::repairs::{self, checked};
 use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};

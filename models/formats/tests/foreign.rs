@@ -64,16 +64,14 @@ mod opendrive {
         };
         let on = "<successor elementType='road' elementId='2' contactPoint='start'/>";
         let back = "<predecessor elementType='road' elementId='1' contactPoint='end'/>";
-        format!(
-            "<OpenDRIVE><header/>{}{}</OpenDRIVE>",
-            road(1, 0.0, on, first),
-            road(2, 50.0, back, second)
-        )
+        format!("<OpenDRIVE><header/>{}{}</OpenDRIVE>", road(1, 0.0, on, first), road(2, 50.0, back, second))
     }
 
     fn section(s: f64, lanes: &[(i32, &str)]) -> String {
         let one = |(id, link): &(i32, &str)| {
-            format!("<lane id='{id}' type='driving'><link>{link}</link><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>")
+            format!(
+                "<lane id='{id}' type='driving'><link>{link}</link><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
+            )
         };
         let side = |left: bool| -> String {
             lanes.iter().filter(|(id, _)| (*id > 0) == left).map(one).collect::<Vec<_>>().join("")
@@ -128,7 +126,14 @@ mod opendrive {
     #[test]
     fn links_across_gaps_are_dropped_and_said() {
         let imported = map(include_str!("fixtures/foreign/xodr-link-across-40-m.xodr"), "a.xodr");
-        assert!(imported.0.map.lanes.iter().all(|lane| lane.successors.is_empty() && lane.predecessors.is_empty()));
+        assert!(
+            imported
+                .0
+                .map
+                .lanes
+                .iter()
+                .all(|lane| lane.successors.is_empty() && lane.predecessors.is_empty())
+        );
         assert!(codes(&imported).contains(&"links-dropped"), "{:?}", codes(&imported));
     }
 
@@ -140,7 +145,10 @@ mod opendrive {
         // Walkers pass in both directions.
         let graph = scene::routes::LaneGraph::new(&imported.0.map);
         let near = |p: Vec2| (place(&imported.0, p) - Vec2::new(0.0, 0.0)).norm() < 3.0;
-        let passes = graph.lanes().iter().filter(|lane| lane.lane_type == LaneType::Sidewalk && near(lane.path.last().position));
+        let passes = graph
+            .lanes()
+            .iter()
+            .filter(|lane| lane.lane_type == LaneType::Sidewalk && near(lane.path.last().position));
         let joined: usize = passes.map(|lane| lane.successors.len()).sum();
         assert!(joined >= 2, "{joined}");
     }
@@ -189,7 +197,10 @@ mod opendrive {
         assert_eq!(links(&scene.map), [("1.0.-1", "1.1.-1"), ("1.1.-1", "2.0.-1")]);
         // A lane's own limits, too.
         let own = "<speed sOffset='0' max='20' unit='m/s'/><speed sOffset='30' max='10' unit='m/s'/></lane>";
-        let (scene, _) = map(&two_roads(&lanes.replacen("</lane></right>", &(own.to_owned() + "</right>"), 1), &second), "a.xodr");
+        let (scene, _) = map(
+            &two_roads(&lanes.replacen("</lane></right>", &(own.to_owned() + "</right>"), 1), &second),
+            "a.xodr",
+        );
         let limit = |id: &str| lane(&scene.map, id).speed_limit_mps;
         assert_eq!((limit("1.0.-1"), limit("1.1.-1")), (Some(20.0), Some(10.0)));
     }
@@ -199,7 +210,10 @@ mod opendrive {
         let whole = section(0.0, &[(-1, ""), (1, "")]);
         let single = "<laneSection s='20' singleSide='true'><right><lane id='-1' type='driving'><link/><width sOffset='0' a='2.5' b='0' c='0' d='0'/></lane></right></laneSection>";
         let (scene, _) = map(&two_roads(&(whole + single), &section(0.0, &[(-1, "")])), "a.xodr");
-        assert_eq!((lane(&scene.map, "1.1.1").width_m, lane(&scene.map, "1.1.-1").width_m), (Some(3.5), Some(2.5)));
+        assert_eq!(
+            (lane(&scene.map, "1.1.1").width_m, lane(&scene.map, "1.1.-1").width_m),
+            (Some(3.5), Some(2.5))
+        );
         assert!(links(&scene.map).contains(&("1.1.1", "1.0.1")));
     }
 
@@ -234,16 +248,19 @@ mod lanelet2 {
 
     #[test]
     fn subtypes_and_participants_decide_who_may_pass() {
+        use LaneType::{BikeLane, BusLane, Sidewalk, SurfaceStreet};
         let types = |text: &str| -> Vec<LaneType> {
             map(text, "a.osm").0.map.lanes.iter().map(|lane| lane.lane_type).collect()
         };
-        assert_eq!(types(SHOULDER), [LaneType::SurfaceStreet]);
+        assert_eq!(types(SHOULDER), [SurfaceStreet]);
         let other = |tags: &str| types(&SHOULDER.replace("<tag k=\"subtype\" v=\"road_shoulder\"/>", tags));
-        use LaneType::{BikeLane, BusLane, Sidewalk, SurfaceStreet};
         for (tags, expected) in [
             ("<tag k='subtype' v='emergency_lane'/>", None),
             ("<tag k='subtype' v='something_else'/>", None),
-            ("<tag k='subtype' v='road_shoulder'/><tag k='participant:vehicle' v='yes'/>", Some(SurfaceStreet)),
+            (
+                "<tag k='subtype' v='road_shoulder'/><tag k='participant:vehicle' v='yes'/>",
+                Some(SurfaceStreet),
+            ),
             ("<tag k='subtype' v='road_shoulder'/><tag k='participant:vehicle' v='no'/>", None),
             ("<tag k='subtype' v='road'/><tag k='participant:vehicle:emergency' v='yes'/>", None),
             ("<tag k='subtype' v='road'/><tag k='participant:vehicle:bus' v='yes'/>", Some(BusLane)),
@@ -302,7 +319,8 @@ mod lanelet2 {
         let source = |text: &str| map(text, "a.osm").0.meta.source;
         assert_eq!(source(include_str!("fixtures/foreign/lanelet2-josm-bounds.osm")), "lanelet2");
         // Lanelets may stand far behind.
-        let far = SIGN.replace("<node id=\"1\"", &format!("<!-- {} --><node id=\"1\"", "CGImap ".repeat(60_000)));
+        let far =
+            SIGN.replace("<node id=\"1\"", &format!("<!-- {} --><node id=\"1\"", "CGImap ".repeat(60_000)));
         assert_eq!(source(&far), "lanelet2");
         // Roads without lanelets go to the other reader, which asks for netconvert.
         let saved = include_str!("fixtures/foreign/osm-saved-by-josm.osm");
@@ -322,13 +340,18 @@ mod sumo {
         let scene = &imported.0;
         assert!(codes(&imported).contains(&"left-hand"));
         let ys = |points: &[Vec2]| -> (f64, f64) {
-            points.iter().map(|p| place(scene, *p).y).fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)))
+            points
+                .iter()
+                .map(|p| place(scene, *p).y)
+                .fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)))
         };
         let ground: Vec<(f64, f64)> = scene.map.drivable.iter().map(|area| ys(&area.polygon.xy)).collect();
-        let (low, high) = ground.iter().fold((0.0_f64, 0.0_f64), |(a, b), (low, high)| (a.min(*low), b.max(*high)));
+        let (low, high) =
+            ground.iter().fold((0.0_f64, 0.0_f64), |(a, b), (low, high)| (a.min(*low), b.max(*high)));
         assert!((low + 6.4).abs() < 0.05 && (high - 6.4).abs() < 0.05, "{ground:?}");
         for lane in &scene.map.lanes {
-            let inside = lane.points.xy.iter().all(|p| scene.map.drivable.iter().any(|area| area.is_near(*p, 0.01)));
+            let inside =
+                lane.points.xy.iter().all(|p| scene.map.drivable.iter().any(|area| area.is_near(*p, 0.01)));
             assert!(inside, "lane {}", lane.id);
         }
         // The middle line lies between the directions, kerbs at the sides.
@@ -364,15 +387,23 @@ mod sumo {
         let way = lane(&scene.map, "4");
         assert!(way.interpolating && scene.signals[0].lane == "4");
         let ends = (place(scene, way.points.xy[0]), place(scene, *way.points.xy.last().unwrap()));
-        assert!((ends.0 - Vec2::new(-10.0, -1.6)).norm() < 0.01 && (ends.1 - Vec2::new(1.6, 10.0)).norm() < 0.01);
-        let within = |p: &Vec2| (-10.1..=2.0).contains(&place(scene, *p).x) && (-2.0..=10.1).contains(&place(scene, *p).y);
+        assert!(
+            (ends.0 - Vec2::new(-10.0, -1.6)).norm() < 0.01 && (ends.1 - Vec2::new(1.6, 10.0)).norm() < 0.01
+        );
+        let within = |p: &Vec2| {
+            (-10.1..=2.0).contains(&place(scene, *p).x) && (-2.0..=10.1).contains(&place(scene, *p).y)
+        };
         assert!(way.points.xy.iter().all(within));
     }
 
     #[test]
     fn lanes_with_more_points_than_a_scene_holds_are_read() {
-        let shape: Vec<String> = (0..6_000).map(|i| format!("{:.2},{:.2}", f64::from(i) * 0.1, f64::from(i % 2) * 0.1)).collect();
-        let net = format!("<net><edge id=\"a\" from=\"w\" to=\"e\"><lane id=\"a_0\" index=\"0\" speed=\"13.9\" length=\"600\" shape=\"{}\"/></edge></net>", shape.join(" "));
+        let shape: Vec<String> =
+            (0..6_000).map(|i| format!("{:.2},{:.2}", f64::from(i) * 0.1, f64::from(i % 2) * 0.1)).collect();
+        let net = format!(
+            "<net><edge id=\"a\" from=\"w\" to=\"e\"><lane id=\"a_0\" index=\"0\" speed=\"13.9\" length=\"600\" shape=\"{}\"/></edge></net>",
+            shape.join(" ")
+        );
         assert!(map(&net, "a.net.xml").0.map.lanes[0].points.xy.len() > 100);
     }
 }
@@ -387,7 +418,8 @@ mod engines {
         assert_eq!(links(&imported.0.map).len(), 2);
         assert_eq!(imported.0.map.lanes[0].successors.len(), 2);
         let net = written(&imported.0, "sumo-net");
-        let connections = net.lines().filter(|line| line.contains("<connection") && !line.contains("from=\":"));
+        let connections =
+            net.lines().filter(|line| line.contains("<connection") && !line.contains("from=\":"));
         assert_eq!(connections.count(), 2, "{net}");
     }
 
@@ -430,12 +462,16 @@ mod scenarionet {
         let states = vec![Some(scene::State::default()); 11];
         let car = scene::Agent::bare("1", scene::AgentType::Vehicle, scene::Subtype::Car, states);
         let scene = Scene::bare("a", map, vec![car]);
-        let file = registry::by_id("scenarionet").unwrap().export(&[&scene], &ExportOptions::default()).unwrap();
+        let file =
+            registry::by_id("scenarionet").unwrap().export(&[&scene], &ExportOptions::default()).unwrap();
         let imported = import(&file.bytes, "sd.pkl").unwrap();
         assert_eq!(codes(&imported), ["lines-thinned"]);
         let found = &imported.0.map.road_lines[0].points.xy;
         assert!((20..=4_096).contains(&found.len()), "{}", found.len());
-        let off = line.iter().map(|p| formats::polyline::distance_to(found, p - line[0] + found[0])).fold(0.0, f64::max);
+        let off = line
+            .iter()
+            .map(|p| formats::polyline::distance_to(found, p - line[0] + found[0]))
+            .fold(0.0, f64::max);
         assert!(off < 0.1, "{off}");
     }
 }
@@ -471,7 +507,9 @@ mod tables {
 
     #[test]
     fn degrees_become_metres() {
-        let rows: Vec<String> = (0..5).map(|i| format!("a,{},48.1,{:.9}", f64::from(i) * 0.1, 11.5 + f64::from(i) * 1.342_62e-5)).collect();
+        let rows: Vec<String> = (0..5)
+            .map(|i| format!("a,{},48.1,{:.9}", f64::from(i) * 0.1, 11.5 + f64::from(i) * 1.342_62e-5))
+            .collect();
         let text = format!("agent_id,time_s,lat_deg,lon_deg\n{}\n", rows.join("\n"));
         let (scene, _) = map(&text, "a.csv");
         assert!(scene.meta.origin.crs.as_ref().unwrap().contains("tmerc"));
@@ -486,7 +524,8 @@ mod tables {
              1; Car; 48.85; 9.77; 37.977391; 23.737688; 4.9; 0; 0; 0.0; 37.977392; 23.737689; 4.9; 0; 0; 0.1; \n\
              2; Bus; 98.09; 19.84; 37.977642; 23.737400; 16.9; 0; 0; 0.0; 37.977643; 23.737402; 16.9; 0; 0; 0.1; 37.977644; 23.737404; 16.9; 0; 0; 0.2; \n";
         let (scene, _) = read(text, "pneuma");
-        let lengths: Vec<usize> = scene.agents.iter().map(|agent| agent.track.valid_steps().count()).collect();
+        let lengths: Vec<usize> =
+            scene.agents.iter().map(|agent| agent.track.valid_steps().count()).collect();
         assert_eq!((scene.agents.len(), lengths), (2, vec![2, 3]));
         assert_eq!(scene.agents[1].subtype, scene::Subtype::Bus);
     }

@@ -47,7 +47,10 @@ fn a_scenario_is_read() {
     let counts = [map.lanes.len(), map.crosswalks.len(), map.stop_signs.len()];
     assert_eq!(counts, [2, 1, 1]);
     // The file has no links; where one lane ends another begins.
-    assert_eq!((LaneGraph::new(map).lanes()[0].successors.as_slice(), map.lanes[0].successors.len()), (&[1][..], 1));
+    assert_eq!(
+        (LaneGraph::new(map).lanes()[0].successors.as_slice(), map.lanes[0].successors.len()),
+        (&[1][..], 1)
+    );
     let shown: Vec<_> = (0..4).map(|step| scene.signals[0].at(step)).collect();
     use SignalState::{ArrowGo, Stop, Unknown};
     assert_eq!(

@@ -306,7 +306,8 @@ fn networked(scenes: [&Scene; 2], codes: &BTreeSet<&str>, format: &str) -> Resul
             .filter(|other| leads(other))
             .map(|other| back[&other.id].id.as_str())
             .collect();
-        let near = |id: &&String| after.map.lanes.iter().any(|other| other.id == **id && meet(again, other, 0.4));
+        let near =
+            |id: &&String| after.map.lanes.iter().any(|other| other.id == **id && meet(again, other, 0.4));
         let is_drawn = |id: &&String| back.values().any(|lane| lane.id == **id);
         let its = again.successors.iter().filter(near).filter(is_drawn);
         let its: BTreeSet<&str> = its.map(String::as_str).collect();

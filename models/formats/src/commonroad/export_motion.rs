@@ -42,7 +42,8 @@ pub(super) struct PlanningTask {
 /// a scenario has one at least.
 pub(super) fn write_made(scene: &Scene, id: i64, out: &mut Markup) {
     let lanes = &scene.map.lanes;
-    let length = |lane: &&Lane| if lane.lane_type.carries_vehicles() { length(&lane.points.xy) } else { -1.0 };
+    let length =
+        |lane: &&Lane| if lane.lane_type.carries_vehicles() { length(&lane.points.xy) } else { -1.0 };
     let longest = lanes.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
     let Some([first, second, ..]) = longest.map(|lane| lane.points.xy.as_slice()) else { return };
     let way = second - first;

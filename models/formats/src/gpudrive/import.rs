@@ -95,7 +95,8 @@ fn agent(object: &Object, index: usize, id: String) -> Result<Agent, ReadError> 
         _ => AgentType::Other,
     };
     let state = |i: usize| {
-        let (at, v, heading_rad) = (object.position.get(i)?, object.velocity.get(i)?, *object.heading.get(i)?);
+        let (at, v, heading_rad) =
+            (object.position.get(i)?, object.velocity.get(i)?, *object.heading.get(i)?);
         Some(State { x_m: at.x, y_m: at.y, heading_rad, vx_mps: v.x, vy_mps: v.y })
     };
     let seen = |i: usize| object.valid.get(i) == Some(&true);

@@ -21,7 +21,8 @@ const JUNCTION_M: f64 = 60.0;
 const EXTRACT: &str = "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
 
 /// ... and of a map in which nobody may pass.
-const NONE_OPEN: &str = "no lanelets with two sides that a road user may pass: subtypes and participants decide";
+const NONE_OPEN: &str =
+    "no lanelets with two sides that a road user may pass: subtypes and participants decide";
 
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
 ///
@@ -130,7 +131,8 @@ fn speed(text: &str) -> Option<f64> {
 /// The limit of a sign such as `de274-60`, or of a type that is a speed itself, m/s.
 fn sign_limit(sign_type: &str) -> Option<f64> {
     let text = sign_type.trim().to_ascii_lowercase();
-    let number = |text: &str, unit: &str| speed(&format!("{} {unit}", text.trim_start_matches(['-', ':', '_'])));
+    let number =
+        |text: &str, unit: &str| speed(&format!("{} {unit}", text.trim_start_matches(['-', ':', '_'])));
     let german = text.strip_prefix("de").unwrap_or(&text);
     if let Some(rest) = german.strip_prefix("274.1").or_else(|| german.strip_prefix("274")) {
         return if rest.is_empty() { speed("30") } else { number(rest, "km/h") };
@@ -228,9 +230,12 @@ fn line_type(tags: &Tags) -> Option<&'static str> {
 fn paint(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
     let mut done = HashSet::new();
     for (lanelet, drawn) in lanelets.iter().zip(lanes) {
-        let ways = lanelet.ways.iter().enumerate().flat_map(|(side, ways)| ways.iter().map(move |way| (side, way)));
+        let ways =
+            lanelet.ways.iter().enumerate().flat_map(|(side, ways)| ways.iter().map(move |way| (side, way)));
         for (side, way) in ways {
-            let Some((line, line_type)) = osm.ways.get(way).and_then(|way| Some((way, line_type(&way.tags)?))) else {
+            let Some((line, line_type)) =
+                osm.ways.get(way).and_then(|way| Some((way, line_type(&way.tags)?)))
+            else {
                 continue;
             };
             let whole = lanelet.ways[side].len() == 1;
@@ -246,7 +251,8 @@ fn paint(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut La
             let kind = ROAD_LINE_TYPES.iter().position(|word| *word == line_type);
             for (lane, forward) in drawn.iter().zip([true, false]) {
                 let lane = &mut map.lanes[*lane];
-                let (from, to) = if whole { (0, lane.points.xy.len() - 1) } else { beside(&lane.points.xy, &points) };
+                let (from, to) =
+                    if whole { (0, lane.points.xy.len() - 1) } else { beside(&lane.points.xy, &points) };
                 let kind = kind.and_then(|kind| u32::try_from(kind).ok());
                 let boundary = Boundary { line: way.to_string(), from, to, kind };
                 let left = (side == 0) == forward;

@@ -125,14 +125,14 @@ fn lanelet<'a>(osm: &Osm, relation: &'a OsmRelation) -> Option<Lanelet<'a>> {
 
 /// Road users that a lanelet is for.
 #[derive(Clone, Copy, Default)]
-struct Passing {
+struct LaneletUsers {
     cars: bool,
     buses: bool,
     cyclists: bool,
     walkers: bool,
 }
 
-impl Passing {
+impl LaneletUsers {
     /// Those stated; a finer word counts before a coarser one, and who is not stated does not pass.
     fn stated(participants: &[(String, bool)]) -> Self {
         let passes = |words: &[&str]| {
@@ -166,18 +166,18 @@ impl Passing {
 fn kind(relation: &OsmRelation) -> Option<LaneletKind> {
     let subtype = relation.tags.get("subtype").map_or("", String::as_str);
     let passing = match relation.participants.as_slice() {
-        [] => Passing::of_subtype(subtype),
-        participants => Passing::stated(participants),
+        [] => LaneletUsers::of_subtype(subtype),
+        participants => LaneletUsers::stated(participants),
     };
     let lane_type = match passing {
-        Passing { walkers: true, .. } if subtype == "crosswalk" => return Some(LaneletKind::Crosswalk),
-        Passing { cars: true, .. } if subtype == "highway" => LaneType::Freeway,
+        LaneletUsers { walkers: true, .. } if subtype == "crosswalk" => return Some(LaneletKind::Crosswalk),
+        LaneletUsers { cars: true, .. } if subtype == "highway" => LaneType::Freeway,
         // Who else may pass a bus lane does not make it a lane for all.
-        Passing { buses: true, .. } if subtype == "bus_lane" => LaneType::BusLane,
-        Passing { cars: true, .. } => LaneType::SurfaceStreet,
-        Passing { buses: true, .. } => LaneType::BusLane,
-        Passing { walkers: true, .. } => LaneType::Sidewalk,
-        Passing { cyclists: true, .. } => LaneType::BikeLane,
+        LaneletUsers { buses: true, .. } if subtype == "bus_lane" => LaneType::BusLane,
+        LaneletUsers { cars: true, .. } => LaneType::SurfaceStreet,
+        LaneletUsers { buses: true, .. } => LaneType::BusLane,
+        LaneletUsers { walkers: true, .. } => LaneType::Sidewalk,
+        LaneletUsers { cyclists: true, .. } => LaneType::BikeLane,
         _ => return None,
     };
     Some(LaneletKind::Lane(lane_type))

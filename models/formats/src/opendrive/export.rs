@@ -27,7 +27,7 @@ const DAY: &str = "1970-01-01T00:00:00";
 /// Side of the road that traffic keeps to: the word for it, and the number of the one lane of each road, which leads
 /// along its road on that side.
 #[derive(Clone, Copy)]
-struct Rule {
+struct WrittenSide {
     word: &'static str,
     lane: &'static str,
     side: &'static str,
@@ -35,8 +35,8 @@ struct Rule {
     outward: f64,
 }
 
-const RIGHT_HAND: Rule = Rule { word: "RHT", lane: "-1", side: "right", outward: -1.0 };
-const LEFT_HAND: Rule = Rule { word: "LHT", lane: "1", side: "left", outward: 1.0 };
+const RIGHT_HAND: WrittenSide = WrittenSide { word: "RHT", lane: "-1", side: "right", outward: -1.0 };
+const LEFT_HAND: WrittenSide = WrittenSide { word: "LHT", lane: "1", side: "left", outward: 1.0 };
 
 /// Id of the light of a signal of a scene, by its position.
 pub(crate) fn light_id(signal: usize) -> String {
@@ -152,7 +152,7 @@ fn middle(ring: &[Vec2]) -> Vec2 {
 fn write_road(
     number: usize,
     (road, drawn): (&Road<'_>, &Roads<'_>),
-    (map, rule): (&LaneMap, Rule),
+    (map, rule): (&LaneMap, WrittenSide),
     beside: &Roadside,
     out: &mut Markup,
 ) -> f64 {
@@ -267,7 +267,7 @@ fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
 }
 
 /// The one lane, whose middle is the reference line.
-fn lanes((road, rule): (&Road<'_>, Rule), drawn: &Roads<'_>, total: f64, out: &mut Markup) {
+fn lanes((road, rule): (&Road<'_>, WrittenSide), drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     let kind = match road.lane.lane_type {
         LaneType::BikeLane => "biking",
         LaneType::Sidewalk => "sidewalk",
@@ -369,7 +369,7 @@ fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Roadside, 
     out.close();
 }
 
-fn signals((number, rule): (usize, Rule), path: &Polyline, beside: &Roadside, out: &mut Markup) {
+fn signals((number, rule): (usize, WrittenSide), path: &Polyline, beside: &Roadside, out: &mut Markup) {
     let (lights, signs) = (beside.lights.get(&number), beside.stop_signs.get(&number));
     if lights.is_none() && signs.is_none() {
         return;
@@ -409,7 +409,12 @@ fn junction_id(number: usize, drawn: &Roads<'_>) -> String {
     (drawn.roads.len() + number).to_string()
 }
 
-fn write_junction(number: usize, connecting: &[usize], (drawn, rule): (&Roads<'_>, Rule), out: &mut Markup) {
+fn write_junction(
+    number: usize,
+    connecting: &[usize],
+    (drawn, rule): (&Roads<'_>, WrittenSide),
+    out: &mut Markup,
+) {
     let id = junction_id(number, drawn);
     out.open("junction", &[("name", &format!("junction {id}")), ("id", &id), ("type", "default")]);
     for (k, road) in connecting.iter().enumerate() {

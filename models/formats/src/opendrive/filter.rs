@@ -300,7 +300,9 @@ impl Filter {
             }
             ("laneSection", side @ ("left" | "right"), _) => {
                 let left = usize::from(side == "left");
-                if let (Some(section), Some(linked)) = (self.road.sections.last_mut(), self.sections.last_mut()) {
+                if let (Some(section), Some(linked)) =
+                    (self.road.sections.last_mut(), self.sections.last_mut())
+                {
                     (section.gives[left], linked.gives[left]) = (true, true);
                 }
             }
@@ -368,7 +370,9 @@ impl Filter {
         }
         let _ = write!(self.out.text, "</{name}>");
         let end = self.out.text.len();
-        if let Some((from, lane, after, to)) = self.link.take_if(|_| name == "predecessor" || name == "successor") {
+        if let Some((from, lane, after, to)) =
+            self.link.take_if(|_| name == "predecessor" || name == "successor")
+        {
             let link = LaneLink { lane, after, to, at: from..end };
             if let Some(section) = self.sections.last_mut() {
                 section.links.push(link);
@@ -524,7 +528,9 @@ impl Filter {
         for place in places {
             let at = road.sections.partition_point(|section| section.s_m <= place);
             let end_m = road.sections.get(at).map_or(length_m, |next| next.s_m.min(length_m));
-            let Some(before) = at.checked_sub(1).and_then(|i| road.sections.get(i)).cloned() else { continue };
+            let Some(before) = at.checked_sub(1).and_then(|i| road.sections.get(i)).cloned() else {
+                continue;
+            };
             if place - before.s_m < LEAST_STRETCH_M || end_m - place < LEAST_STRETCH_M {
                 continue;
             }

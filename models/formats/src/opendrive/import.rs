@@ -72,8 +72,13 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let name = name.trim().to_owned();
     let Offset { at, z_m, turn_rad } = file.offset;
     let middle = at + rotate(file.origin + frame.middle, turn_rad);
-    let origin =
-        Origin { x_m: middle.x, y_m: middle.y, z_m, rotation_rad: wrap_angle(turn_rad), crs: file.projection };
+    let origin = Origin {
+        x_m: middle.x,
+        y_m: middle.y,
+        z_m,
+        rotation_rad: wrap_angle(turn_rad),
+        crs: file.projection,
+    };
     Ok(MapRead { name, map: map.into(), signals, origin, warnings })
 }
 

@@ -131,9 +131,13 @@ impl Links {
                 let next = if link.after { i + 1 } else { i.wrapping_sub(1) };
                 let through = road.through(next, link.to, link.after);
                 let to = match (through, &road.ends[usize::from(link.after)]) {
-                    (Some((lane, true)), Some(end)) if !end.is_junction => self.inward(&end.id, end.at_end, lane),
+                    (Some((lane, true)), Some(end)) if !end.is_junction => {
+                        self.inward(&end.id, end.at_end, lane)
+                    }
                     // Across a junction its own links count.
-                    (_, Some(end)) if end.is_junction && through.is_none_or(|(_, beyond)| beyond) => Some(link.to),
+                    (_, Some(end)) if end.is_junction && through.is_none_or(|(_, beyond)| beyond) => {
+                        Some(link.to)
+                    }
                     (through, _) => through.map(|(lane, _)| lane),
                 };
                 if to == Some(link.to) {

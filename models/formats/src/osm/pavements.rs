@@ -50,7 +50,8 @@ fn is_guessed(way: &OsmElement) -> bool {
 }
 
 fn limit_kmh(text: &str) -> Option<f64> {
-    let (number, unit) = text.split_at(text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len()));
+    let (number, unit) =
+        text.split_at(text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len()));
     let factor = if unit.trim() == "mph" { 3.6 * MPS_PER_MPH } else { 1.0 };
     number.parse::<f64>().ok().map(|value| value * factor)
 }

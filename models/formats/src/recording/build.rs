@@ -4,16 +4,19 @@ use super::motion::{Derived, complete, spacing_s, step_at, track};
 use super::{AgentIds, RecordedAgent, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
-use crate::headings;
+use crate::headings::{HeadingUnit, MOVES_MPS, Votes, said_wrapped};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::repairs::checked;
 use crate::sentences;
 use scene::map::LaneMap;
+use scene::wrap_angle;
 use scene::{
     Agent, AgentFutures, Conditions, Future, Generated, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene,
     Shared, State, Timing, Vec2,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::f64::consts::TAU;
 
 /// Samples of a road user this near to each other are of one time, seconds.
 const SAME_S: f64 = 1e-6;
@@ -74,7 +77,7 @@ impl Recording {
         for list in self.lists() {
             list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         }
-        self.said.warnings.extend(headings::settle_samples(&mut self.users));
+        self.said.warnings.extend(settle_headings(&mut self.users));
         let repeated: usize = self.users.iter().map(|user| repeated(&user.samples)).sum();
         if repeated > 0 {
             self.said.warnings.push(ImportWarning::new("rows-repeated", sentences::rows_repeated(repeated)));
@@ -357,6 +360,30 @@ impl PreparedRecording {
 /// Samples, in the order of time, at the time of the one before.
 fn repeated(samples: &[RecordedState]) -> usize {
     samples.windows(2).filter(|pair| (pair[1].time_s - pair[0].time_s).abs() < SAME_S).count()
+}
+
+/// Turns headings to radians within a turn, as [`crate::headings::settle`] does for states.
+fn settle_headings(users: &mut [RecordedAgent]) -> Option<ImportWarning> {
+    let mut votes = Votes::default();
+    for user in users.iter() {
+        let samples = &user.samples;
+        let way = |i: usize| {
+            let (a, b) = (samples.get(i)?, samples.get(i + 1)?);
+            let way = (b.at - a.at) / (b.time_s - a.time_s);
+            Some(way).filter(|way| way.norm().is_finite() && way.norm() > MOVES_MPS)
+        };
+        votes.add(samples.iter().enumerate().map(|(i, sample)| (sample.heading_rad, way(i))));
+    }
+    if votes.is_quiet(HeadingUnit::Radians) {
+        return None;
+    }
+    let samples = users.iter_mut().flat_map(|user| &mut user.samples);
+    if votes.in_degrees(HeadingUnit::Radians) {
+        samples.for_each(|sample| sample.heading_rad = sample.heading_rad.to_radians());
+        return Some(votes.said_degrees());
+    }
+    let outside = samples.filter(|sample| sample.heading_rad.abs() > TAU);
+    said_wrapped(outside.map(|sample| sample.heading_rad = wrap_angle(sample.heading_rad)).count())
 }
 
 /// Possible motions of a sample, by road user.

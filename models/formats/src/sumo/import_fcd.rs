@@ -8,8 +8,9 @@ use super::rows::{FcdItem, FcdRow, FcdRows};
 use super::window::{Between, FcdState, MAX_FILLED_S, SAME_S, between, track};
 use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::recording::{AgentIds, middle};
+use crate::repairs::checked;
 use crate::sentences;
 use scene::geometry::direction;
 use scene::{

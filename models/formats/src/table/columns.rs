@@ -153,7 +153,8 @@ impl Columns {
                 let all: Vec<_> = names().collect();
                 return Err(fault(format!("one of {} expected", all.join(", "))));
             };
-            let told = serde_json::from_value(told).map_err(|_| fault("a name or an object expected".into()))?;
+            let told =
+                serde_json::from_value(told).map_err(|_| fault("a name or an object expected".into()))?;
             let origin = match told {
                 Told::Name(column) => {
                     ColumnSource { column: Some(column), factor: 1.0, ..ColumnSource::default() }
@@ -195,7 +196,10 @@ impl More {
             Some(size) => {
                 let (sign, size) = size.strip_prefix('-').map_or((1.0, size), |size| (-1.0, size));
                 let known = ["length_m", "width_m"].into_iter().find(|known| *known == size);
-                Some((sign, known.ok_or("length_m or width_m expected in add_half, or one of them with a minus")?))
+                Some((
+                    sign,
+                    known.ok_or("length_m or width_m expected in add_half, or one of them with a minus")?,
+                ))
             }
         };
         let Self { column, words, optional, .. } = self;
@@ -229,7 +233,9 @@ mod tests {
             let columns = read(name).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(columns, read(&format!("\"{}\"", name.to_uppercase())).unwrap(), "{name}");
             let own = Columns::own();
-            assert!(columns.sources.iter().filter(|(name, source)| own.sources[*name] != **source).count() > 4);
+            assert!(
+                columns.sources.iter().filter(|(name, source)| own.sources[*name] != **source).count() > 4
+            );
         }
         assert_eq!(read("klingon").unwrap_err().code(), "malformed-json");
         assert_eq!(read("pneuma").unwrap().wide, Some(Wide { fixed: 4, repeated: 6 }));

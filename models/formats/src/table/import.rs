@@ -277,14 +277,20 @@ impl<'a> Scenarios<'a> {
     fn place(&self, to: &mut Gathered) -> Result<Vec2, ReadError> {
         let [lat, lon] = [self.number(LATITUDE, 89.0, "degrees")?, self.number(LONGITUDE, 180.0, "degrees")?];
         if lat.is_nan() || lon.is_nan() {
-            let metres = |name| Ok::<_, ReadError>(self.number(name, MAX_METRES, "a coordinate in metres")? + self.half(name)?);
+            let metres = |name| {
+                Ok::<_, ReadError>(
+                    self.number(name, MAX_METRES, "a coordinate in metres")? + self.half(name)?,
+                )
+            };
             return Ok(Vec2::new(metres("x_m")?, metres("y_m")?));
         }
         // About the first place: the rows behind it are not known yet.
         if to.projection.is_none() {
             to.projection = TransverseMercator::about(std::iter::once((lat, lon)));
         }
-        Ok(to.projection.map_or_else(|| Vec2::new(f64::NAN, f64::NAN), |projection| projection.metres(lat, lon)))
+        Ok(to
+            .projection
+            .map_or_else(|| Vec2::new(f64::NAN, f64::NAN), |projection| projection.metres(lat, lon)))
     }
 
     fn sample(&self, time_s: f64, to: &mut Gathered) -> Result<RecordedState, ReadError> {

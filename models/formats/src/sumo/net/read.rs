@@ -150,7 +150,8 @@ impl Reader {
         for connection in connections {
             let (from, to) = (by_id.get(&connection.from), by_id.get(&connection.to));
             let (Some(&from), Some(&to)) = (from, to) else { continue };
-            let via = connection.via.and_then(|id| by_id.get(&id).copied()).or_else(|| way(&mut net, from, to));
+            let via =
+                connection.via.and_then(|id| by_id.get(&id).copied()).or_else(|| way(&mut net, from, to));
             net.lanes[from].successors.push(via.unwrap_or(to));
             if let Some(via) = via.filter(|_| connection.stops) {
                 net.lanes[via].stops = true;
@@ -184,7 +185,8 @@ fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
     if !travelled(from) || !travelled(to) || net.lanes.len() > MAX_POLYLINES {
         return None;
     }
-    let ([.., before, end], [start, after, ..]) = (&net.lanes[from].shape[..], &net.lanes[to].shape[..]) else {
+    let ([.., before, end], [start, after, ..]) = (&net.lanes[from].shape[..], &net.lanes[to].shape[..])
+    else {
         return None;
     };
     let gap_m = (start - end).norm();
