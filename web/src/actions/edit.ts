@@ -157,7 +157,10 @@ export const edit = inGroup('edit', [
     icon: 'note',
     help: 'addsANote',
     when: hasAgent,
-    run: (c) => c.focusText('note'),
+    run: (c) => {
+      c.ui.showAllFields(true);
+      c.focusText('note');
+    },
   },
   ...kinds,
   does('react', 'Shift+1', TEXTS.react, 'theSelectedReact'),

@@ -64,6 +64,13 @@ export class View {
     return [this.cx + dx, this.cy + dy];
   }
 
+  /** Moves the picture, so that a screen position shows a world point. */
+  put([sx, sy]: Vec, [wx, wy]: Vec): void {
+    const [x, y] = this.from(sx, sy);
+    this.cx += wx - x;
+    this.cy += wy - y;
+  }
+
   /** Distance of a world point from a screen position, pixels. */
   away([wx, wy]: Vec, { x, y }: Point): number {
     return Math.hypot(this.x(wx, wy) - x, this.y(wx, wy) - y);

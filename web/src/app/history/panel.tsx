@@ -3,7 +3,8 @@ import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import type { History, HistoryStep } from '../../model/document/history';
 import { useApp } from '../parts/app-context';
-import { IconButton, KeyCaps } from '../parts/buttons';
+import { KeyCaps } from '../parts/buttons';
+import { DrawerTabs } from '../parts/drawer-tabs';
 import { Icon } from '../parts/icons';
 import { clock, dayAndTime } from '../scenes/dates';
 import { TEXTS } from '../../texts/desk/history';
@@ -52,11 +53,9 @@ export function HistoryPanel() {
   const at = line.findIndex((s) => s.id === head) + 1;
   return (
     <section class="drawer card history" aria-label={TEXTS.history} data-group="history">
+      <DrawerTabs />
       <h2>
-        {TEXTS.history}
         <small class="mut">{line.length ? TEXTS.ofSteps(at, line.length) : TEXTS.noStepsYet}</small>
-        <span class="grow" />
-        <IconButton id="history" icon="x" size={16} />
       </h2>
       <div class="scns">
         <ol class="past">

@@ -24,7 +24,6 @@ export const TEXTS = table('picture', {
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
   occupied: 'Occupied',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,
-  andMore: (rest: number) => `and ${rest} more`,
   log: 'Log',
   apartAt: (d: string, t: string) => `${d} apart at ${t}`,
   notEditable: 'Not editable',

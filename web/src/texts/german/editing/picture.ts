@@ -22,7 +22,6 @@ export const german: Said<typeof TEXTS> = {
   atAhead: (time, along) => `bei ${time} · ${along} Weg`,
   occupied: 'Belegt',
   stopsHereFor: (lasts, place) => `hält ${place ?? 'hier'}, ${lasts} lang`,
-  andMore: (rest) => `und ${rest} weitere`,
   log: 'Aufzeichnung',
   apartAt: (d, t) => `${d} auseinander bei ${t}`,
   notEditable: 'Nicht bearbeitbar',
