@@ -36,7 +36,9 @@ const does = (id: Others, key: string, label: string, help: Help): Plain => ({
   },
   run(c) {
     const command = several.setDoes(c.editor.scene.peek()!, c.editor.chosenOnes, id);
-    if (command) c.editor.commits.run(command);
+    if (!command) return;
+    c.editor.commits.run(command);
+    c.editor.notices.show({ text: `${command.name}.`, undo: true });
   },
 });
 
