@@ -87,4 +87,63 @@ journeys('a calm page', (stage) => {
     await e.key('Control++');
     await e.until((was) => document.querySelector('.zoomnum').textContent !== was, before);
   });
+
+  it(
+    'has a tag at the edge for a flag outside the picture, dragged as the flag itself',
+    { timeout: 60_000 },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      await e.key('b');
+      await e.page.locator('[data-menu="file"]').focus();
+      await e.key('/');
+      await e.page.fill('.pal input', 'Ring road');
+      await e.key('Enter');
+      await e.until(() => document.querySelector('.title input').value.startsWith('Ring road'));
+      await e.begin();
+      const cars = [];
+      for (const u of (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 10)) {
+        await e.choose(u.id);
+        cars.push({ ...u, start: await e.pose('Start'), goal: await e.pose('Goal') });
+        await e.letGo();
+      }
+      // The list has moved the picture to each; a new page shows the scene as at first.
+      await e.page.reload();
+      await e.ready();
+      await e.begin();
+      const { box } = await e.view();
+      await e.key('b');
+      await e.settled();
+      const edge = { left: box.x + 98, right: box.x + box.width - 42 };
+      for (const u of cars) {
+        const [from, to] = [await e.at(u.start.x, u.start.y), await e.at(u.goal.x, u.goal.y)];
+        const outside = to[0] < edge.left - 60 || to[0] > edge.right + 60;
+        if (!outside || !(await e.open(from)) || from[0] < edge.left + 200 || from[0] > edge.right - 200) continue;
+        await e.page.mouse.click(...from);
+        await e.page.waitForSelector('.fu');
+        await e.settled();
+        const x = to[0] < from[0] ? edge.left : edge.right;
+        const y = from[1] + ((to[1] - from[1]) * (x - from[0])) / (to[0] - from[0]);
+        // It keeps clear of road users: on the way, or beside it.
+        const grabs = () => e.page.evaluate(() => document.querySelector('main.stage').dataset.cursor === 'grab');
+        let tag = null;
+        for (const down of [0, -30, 30]) {
+          await e.page.mouse.move(x, y + down);
+          await e.frames(2);
+          if (!tag && (await grabs())) tag = [x, y + down];
+        }
+        assert.ok(tag, `no tag of ${u.name} at ${x}, ${y}`);
+        await e.picture('flag-at-the-edge');
+        const hand = [x + (from[0] - x) / 2, y + (from[1] - y) / 2];
+        await e.drag(tag, hand, { moves: 6 });
+        await e.release();
+        assert.match(await e.text('.toast'), new RegExp(`Goal of ${u.name}`));
+        const { x: gx, y: gy } = await e.goal();
+        const at = await e.at(gx, gy);
+        assert.ok(Math.abs(at[0] + 9 - hand[0]) < 12, `the flag is at ${at}, the hand was at ${hand}`);
+        return;
+      }
+      assert.fail('every flag is in the picture');
+    },
+  );
 });

@@ -229,6 +229,8 @@ export class Editor {
     await this.page.evaluate(() => document.activeElement?.blur?.());
     await this.key('Escape');
     await this.until(() => !document.querySelector('.fu'));
+    // The timeline gives its room back to the picture.
+    await this.frames(2);
   }
 
   /** No request is under way any more, and the page shows the results. */

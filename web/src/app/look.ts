@@ -8,6 +8,7 @@ import type { Camera, HistoryStep } from '../model/document/history';
 import { poseShown } from '../edit/overlay/frame';
 import { endPose, poseAt } from '../model/base/motion';
 import { canChange, startPose, type Agent } from '../model/document/scene';
+import type { View } from '../draw/view';
 
 /** Initial height of the picture in metres, and the limits of its zoom. */
 const OPENING_M = 88;
@@ -174,8 +175,8 @@ export function keepInView(c: Opening): void {
   let back: { readonly to: Corner; readonly from: Corner } | null = null;
   stage.onSmaller = (before) => {
     const all = editor.chosenOnes.flatMap((a) => poseShown(editor, a) ?? []);
-    const wasSeen = all.every((p) => before.isClear(p.x, p.y, EDGE_PX));
-    if (!wasSeen || editor.drag.active.peek()) return;
+    const seen = (by: View): boolean => all.every((p) => by.isClear(p.x, p.y, EDGE_PX));
+    if (!seen(before) || seen(v) || editor.drag.active.peek()) return;
     const to = corner();
     bringIn(c, editor.selected.peek());
     back = { to, from: corner() };

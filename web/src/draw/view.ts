@@ -153,6 +153,18 @@ export class View {
     return x > left + edge && x < this.w - right - edge && y > top + edge && y < this.h - bottom - edge;
   }
 
+  /** Where the line between two screen positions leaves the uncovered part, this many pixels from its edge. */
+  exit([ax, ay]: Vec, [bx, by]: Vec, edge: number): Vec {
+    const { left, right, top, bottom } = this.inset;
+    const within = (from: number, to: number, least: number, most: number): number =>
+      to > most ? (most - from) / (to - from) : to < least ? (least - from) / (to - from) : 1;
+    const k = Math.max(
+      0,
+      Math.min(within(ax, bx, left + edge, this.w - right - edge), within(ay, by, top + edge, this.h - bottom - edge)),
+    );
+    return [ax + (bx - ax) * k, ay + (by - ay) * k];
+  }
+
   panBy(dx: number, dy: number): void {
     const [x, y] = this.way(dx, dy);
     this.cx -= x;

@@ -22,6 +22,15 @@ const WHOLE_SECOND_S = 0.15;
 /** A goal further from the start than this prefers lanes that lead away from the start, in metres. */
 const LEADS_AWAY_M = 6;
 
+/** From the foot of a flag to its pennant, pixels. */
+const PENNANT_PX = [9, -26] as const;
+
+/** The tag at the edge is dragged as the flag itself: its pennant comes to the hand. */
+function pennantOf(view: View, { x, y }: Pose): Vec {
+  const [dx, dy] = view.way(...PENNANT_PX);
+  return [x + dx, y + dy];
+}
+
 interface Beginning {
   readonly grip: Grip;
   readonly agent: Agent;
@@ -58,7 +67,7 @@ export class HandleMove implements Move {
     this.agent = agent;
     this.#start = start;
     this.#goal = goal;
-    this.#grab = view.from(press.x, press.y);
+    this.#grab = grip.edge ? pennantOf(view, goal) : view.from(press.x, press.y);
     const free = (grip.part === 'goal' ? agent.goal : agent.start).heading === null;
     this.#laneSetsHeading = free || editor.drag.headingFollows(grip.part, agent) || this.#startsOnLane();
   }

@@ -182,10 +182,11 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign } = this.overlay;
+    const { chips, timeTag, edgeTag, roadSign } = this.overlay;
     const toolHandleAt = (x: number, y: number): ToolHandle | null =>
       firstOf(this.tools, (t) => t.handleAt?.(x, y, touch));
-    return { editor, view: stage.view, chips, timeTag, roadSign, toolHandleAt, pennants: picture.pennants, touch };
+    const { pennants } = picture;
+    return { editor, view: stage.view, chips, timeTag, edgeTag, roadSign, toolHandleAt, pennants, touch };
   }
 
   #down(e: PointerEvent): void {

@@ -126,6 +126,19 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
   editor.takeVia(added.index);
 }
 
+/** Room for a flag and its label, pixels. */
+const FLAG_ROOM_PX = 70;
+
+/** Moves the picture just far enough to show the flag. */
+function lookAtGoal({ editor, surface }: Chart): void {
+  const a = editor.agent.peek();
+  const goal = a && editor.reading.goalPose(a);
+  if (!goal) return;
+  const [x, y] = surface.view.to(goal.x, goal.y);
+  surface.view.panInto({ x0: x, x1: x, y0: y, y1: y }, FLAG_ROOM_PX);
+  surface.viewChanged();
+}
+
 export function click(chart: Chart, press: Press, timeStamp: number): void {
   const { editor } = chart;
   const { hit } = press;
@@ -180,6 +193,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
         break;
       }
       editor.activate(hit.grip.part);
+      if (hit.grip.edge) lookAtGoal(chart);
       editor.takeVia(hit.grip.index ?? null);
       const box = hit.grip.part === 'start' && hit.grip.handle === 'body';
       const below = box ? chart.parts.agentsAt(press) : [];
