@@ -8,7 +8,16 @@ import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import type { Grip } from '../session/drag';
 import { goalTime } from '../moves/moves';
-import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../moves/snap';
+import {
+  alongLane,
+  lanesAhead,
+  lanesFor,
+  laneWords,
+  snapHeading,
+  snapToLane,
+  softStop,
+  type Snapped,
+} from '../moves/snap';
 import { edgesInTheWay } from '../moves/ways-out';
 import type { Modifiers, Press } from './chart';
 import type { Move } from './dragging-handle';
@@ -50,6 +59,8 @@ export class HandleMove implements Move {
   readonly #laneSetsHeading: boolean;
   /** Kerbs hold back the flag of road users that keep to lanes. */
   readonly #resistance: Resistance | null;
+  /** Lanes that the road user can drive to; null for its start, and without any. */
+  readonly #ahead: ReadonlySet<string> | null;
   readonly #touch: boolean;
   #lane: string | null = null;
   #mayCross: readonly string[];
@@ -61,6 +72,7 @@ export class HandleMove implements Move {
   ) {
     const fits = grip.part === 'goal' && grip.handle === 'body' ? lanesFor(agent) : null;
     this.#resistance = fits && new Resistance(editor.scene.peek()!.map, start, fits, goal);
+    this.#ahead = fits && lanesAhead(editor.scene.peek()!.map, agent, start);
     this.#touch = press.touch;
     this.#mayCross = agent.goal.mayCross;
     this.grip = grip;
@@ -188,7 +200,7 @@ export class HandleMove implements Move {
     const travel = away ? Math.atan2(y - start.y, x - start.x) : null;
     const ownHeading = !this.#laneSetsHeading || grip.part === 'start';
     const heading = ownHeading ? this.#pose.heading : this.#lane ? null : travel;
-    return snapToLane(map, a, x, y, heading, this.view.z, this.#lane, travel);
+    return snapToLane(map, a, x, y, heading, this.view.z, this.#lane, travel, this.#ahead);
   }
 
   #heading(wx: number, wy: number, mods: Modifiers): number {

@@ -43,7 +43,6 @@ export const TEXTS = table('picture', {
   onTheRoad: 'on the road',
   toAdd: (n: number) => `${n} to add`,
   parked: 'parked',
-  pavement: 'pavement',
   lane: 'lane',
   east: 'east',
   northEast: 'north-east',

@@ -41,7 +41,6 @@ export const german: Said<typeof TEXTS> = {
   onTheRoad: 'auf der Straße',
   toAdd: (n) => `${n} mehr`,
   parked: 'parkt',
-  pavement: 'Gehweg',
   lane: 'Spur',
   east: 'Osten',
   northEast: 'Nordosten',
