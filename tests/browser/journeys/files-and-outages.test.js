@@ -32,7 +32,9 @@ journeys('files and outages', (stage) => {
       );
       await e.release();
       assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved`));
-      await e.page.getByRole('button', { name: 'Log', exact: true }).click();
+      await e.page.click('[data-menu="layers"]');
+      await e.page.click('[data-action="layer-log"]');
+      await e.key('Escape');
       await e.settled();
       assert.equal(await e.page.locator('[data-action="layer-log"]').getAttribute('aria-pressed'), 'true');
       assert.match(await e.text('.hint'), /Compared with the log.*Largest distance: [\d.]+ m at \d\.\d s/s);

@@ -10,6 +10,7 @@ journeys('long', (stage) => {
   it('plans 20 s, replans every 6 s, and plays them to the end', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
+    await e.page.click('[data-menu="generate"]');
     await e.page
       .getByRole('group', { name: 'Planning window of all road users' })
       .getByRole('button', { name: '6', exact: true })

@@ -225,6 +225,12 @@ export class Editor {
     await this.settled();
   }
 
+  /** The rarely typed fields of the selected road user: heading, type, size, note. */
+  async moreFields() {
+    const more = this.page.locator('button.more[aria-expanded="false"]');
+    if (await more.count()) await more.click();
+  }
+
   async letGo() {
     await this.page.evaluate(() => document.activeElement?.blur?.());
     await this.key('Escape');

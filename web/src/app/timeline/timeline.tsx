@@ -31,7 +31,7 @@ export function Timeline() {
         {some || sheet ? <IconButton id="next-event" /> : null}
         {curves || sheet ? <IconButton id="tall-timeline" /> : null}
         <span class="grow" />
-        <MenuButton name="others" icon="down" label={TEXTS.behaviourOfOthers}>
+        <MenuButton name="others" icon="down" label={`${TEXTS.others} ${others}`}>
           <span class="mut">{TEXTS.others}</span>
           {others}
         </MenuButton>

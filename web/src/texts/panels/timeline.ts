@@ -26,7 +26,6 @@ export const TEXTS = table('timeline', {
   atS: (v: string, t: string) => `${v} at ${t} s`,
   timeline: 'Timeline',
   others: 'Others',
-  behaviourOfOthers: 'Behaviour of others',
   time: 'Time',
   playbackSpeedTimes: (rate: string) => `Playback speed ${rate} times`,
   and: ' and ',

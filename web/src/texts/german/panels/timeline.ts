@@ -26,7 +26,6 @@ export const german: Said<typeof TEXTS> = {
   atS: (v, t) => `${v} bei ${t} s`,
   timeline: 'Zeitleiste',
   others: 'Andere',
-  behaviourOfOthers: 'Verhalten der anderen',
   time: 'Zeit',
   playbackSpeedTimes: (rate) => `Abspieltempo ${rate}-fach`,
   and: ' und ',
