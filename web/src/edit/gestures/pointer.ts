@@ -231,7 +231,9 @@ export class Gestures {
     if (this.#takenOver()) return;
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
-    if (hitTest(this.#context(false), x, y).kind !== 'none') return;
+    const { kind } = hitTest(this.#context(false), x, y);
+    // On a road user, or where its first click has selected it, it zooms in there, too.
+    if (kind !== 'none' && kind !== 'agent' && kind !== 'grip') return;
     this.stage.glide.by((v) => v.zoomAt(x, y, 1.6));
     this.chart.viewMoved();
   }

@@ -11,6 +11,7 @@ import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
 import { HandleMove } from './handle-move';
+import { wordsOnMap } from './on-the-map';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
 import { rectangle, Sweeping } from './sweeping';
@@ -19,6 +20,8 @@ import { ViaMove } from './via-move';
 
 /** Assumed distance of the goal ahead of a road user without futures, in metres. */
 const GOAL_AHEAD_M = 20;
+/** Time that words about the map stay. */
+const TOLD_MS = 3000;
 
 export const SELECT: Tool = {
   name: 'select',
@@ -126,6 +129,14 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
   editor.takeVia(added.index);
 }
 
+/** With nothing selected a click tells what is there. */
+function tellMap({ editor, surface }: Chart, press: Press): void {
+  const scene = editor.scene.peek();
+  const at = surface.view.from(press.x, press.y);
+  const words = scene && wordsOnMap(scene, at, editor.playhead.time.peek());
+  if (words) editor.notices.show({ text: words }, TOLD_MS);
+}
+
 /** Room for a flag and its label, pixels. */
 const FLAG_ROOM_PX = 70;
 
@@ -202,6 +213,10 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
     }
     case 'none':
       if (chart.placement.ghosts.peek()) placeGhost(editor, chart.placement);
-      else if (!adds) editor.select(null);
+      else if (!adds) {
+        const some = editor.selected.peek().length > 0;
+        editor.select(null);
+        if (!some) tellMap(chart, press);
+      }
   }
 }
