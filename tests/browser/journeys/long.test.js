@@ -18,6 +18,7 @@ journeys('long', (stage) => {
     await e.settled();
     await e.page.getByRole('group', { name: 'Computed length' }).getByRole('button', { name: '20 s' }).click();
     await e.settled();
+    await e.key('Escape');
     assert.match(await e.text('.tm'), /0\.0 s\s+\/ 20\.0 s/);
     const { body } = e.wire.last();
     assert.deepEqual([body.agents, body.react, body.horizon_s, body.replan_interval_s], [[], true, 20, 6]);

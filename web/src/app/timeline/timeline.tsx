@@ -32,7 +32,7 @@ export function Timeline() {
         {curves || sheet ? <IconButton id="tall-timeline" /> : null}
         <span class="grow" />
         <MenuButton name="others" icon="down" label={`${TEXTS.others} ${others}`}>
-          <span class="mut">{TEXTS.others}</span>
+          <span class="mut">{`${TEXTS.others} `}</span>
           {others}
         </MenuButton>
       </div>

@@ -28,7 +28,7 @@ export const TEXTS = table('inspector', {
   noSignals: 'no signals',
   licence: (licence: string) => `Licence: ${licence}`,
   score: 'Score',
-  inTheRecording: 'in the recording',
+  inTheRecording: 'recorded',
   collisionsPer: 'Collisions per road user',
   minimumTtc: 'Minimum TTC',
   none: 'none',

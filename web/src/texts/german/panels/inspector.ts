@@ -30,7 +30,7 @@ export const german: Said<typeof TEXTS> = {
   noSignals: 'keine Ampeln',
   licence: (licence: string) => `Lizenz: ${licence}`,
   score: 'Bewertung',
-  inTheRecording: 'in der Aufzeichnung',
+  inTheRecording: 'aufgezeichnet',
   collisionsPer: 'Zusammenstöße je Verkehrsteilnehmer',
   minimumTtc: 'Kleinste TTC',
   none: 'keine',
