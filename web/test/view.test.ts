@@ -174,6 +174,7 @@ describe('a turned picture under the pointer', () => {
     view: p.view,
     chips: [],
     timeTag: null,
+    edgeTag: null,
     roadSign: null,
     toolHandleAt: () => null,
     pennants: [],

@@ -121,6 +121,7 @@ journeys('correcting a log', (stage) => {
     const e = await stage.open();
     await e.begin();
     const again = e.page.getByRole('group', { name: 'Planning window of all road users' });
+    await e.page.click('[data-menu="generate"]');
     await e.page.getByRole('group', { name: 'Computed length' }).getByRole('button', { name: '12' }).click();
     await e.settled();
     const mark = e.wire.asked.length;

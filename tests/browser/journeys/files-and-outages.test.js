@@ -32,9 +32,11 @@ journeys('files and outages', (stage) => {
       );
       await e.release();
       assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved`));
-      await e.page.getByRole('button', { name: 'Log', exact: true }).click();
-      await e.settled();
+      await e.page.click('[data-menu="layers"]');
+      await e.page.click('[data-action="layer-log"]');
       assert.equal(await e.page.locator('[data-action="layer-log"]').getAttribute('aria-pressed'), 'true');
+      await e.key('Escape');
+      await e.settled();
       assert.match(await e.text('.hint'), /Compared with the log.*Largest distance: [\d.]+ m at \d\.\d s/s);
       const playhead = e.page.getByRole('slider', { name: 'Playhead' });
       for (let i = 0; i < 5; i++) await playhead.press('Shift+ArrowRight');

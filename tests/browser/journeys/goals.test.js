@@ -175,7 +175,9 @@ journeys('goals and values', (stage) => {
     await play.click();
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.5);
     await play.click();
-    await e.page.getByRole('button', { name: 'Go to start' }).click();
+    await e.page.click('[data-menu="playback"]');
+    await e.page.click('.menu [data-action="to-start"]');
+    await e.key('Escape');
     await e.settled();
 
     const done = { page: await e.inspector(), scene: await stored(e, id) };
@@ -215,6 +217,7 @@ async function all(e, action, key) {
 }
 
 async function handles(e) {
+  await e.moreFields();
   const p = await e.pose('Start');
   const { zoom } = await e.view();
   const half = Math.max((await e.page.getByLabel('length in metres').inputValue()) * zoom, SHORTEST_RIDER_PX) / 2;

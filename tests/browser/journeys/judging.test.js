@@ -9,11 +9,8 @@ journeys('judging', (stage) => {
     const e = await stage.open();
     await e.begin();
     const { car, obstacle } = await carBehindAnother(e);
-    await e.page
-      .getByRole('group', { name: 'Behaviour of others' })
-      .first()
-      .getByRole('button', { name: 'Hold still' })
-      .click();
+    await e.page.click('[data-menu="others"]');
+    await e.page.click('.menu [data-action="others-still"]');
     await e.settled();
     await e.choose(car.id);
     await e.type('goal-pos', String(obstacle.start.x), 0);

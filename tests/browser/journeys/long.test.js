@@ -10,6 +10,7 @@ journeys('long', (stage) => {
   it('plans 20 s, replans every 6 s, and plays them to the end', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
+    await e.page.click('[data-menu="generate"]');
     await e.page
       .getByRole('group', { name: 'Planning window of all road users' })
       .getByRole('button', { name: '6', exact: true })
@@ -17,6 +18,7 @@ journeys('long', (stage) => {
     await e.settled();
     await e.page.getByRole('group', { name: 'Computed length' }).getByRole('button', { name: '20 s' }).click();
     await e.settled();
+    await e.key('Escape');
     assert.match(await e.text('.tm'), /0\.0 s\s+\/ 20\.0 s/);
     const { body } = e.wire.last();
     assert.deepEqual([body.agents, body.react, body.horizon_s, body.replan_interval_s], [[], true, 20, 6]);

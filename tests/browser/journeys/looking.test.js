@@ -99,7 +99,7 @@ journeys('looking', (stage) => {
     assert.notEqual(await picture(e), before, 'and shown');
     await e.picture('remedy-tried');
     assert.deepEqual([await e.goal(), await step()], [goal, last], 'nothing is changed by a look');
-    await e.page.mouse.move(700, 120);
+    await e.page.mouse.move(560, 22);
     await e.settled();
     await e.frames(4);
     assert.equal(await picture(e), before, 'it goes with the pointer');

@@ -264,7 +264,8 @@ journeys('fingers', (stage) => {
     { timeout: 40_000 },
     async () => {
       const { e, f } = await open(stage, 'tablet on its side');
-      await e.page.locator('[data-action="tool-place-car"]').tap();
+      await e.page.locator('.rail [data-menu="add"]').tap();
+      await e.page.locator('.menu [data-action="tool-place-car"]').tap();
       const length = e.page.getByLabel('Custom length in metres', { exact: true });
       await length.tap();
       await e.page.keyboard.type('6.2');

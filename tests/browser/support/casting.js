@@ -23,7 +23,9 @@ async function find(e, likely, suits) {
     const why = suits(who);
     const seen = why === true && (await clear(e, who));
     await e.letGo();
-    if (seen) return who;
+    // The picture may return to where it was before the curves took room.
+    const { start, end } = who;
+    if (seen) return { ...who, from: await e.at(start.x, start.y), to: await e.at(end.x, end.y) };
     if (why === true) hidden.push(u);
     else tried.push(`${u.name} ${why}`);
   }

@@ -225,10 +225,18 @@ export class Editor {
     await this.settled();
   }
 
+  /** The rarely typed fields of the selected road user: heading, type, size, note. */
+  async moreFields() {
+    const more = this.page.locator('button.more[aria-expanded="false"]');
+    if (await more.count()) await more.click();
+  }
+
   async letGo() {
     await this.page.evaluate(() => document.activeElement?.blur?.());
     await this.key('Escape');
     await this.until(() => !document.querySelector('.fu'));
+    // The timeline gives its room back to the picture.
+    await this.frames(2);
   }
 
   /** No request is under way any more, and the page shows the results. */

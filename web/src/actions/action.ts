@@ -10,8 +10,9 @@ import { TEXTS } from '../texts/desk/actions';
 
 /** In the order of the shortcut sheet. */
 export const GROUPS = [
-  'look',
   'place',
+  'select',
+  'look',
   'edit',
   'move',
   'goal',

@@ -36,7 +36,9 @@ const does = (id: Others, key: string, label: string, help: Help): Plain => ({
   },
   run(c) {
     const command = several.setDoes(c.editor.scene.peek()!, c.editor.chosenOnes, id);
-    if (command) c.editor.commits.run(command);
+    if (!command) return;
+    c.editor.commits.run(command);
+    c.editor.notices.show({ text: `${command.name}.`, undo: true });
   },
 });
 
@@ -157,7 +159,10 @@ export const edit = inGroup('edit', [
     icon: 'note',
     help: 'addsANote',
     when: hasAgent,
-    run: (c) => c.focusText('note'),
+    run: (c) => {
+      c.ui.showAllFields(true);
+      c.focusText('note');
+    },
   },
   ...kinds,
   does('react', 'Shift+1', TEXTS.react, 'theSelectedReact'),

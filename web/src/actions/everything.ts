@@ -52,7 +52,8 @@ export const everything = inGroup('everything', [
   {
     id: 'palette',
     label: TEXTS.actions,
-    keys: ['Ctrl+K'],
+    // The keys for finding and for commands in other programs.
+    keys: ['Ctrl+K', 'Ctrl+F', '/', 'Ctrl+P', 'Ctrl+Shift+P'],
     icon: 'search',
     help: 'runsAnyAction',
     context: 'always',
@@ -79,7 +80,7 @@ export const everything = inGroup('everything', [
   {
     id: 'shortcuts',
     label: TEXTS.shortcuts,
-    keys: ['?'],
+    keys: ['?', 'F1'],
     icon: 'help',
     help: 'thisList',
     run: (c) => c.ui.openDialog('shortcuts'),

@@ -137,8 +137,12 @@ const layer = (
   run: (c) => c.editor.view.toggleLayer(name),
 });
 
-export const look = inGroup('look', [
-  ...tools,
+const called = (...names: string[]): typeof tools => tools.filter((t) => names.includes(t.id));
+
+const filling = inGroup('place', called('tool-fill'));
+
+const selecting = inGroup('select', [
+  ...called('tool-select', 'tool-lasso'),
   {
     id: 'select-all',
     label: TEXTS.selectAll,
@@ -206,10 +210,14 @@ export const look = inGroup('look', [
     when: hasScene,
     run: (c) => walkTo(c, -1),
   },
+]);
+
+const looking = inGroup('look', [
+  ...called('tool-pan', 'tool-measure'),
   {
     id: 'fit',
     label: TEXTS.fitTheScene,
-    keys: ['0'],
+    keys: ['0', 'Ctrl+0'],
     icon: 'fit',
     help: 'theWholeMap',
     when: hasScene,
@@ -235,7 +243,7 @@ export const look = inGroup('look', [
   {
     id: 'zoom-in',
     label: TEXTS.zoomIn,
-    keys: ['PageUp'],
+    keys: ['PageUp', 'Ctrl++'],
     icon: 'plus',
     help: 'byOneThird',
     run: (c) => zoom(c, 1.33),
@@ -243,7 +251,7 @@ export const look = inGroup('look', [
   {
     id: 'zoom-out',
     label: TEXTS.zoomOut,
-    keys: ['PageDown'],
+    keys: ['PageDown', 'Ctrl+-'],
     icon: 'minus',
     help: 'aThirdFurther',
     run: (c) => zoom(c, 1 / 1.33),
@@ -280,3 +288,5 @@ export const look = inGroup('look', [
   layer('reach', TEXTS.reach, 'Shift+H', 'whereTheSelected'),
   layer('conflicts', TEXTS.conflictZones, 'Shift+C', 'whereWaysCross'),
 ]);
+
+export const look = [...selecting, ...looking, ...filling];

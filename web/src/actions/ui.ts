@@ -30,6 +30,7 @@ export class Ui {
   readonly #emptyHidden = signal<string | null>(null);
   readonly #eventsPanel = signal<boolean | 'counts'>(false);
   readonly #tall = signal(false);
+  readonly #allFields = signal(recall<boolean>('all-fields') ?? false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
 
@@ -46,6 +47,8 @@ export class Ui {
   readonly eventsPanel: ReadonlySignal<boolean | 'counts'> = this.#eventsPanel;
   /** Is the timeline enlarged for the speed curve? */
   readonly tall: ReadonlySignal<boolean> = this.#tall;
+  /** Are the rarely typed fields of a road user shown? */
+  readonly allFields: ReadonlySignal<boolean> = this.#allFields;
   /** Step of the first-minute hint; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
   readonly theme: ReadonlySignal<Theme> = this.#theme;
@@ -104,6 +107,11 @@ export class Ui {
 
   toggleTall(): void {
     this.#tall.value = !this.#tall.peek();
+  }
+
+  showAllFields(on: boolean): void {
+    this.#allFields.value = on;
+    keep('all-fields', on);
   }
 
   coachTo(step: number): void {

@@ -29,6 +29,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     ...DOES,
     null,
     'set-goal',
+    'goal-from-log',
     'add-via',
     'clear-goal',
     'reset-agent',
@@ -37,6 +38,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'select-lane',
     'find-case',
     'zoom-selection',
+    'follow',
     'align-road',
   ],
   several: [

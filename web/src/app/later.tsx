@@ -36,6 +36,10 @@ const PARTS = {
     () => import('./inspector/agent-panel'),
     (m) => m.AgentPanel,
   ),
+  'generate options': of(
+    () => import('./parts/asking'),
+    (m) => m.GenerateOptions,
+  ),
   handles: of(
     () => import('./inspector/agent-panel'),
     (m) => m.Sliders,

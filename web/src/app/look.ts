@@ -8,6 +8,7 @@ import type { Camera, HistoryStep } from '../model/document/history';
 import { poseShown } from '../edit/overlay/frame';
 import { endPose, poseAt } from '../model/base/motion';
 import { canChange, startPose, type Agent } from '../model/document/scene';
+import type { View } from '../draw/view';
 
 /** Initial height of the picture in metres, and the limits of its zoom. */
 const OPENING_M = 88;
@@ -157,13 +158,38 @@ function bringIn({ editor, stage }: Opening, ids: readonly string[]): void {
   stage.viewChanged();
 }
 
-/** Keeps the selected ones in the picture when a panel takes space; one already outside stays outside. */
+/** A corner of the picture in the world, and its zoom. */
+interface Corner {
+  readonly at: Vec;
+  readonly z: number;
+}
+
+/**
+ * Keeps the selected ones in the picture when a panel takes space; one already outside stays outside. When the panel
+ * gives the space back, the picture returns to its place.
+ */
 export function keepInView(c: Opening): void {
   const { editor, stage } = c;
+  const v = stage.view;
+  const corner = (): Corner => ({ at: v.from(0, 0), z: v.z });
+  let back: { readonly to: Corner; readonly from: Corner } | null = null;
   stage.onSmaller = (before) => {
     const all = editor.chosenOnes.flatMap((a) => poseShown(editor, a) ?? []);
-    const wasSeen = all.every((p) => before.isClear(p.x, p.y, EDGE_PX));
-    if (wasSeen && !editor.drag.active.peek()) bringIn(c, editor.selected.peek());
+    const seen = (by: View): boolean => all.every((p) => by.isClear(p.x, p.y, EDGE_PX));
+    if (!seen(before) || seen(v) || editor.drag.active.peek()) return;
+    const to = corner();
+    bringIn(c, editor.selected.peek());
+    back = { to, from: corner() };
+  };
+  stage.onLarger = () => {
+    const now = corner();
+    const stayed = back?.from.z === now.z && v.away(back.from.at, { x: 0, y: 0 }) < 1;
+    if (back && stayed) {
+      v.z = back.to.z;
+      v.put([0, 0], back.to.at);
+      stage.viewChanged();
+    }
+    back = null;
   };
 }
 

@@ -31,6 +31,11 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   const { editor, ui } = c;
   const target = e.target as HTMLElement;
   const input = target instanceof HTMLInputElement ? target : null;
+  // A typed character is text.
+  const typed = e.key.length === 1 && !e.ctrlKey && !e.metaKey && !e.altKey;
+  if (typed && (target instanceof HTMLTextAreaElement || (input && !/range|radio/.test(input.type)))) {
+    if (!input || !leavesField(input, e, a)) return true;
+  }
   if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
   if (input && input.type !== 'range' && a.context !== 'always' && !leavesField(input, e, a)) return true;
   if (ui.dialog.peek() && a.context !== 'always') return true;

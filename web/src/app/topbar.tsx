@@ -1,4 +1,4 @@
-// Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
+// Top bar: menu, lists, scene name and saving, undo, generate, actions, share, export.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { rename } from '../model/document/commands';
@@ -6,7 +6,6 @@ import { isRecorded } from '../model/document/scene';
 import type { SaveState } from '../edit/document/saving';
 import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';
-import { Controls } from './parts/asking';
 import { ActionButton, IconButton } from './parts/buttons';
 import { TEXTS } from '../texts/desk/page';
 
@@ -33,8 +32,7 @@ export function TopBar() {
     <header class="top" data-group="top">
       <Logo />
       <MenuButton name="file" icon="menu" label={TEXTS.fileAndSettings} />
-      <IconButton id="scenes" />
-      <IconButton id="users" />
+      <DrawerButton />
       <Title />
       {open ? (
         <>
@@ -44,7 +42,7 @@ export function TopBar() {
         </>
       ) : null}
       <div class="grow" />
-      {!open ? null : form.sheet.value ? <ActionButton id="generate" class="pri" icon="" /> : <Controls />}
+      {open ? <Generate /> : null}
       <div class="grow" />
       {open ? (
         <>
@@ -55,10 +53,29 @@ export function TopBar() {
           <ActionButton id="export" class="line" size={16} />
         </>
       ) : null}
-      <IconButton id="theme" />
-      <IconButton id="shortcuts" />
       <OpenMenu />
     </header>
+  );
+}
+
+/** Opens the lists of the drawer, the one of scenes first; closes the one that is open. */
+function DrawerButton() {
+  const { ui } = useApp();
+  const id = ui.drawer.value ?? 'scenes';
+  return <IconButton key={id} id={id} icon="list" />;
+}
+
+/** Generate, and beside it the menu of its options. */
+function Generate() {
+  const { editor, form } = useApp();
+  const away = useComputed(() => editor.answers.away.value !== null).value;
+  return (
+    <div class="split">
+      <ActionButton id="generate" class="pri" icon="" withKey={!form.sheet.value}>
+        {away ? TEXTS.waiting : undefined}
+      </ActionButton>
+      <MenuButton name="generate" icon="down" label={TEXTS.generateOptions} class="pri" />
+    </div>
   );
 }
 

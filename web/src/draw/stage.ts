@@ -34,6 +34,8 @@ export class Stage {
   private hurried = false;
   /** Called with the former view when a panel, or a smaller window, has taken room from the picture. */
   onSmaller: ((before: View) => void) | null = null;
+  /** Called when the picture has got room. */
+  onLarger: (() => void) | null = null;
   /** Called with the former view when a sheet has covered a part of the picture. */
   onCovered: ((before: View) => void) | null = null;
   /** Called once per frame before painting, for animation. */
@@ -104,13 +106,16 @@ export class Stage {
       h = this.element.clientHeight;
     const dpr = Math.min(2, window.devicePixelRatio || 1);
     if (!w || !h || (w === v.w && h === v.h && dpr === v.dpr && this.painted)) return;
-    const before = this.painted && (w < v.w || h < v.h) ? v.copy() : null;
+    const was = this.painted && v.copy();
     v.w = w;
     v.h = h;
     v.dpr = dpr;
+    // A panel below takes or gives room: what is seen above it stays where it is.
+    if (was && w === was.w) v.put([0, 0], was.from(0, 0));
     this.invalidate(...LAYERS);
     this.#viewMoved();
-    if (before) this.onSmaller?.(before);
+    if (was && (w < was.w || h < was.h)) this.onSmaller?.(was);
+    else if (was) this.onLarger?.();
   }
 
   invalidate(...layers: LayerName[]): void {

@@ -64,6 +64,13 @@ export class View {
     return [this.cx + dx, this.cy + dy];
   }
 
+  /** Moves the picture, so that a screen position shows a world point. */
+  put([sx, sy]: Vec, [wx, wy]: Vec): void {
+    const [x, y] = this.from(sx, sy);
+    this.cx += wx - x;
+    this.cy += wy - y;
+  }
+
   /** Distance of a world point from a screen position, pixels. */
   away([wx, wy]: Vec, { x, y }: Point): number {
     return Math.hypot(this.x(wx, wy) - x, this.y(wx, wy) - y);
@@ -144,6 +151,18 @@ export class View {
     const x = this.x(wx, wy),
       y = this.y(wx, wy);
     return x > left + edge && x < this.w - right - edge && y > top + edge && y < this.h - bottom - edge;
+  }
+
+  /** Where the line between two screen positions leaves the uncovered part, this many pixels from its edge. */
+  exit([ax, ay]: Vec, [bx, by]: Vec, edge: number): Vec {
+    const { left, right, top, bottom } = this.inset;
+    const within = (from: number, to: number, least: number, most: number): number =>
+      to > most ? (most - from) / (to - from) : to < least ? (least - from) / (to - from) : 1;
+    const k = Math.max(
+      0,
+      Math.min(within(ax, bx, left + edge, this.w - right - edge), within(ay, by, top + edge, this.h - bottom - edge)),
+    );
+    return [ax + (bx - ax) * k, ay + (by - ay) * k];
   }
 
   panBy(dx: number, dy: number): void {

@@ -6,7 +6,6 @@ use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Read};
 

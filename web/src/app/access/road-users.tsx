@@ -8,7 +8,7 @@ import { speedLabel } from '../../model/base/units';
 import { laneWords } from '../../edit/moves/snap';
 import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
-import { IconButton } from '../parts/buttons';
+import { DrawerTabs } from '../parts/drawer-tabs';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/desk/access';
 import { inSentence } from '../../texts/language';
@@ -78,11 +78,7 @@ function Head({ filter }: { filter: { value: Filter } }) {
   );
   return (
     <>
-      <h2>
-        {TEXTS.roadUsersTitle}
-        <span class="grow" />
-        <IconButton id="users" icon="x" size={16} />
-      </h2>
+      <DrawerTabs />
       <div class="filters" role="group" aria-label={TEXTS.filters}>
         <div class="seg wide" role="radiogroup" aria-label={TEXTS.type}>
           {KINDS.map(([id, words]) => (

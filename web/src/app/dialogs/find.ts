@@ -71,7 +71,18 @@ function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
 }
 
 /** Order of a workflow: starting first, then continuing; groups of the selection come before all. */
-const ORDER: readonly Group[] = ['place', 'time', 'scene', 'variants', 'rounds', 'goal', 'look', 'edit', 'everything'];
+const ORDER: readonly Group[] = [
+  'place',
+  'time',
+  'scene',
+  'variants',
+  'rounds',
+  'goal',
+  'select',
+  'look',
+  'edit',
+  'everything',
+];
 
 function actions(c: Context, words: readonly string[]): Entry[] {
   const agent = c.editor.agent.peek();

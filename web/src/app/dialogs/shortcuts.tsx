@@ -18,10 +18,12 @@ interface Line {
 }
 
 const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
-  look: [
+  select: [
     { label: TEXTS.addOneOrTake, keys: ['Shift'], how: TEXTS.click },
     { label: TEXTS.marqueeSelect, keys: [], how: TEXTS.dragOverTheGround },
     { label: TEXTS.addOrSubtractMarquee, keys: ['Shift', 'Alt'], how: TEXTS.drag },
+  ],
+  look: [
     { label: TEXTS.pan, keys: ['Space'], how: TEXTS.drag },
     { label: TEXTS.zoom, keys: [], how: TEXTS.wheel },
     { label: TEXTS.panZoomTurn, keys: [], how: TEXTS.twoFingers },
@@ -103,12 +105,24 @@ export function Shortcuts() {
 }
 
 function Sheet({ group, query }: { group: Group; query: string }) {
-  const lines = linesOf(group).filter((l) => l.label.toLowerCase().includes(query));
-  if (!lines.length) return null;
+  const named = (l: Line): boolean => l.label.toLowerCase().includes(query);
+  const always = [...linesOf(group, false), ...(POINTER_LINES[group] ?? [])].filter(named);
+  const offered = linesOf(group, true).filter(named);
+  if (!always.length && !offered.length) return null;
   return (
     <section>
       <h3>{GROUP_TITLES[group]}</h3>
-      {lines.map(({ label, keys, how }) => (
+      <Lines of={always} />
+      {offered.length ? <h4>{WHEN[group] ?? TEXTS.whenAvailable}</h4> : null}
+      <Lines of={offered} />
+    </section>
+  );
+}
+
+function Lines({ of }: { of: readonly Line[] }) {
+  return (
+    <>
+      {of.map(({ label, keys, how }) => (
         <div key={label} class="kr">
           <span>{label}</span>
           <span>
@@ -119,14 +133,23 @@ function Sheet({ group, query }: { group: Group; query: string }) {
           </span>
         </div>
       ))}
-    </section>
+    </>
   );
 }
 
-function linesOf(group: Group): Line[] {
-  const actions = ACTIONS.filter((a) => a.group === group && a.keys?.length);
-  const lines = actions.map(lineOf);
-  return [...new Set(lines), ...(POINTER_LINES[group] ?? [])];
+/** When the keys of a group apply that do not always apply. */
+const WHEN: Partial<Record<Group, string>> = {
+  place: TEXTS.whilePlacing,
+  goal: TEXTS.withAGoalOrVia,
+  rounds: TEXTS.whileRounds,
+  variants: TEXTS.whileVariants,
+  scene: TEXTS.whileMap,
+};
+
+/** Lines of a group: of keys that always apply, or of those that apply in a context. */
+function linesOf(group: Group, offered: boolean): Line[] {
+  const actions = ACTIONS.filter((a) => a.group === group && a.keys?.length && !!a.onOffer === offered);
+  return [...new Set(actions.map(lineOf))];
 }
 
 /** The line of an action; shared by all of a family. */
@@ -135,7 +158,7 @@ function lineOf(a: Action): Line {
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {
       label: a.label,
       keys: [a.keys![0]],
-      ...(a.whileDragging ? { how: TEXTS.whileDragging } : a.onOffer ? { how: TEXTS.whenAvailable } : {}),
+      ...(a.whileDragging ? { how: TEXTS.whileDragging } : {}),
     }
   );
 }

@@ -1,9 +1,13 @@
 // History of the scene, newest on top. A click goes to a step; abandoned branches are beside the line.
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
+import type { Context } from '../../actions/context';
+import { laneWords } from '../../edit/moves/snap';
+import { metres } from '../../model/base/units';
 import type { History, HistoryStep } from '../../model/document/history';
 import { useApp } from '../parts/app-context';
-import { IconButton, KeyCaps } from '../parts/buttons';
+import { KeyCaps } from '../parts/buttons';
+import { DrawerTabs } from '../parts/drawer-tabs';
 import { Icon } from '../parts/icons';
 import { clock, dayAndTime } from '../scenes/dates';
 import { TEXTS } from '../../texts/desk/history';
@@ -52,11 +56,9 @@ export function HistoryPanel() {
   const at = line.findIndex((s) => s.id === head) + 1;
   return (
     <section class="drawer card history" aria-label={TEXTS.history} data-group="history">
+      <DrawerTabs />
       <h2>
-        {TEXTS.history}
         <small class="mut">{line.length ? TEXTS.ofSteps(at, line.length) : TEXTS.noStepsYet}</small>
-        <span class="grow" />
-        <IconButton id="history" icon="x" size={16} />
       </h2>
       <div class="scns">
         <ol class="past">
@@ -102,8 +104,10 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
   const { editor } = useApp();
   const naming = useSignal(false);
   const who = step.agent === null ? null : editor.scene.peek()?.agents.get(step.agent)?.name;
-  const place = who && !step.name.includes(who) ? who : null;
-  const words = [now ? TEXTS.now : null, branch && tip ? TEXTS.goBackToThis : null, place].filter(Boolean).join(' · ');
+  const whose = who && !step.name.includes(who) ? who : null;
+  const words = [now ? TEXTS.now : null, branch && tip ? TEXTS.goBackToThis : null, whose, placeOf(editor, step)]
+    .filter(Boolean)
+    .join(' · ');
   if (naming.value) return <StepTitle step={step} done={() => (naming.value = false)} />;
   return (
     <li
@@ -131,6 +135,22 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
       </button>
     </li>
   );
+}
+
+/** Where the goal or the start of its road user went, and how far: `E arm, inbound lane · 12.4 m`. */
+function placeOf({ scene }: Context['editor'], { diff }: HistoryStep): string | null {
+  const [one, ...more] = diff.agents;
+  const now = scene.peek();
+  const a = one && now?.agents.get(one.id);
+  if (!a || more.length || !one.forth) return null;
+  const to = one.forth.goal?.pos ?? one.forth.start?.pos;
+  if (!to) return null;
+  const from = one.back?.goal?.pos ?? one.back?.start?.pos;
+  const far = from ? Math.hypot(to[0] - from[0], to[1] - from[1]) : 0;
+  const heading = one.forth.goal?.heading ?? one.forth.start?.heading ?? null;
+  return [laneWords(now!.map, a, to[0], to[1], heading), far > 0.05 ? metres(far, 1) : null]
+    .filter(Boolean)
+    .join(' · ');
 }
 
 function StepTitle({ step, done }: { step: HistoryStep; done: () => void }) {

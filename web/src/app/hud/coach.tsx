@@ -1,12 +1,10 @@
 // The hint of the first minute.
 import type { Context } from '../../actions/context';
 import { placedBy } from '../../actions/place';
-import { FLAG_HEIGHT } from '../../draw/handles';
-import { poseShown } from '../../edit/overlay/frame';
 import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
 import { Icon } from '../parts/icons';
-import { viewTick } from './view-tick';
+import { coversHand } from './keep-clear';
 import { TEXTS } from '../../texts/desk/hud';
 
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseOthersReact];
@@ -54,13 +52,12 @@ export function Coach() {
 }
 
 /** The hint is about the car and its flag, and must not cover them: it moves elsewhere where it would. */
-function placeOf({ editor, form, stage: { view: v } }: Context): '' | 'above' | 'below' | 'left' | 'right' {
-  void viewTick.value;
-  const a = editor.agent.value;
-  const [car, goal] = [a && poseShown(editor, a), a && editor.reading.goalPose(a)].map((p) => p && v.to(p.x, p.y));
-  const flag = goal && ([goal[0], goal[1] - FLAG_HEIGHT * v.grip] as const);
-  const covers = (x0: number, x1: number, y0: number, y1: number): boolean =>
-    [car, goal, flag].some((p) => !!p && p[0] > x0 && p[0] < x1 && p[1] > y0 && p[1] < y1);
+function placeOf(c: Context): '' | 'above' | 'below' | 'left' | 'right' {
+  const {
+    form,
+    stage: { view: v },
+  } = c;
+  const covers = coversHand(c);
   const mid = v.w / 2;
   if (!form.sheet.value) return covers(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, v.h - REACHES_PX, v.h) ? 'above' : '';
   if (form.small.value) return covers(0, v.w, 0, REACHES_PX) ? 'below' : '';

@@ -1,5 +1,4 @@
 // All overlays of the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
-import { Fragment } from 'preact';
 import { useComputed } from '@preact/signals';
 import { typeOfKind } from '../../model/base/kinds';
 import { placedBy } from '../../actions/place';
@@ -9,6 +8,7 @@ import type { Spread } from '../../edit/moves/placing';
 import { MenuButton } from '../menu';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
 import { Later } from '../later';
 import { Banner } from './banner';
 import { Compass } from './compass';
@@ -22,8 +22,8 @@ import { WayBack } from './way-back';
 import { lengthUnit } from '../../model/base/units';
 import { TEXTS } from '../../texts/desk/hud';
 
-/** The most used layers; the menu beside them has all. */
-const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
+/** Tools that are always in the rail; the menu below has all others, and the active one of them joins these. */
+const ALWAYS = ['select', 'pan'];
 
 export function Hud() {
   const c = useApp();
@@ -40,11 +40,11 @@ export function Hud() {
       {form.small.value ? <Thumb /> : <Rail />}
       <LoupeWords />
       <div class="tr">
-        <div class="card chipbar" role="group" aria-label={TEXTS.layers}>
-          {LAYERS.map((l) => (
-            <ActionButton key={l} id={`layer-${l}`} icon="check" size={14} />
-          ))}
-          <MenuButton name="layers" icon="layers" label={TEXTS.allLayers} />
+        <div class="card chipbar">
+          <MenuButton name="layers" icon="down" label={TEXTS.allLayers}>
+            <Icon name="layers" size={16} />
+            {TEXTS.layers}
+          </MenuButton>
         </div>
       </div>
       <div class={`bl ${shift}`}>
@@ -68,14 +68,17 @@ export function Hud() {
 }
 
 function Rail() {
+  const { editor } = useApp();
+  const now = editor.tool.value;
+  const other = RAIL.find((t) => t.name === now && !ALWAYS.includes(now));
   return (
     <nav class="rail" data-group="tools" aria-label={TEXTS.tools}>
-      {RAIL.map((tool, i) => (
-        <Fragment key={tool.name}>
-          {i && !tool.places !== !RAIL[i - 1].places ? <hr /> : null}
-          <Tool id={`tool-${tool.name}`} class={tool.places ? `t-${typeOfKind(tool.places)}` : ''} />
-        </Fragment>
+      {ALWAYS.map((name) => (
+        <Tool key={name} id={`tool-${name}`} />
       ))}
+      <hr />
+      {other ? <Tool id={`tool-${now}`} class={other.places ? `t-${typeOfKind(other.places)}` : ''} /> : null}
+      <MenuButton name="add" icon="plus" label={TEXTS.addAndMore} />
     </nav>
   );
 }

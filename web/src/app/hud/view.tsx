@@ -25,9 +25,7 @@ export function ZoomBar() {
   return (
     <div class="br">
       <div class="card chipbar zoom" role="group" aria-label={TEXTS.zoom}>
-        <IconButton id="zoom-out" size={16} />
         <span class="zoomnum">{percent}</span>
-        <IconButton id="zoom-in" size={16} />
         <IconButton id="fit" size={16} />
       </div>
     </div>

@@ -1,16 +1,15 @@
 // The inspector of one road user: verdict on the goal, start, goal, six futures, reactions.
-import type { ComponentChildren, RefObject } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import type { ComponentChildren } from 'preact';
+import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { seenUntil } from '../../model/physics/playback';
-import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/document/scene';
+import { canChange, changedByHand, hasGoal, startPose, type Agent } from '../../model/document/scene';
 import { messageText } from '../../model/words/message-text';
 import { seconds } from '../../model/base/units';
-import { goalFromLog } from '../../edit/moves/moves';
-import { callIt, noteOn } from '../../edit/moves/several';
+import { callIt } from '../../edit/moves/several';
 import { laneWords } from '../../edit/moves/snap';
 import { useApp } from '../parts/app-context';
-import { ActionButton, IconButton, Segments } from '../parts/buttons';
+import { ActionButton, IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Changes } from './changes';
 import { CurveSection } from './curve-section';
@@ -33,17 +32,19 @@ export function AgentPanel({ id }: { id: string }) {
       <Head agent={agent} />
       {canChange(first) ? (
         <>
-          <Locked agent={agent}>
+          <LockLine agent={agent} />
+          <Fields agent={agent} class="verdict">
             <Hint agent={agent} />
             <Warnings agent={agent} />
-            <CurveSection agent={agent} />
-            <StartSection agent={agent} />
-            <ViasSection agent={agent} />
-            <GoalSection agent={agent} />
-          </Locked>
-          <FuturesSection agent={agent} />
+          </Fields>
           <Changes />
-          <NoteSection agent={agent} />
+          <FuturesSection agent={agent} />
+          <Fields agent={agent}>
+            <CurveSection agent={agent} />
+            <GoalSection agent={agent} />
+            <ViasSection agent={agent} />
+            <StartSection agent={agent} />
+          </Fields>
           <div class="grow" />
           <Foot agent={agent} />
         </>
@@ -89,8 +90,6 @@ function Head({ agent }: { agent: LiveAgent }) {
         </p>
         <VerdictLine agent={agent} />
       </div>
-      <IconButton id="follow" />
-      <IconButton id="zoom-selection" />
       <IconButton id="menu" icon="more" />
     </div>
   );
@@ -143,96 +142,34 @@ function NameField({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** A locked road user is shown read-only. */
-function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChildren }) {
-  const fields = useRef<HTMLFieldSetElement>(null);
-  useSteady(fields);
+/** Tells that it is locked, with the way out. */
+function LockLine({ agent }: { agent: LiveAgent }) {
   const locked = useComputed(() => agent.value.locked).value;
+  if (!locked) return null;
   return (
-    <>
-      {locked ? (
-        <div class="sect lockline">
-          <Icon name="lock" size={15} />
-          <span class="grow">{TEXTS.lockedCannotBeChanged}</span>
-          <ActionButton id="lock" class="line" icon="" size={15}>
-            {TEXTS.unlock}
-          </ActionButton>
-        </div>
-      ) : null}
-      <fieldset ref={fields} class="fields" disabled={locked}>
-        {children}
-      </fieldset>
-    </>
+    <div class="sect lockline">
+      <Icon name="lock" size={15} />
+      <span class="grow">{TEXTS.lockedCannotBeChanged}</span>
+      <ActionButton id="lock" class="line" icon="" size={15}>
+        {TEXTS.unlock}
+      </ActionButton>
+    </div>
   );
 }
 
-/** Keeps the fields under the pointer in place when the verdict above them changes height. */
-function useSteady(fields: RefObject<HTMLFieldSetElement | null>): void {
-  useEffect(() => {
-    const within = fields.current!;
-    const panel = within.closest<HTMLElement>('.insp');
-    const below = () => within.querySelector<HTMLElement>('.curve, .startsec');
-    let [first, was] = [below(), below()?.offsetTop ?? 0];
-    const watch = new ResizeObserver(() => {
-      const now = below();
-      const by = now && now === first ? now.offsetTop - was : 0;
-      [first, was] = [now, now?.offsetTop ?? 0];
-      // The verdict itself stays visible: scrolling is limited to the head's height.
-      const most = Math.max(panel?.scrollTop ?? 0, within.offsetTop);
-      if (by && panel?.matches(':hover, :focus-within')) panel.scrollTop = Math.min(panel.scrollTop + by, most);
-    });
-    watch.observe(within);
-    return () => watch.disconnect();
-  }, [fields]);
+interface FieldsProps {
+  readonly agent: LiveAgent;
+  readonly class?: string;
+  readonly children: ComponentChildren;
 }
 
-/** A note, and the behaviour when others change. */
-function NoteSection({ agent }: { agent: LiveAgent }) {
-  const { editor } = useApp();
-  const area = useRef<HTMLTextAreaElement>(null);
-  const note = useComputed(() => agent.value.note);
-  const asked = useComputed(() => touched(agent.value)).value;
+/** Fields of a road user; those of a locked one are read-only. */
+function Fields({ agent, class: className = '', children }: FieldsProps) {
+  const locked = useComputed(() => agent.value.locked).value;
   return (
-    <section class="sect">
-      {asked ? null : (
-        <>
-          <h3>
-            {TEXTS.whileOthersChange}
-            <small>{TEXTS.thisRoadUserOnly}</small>
-          </h3>
-          <Segments
-            label={TEXTS.behaviourWhenOthersChange}
-            items={[
-              ['does-react', TEXTS.reacts],
-              ['does-log', TEXTS.replaysLog],
-              ['does-still', TEXTS.holdsStill],
-            ]}
-          />
-        </>
-      )}
-      <textarea
-        ref={area}
-        class="notes"
-        data-text="note"
-        aria-label={TEXTS.note}
-        placeholder={TEXTS.note}
-        rows={1}
-        maxlength={2000}
-        value={note}
-        onBlur={() => {
-          if (!area.current) return;
-          const typed = area.current.value.trim();
-          if (typed !== note.peek()) editor.commits.run(noteOn(agent.peek(), typed));
-        }}
-        onKeyDown={(e) => {
-          if (e.key === 'Escape') {
-            area.current!.value = note.peek();
-            area.current!.blur();
-            e.stopPropagation();
-          }
-        }}
-      />
-    </section>
+    <fieldset class={`fields ${className}`} disabled={locked}>
+      {children}
+    </fieldset>
   );
 }
 
@@ -260,23 +197,19 @@ function Warnings({ agent }: { agent: LiveAgent }) {
   );
 }
 
+/** One button for the next step with the goal: set it, or take back what was changed. */
 function Foot({ agent }: { agent: LiveAgent }) {
   const goal = useComputed(() => hasGoal(agent.value.goal)).value;
-  const changed = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
-  const recorded = useComputed(() => goalFromLog(agent.value) !== null).value;
+  const recorded = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
   return (
     <div class="sect foot">
-      {goal ? (
-        <ActionButton key="clear" id="clear-goal" class="line" icon="flag" size={15} />
-      ) : (
+      {!goal ? (
         <ActionButton key="set" id="set-goal" class="goal" size={15} withKey />
+      ) : recorded ? (
+        <ActionButton key="reset" id="reset-agent" class="line" size={15} withKey />
+      ) : (
+        <ActionButton key="clear" id="clear-goal" class="line" size={15} withKey />
       )}
-      {!goal && recorded && !changed ? (
-        <ActionButton key="log" id="goal-from-log" class="line" icon="">
-          {TEXTS.sameAsRecorded}
-        </ActionButton>
-      ) : null}
-      {changed ? <ActionButton id="reset-agent" class="line" icon="" size={15} /> : null}
     </div>
   );
 }

@@ -4,8 +4,8 @@ import type { Change } from '../../model/words/change-words';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/panels/agent';
 
-/** Beyond this number they are counted until all are requested. */
-const LISTED = 8;
+/** Beyond this number they are counted until all are requested: the futures below stay in sight. */
+const LISTED = 4;
 
 const others = (n: number): string => TEXTS.others(n);
 

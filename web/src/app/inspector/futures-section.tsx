@@ -130,6 +130,10 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const pick = () => takeFuture(editor, agent.peek(), index);
   const point = () => editor.pointAt({ future: index });
   const leave = () => editor.pointAt({});
+  /** A row that comes under a resting pointer, because the verdict above it grew, is not pointed at. */
+  const moved = (e: PointerEvent) => {
+    if (e.movementX || e.movementY) point();
+  };
   const pin = useComputed(() => pinnedAt(editor, index)).value;
   const toggle = () => {
     const done = togglePin(editor, agent.peek(), index);
@@ -138,7 +142,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   };
   const label = (pin ? PINS.unpinLetter : PINS.pinLetter)(LETTERS[index]);
   return (
-    <div class="furow" onPointerEnter={point} onPointerLeave={leave}>
+    <div class="furow" onPointerMove={moved} onPointerLeave={leave}>
       <button
         type="button"
         class="fu"

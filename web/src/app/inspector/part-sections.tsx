@@ -1,25 +1,17 @@
 // Start and goal: each field with its value, and whether it is fixed or free.
 import type { ComponentChildren } from 'preact';
+import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/base/geometry';
 import { rangesOf, topSpeed } from '../../model/base/domain';
 import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/base/kinds';
 import { hasGoal, type GoalSpec } from '../../model/document/scene';
-import {
-  fromUnit,
-  lengthUnit,
-  lengthUnitWord,
-  nextSpeedUnit,
-  num,
-  sizeText,
-  speedText,
-  toUnit,
-} from '../../model/base/units';
+import { fromUnit, lengthUnit, lengthUnitWord, num, sizeText, speedText, toUnit } from '../../model/base/units';
 import type { Field } from '../../edit/session/editor';
 import type { HandlePart } from '../../edit/session/drag';
 import type { HandleName } from '../../edit/session/drag';
 import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves/moves';
-import { setKind } from '../../edit/moves/several';
+import { noteOn, setKind } from '../../edit/moves/several';
 import { laneWords } from '../../edit/moves/snap';
 import { leaveGiven } from '../../edit/moves/ways-out';
 import { useApp } from '../parts/app-context';
@@ -31,6 +23,8 @@ import { TEXTS } from '../../texts/panels/agent';
 import { SAYS_WHERE } from '../../texts/language';
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
+  const { form, ui } = useApp();
+  const all = useAllFields();
   return (
     <section class="sect startsec" aria-label={TEXTS.start}>
       <h3>
@@ -38,18 +32,65 @@ export function StartSection({ agent }: { agent: LiveAgent }) {
         {TEXTS.start}
         <small>{TEXTS.at00S}</small>
       </h3>
-      <PoseRows agent={agent} part="start" />
-      <TypeRow agent={agent} />
-      <Row label={TEXTS.size}>
-        <SizeField agent={agent} name="length" />
-        <SizeField agent={agent} name="width" />
-      </Row>
+      <PoseRows agent={agent} part="start" all={all} />
+      {all ? (
+        <>
+          <TypeRow agent={agent} />
+          <Row label={TEXTS.size}>
+            <SizeField agent={agent} name="length" />
+            <SizeField agent={agent} name="width" />
+          </Row>
+          <Note agent={agent} />
+        </>
+      ) : null}
+      {form.sheet.value ? null : (
+        <button type="button" class="more" aria-expanded={all} onClick={() => ui.showAllFields(!all)}>
+          {all ? TEXTS.fewerFields : TEXTS.moreFields}
+          <Icon name="down" size={12} />
+        </button>
+      )}
     </section>
+  );
+}
+
+/** Are the rarely typed fields shown, too? A sheet has them below the fold. */
+const useAllFields = (): boolean => {
+  const { form, ui } = useApp();
+  return form.sheet.value || ui.allFields.value;
+};
+
+function Note({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const area = useRef<HTMLTextAreaElement>(null);
+  const note = useComputed(() => agent.value.note);
+  return (
+    <textarea
+      ref={area}
+      class="notes"
+      data-text="note"
+      aria-label={TEXTS.note}
+      placeholder={TEXTS.note}
+      rows={1}
+      maxlength={2000}
+      value={note}
+      onBlur={() => {
+        if (!area.current) return;
+        const typed = area.current.value.trim();
+        if (typed !== note.peek()) editor.commits.run(noteOn(agent.peek(), typed));
+      }}
+      onKeyDown={(e) => {
+        if (e.key !== 'Escape') return;
+        area.current!.value = note.peek();
+        area.current!.blur();
+        e.stopPropagation();
+      }}
+    />
   );
 }
 
 export function GoalSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
+  const all = useAllFields();
   const place = useComputed(() => {
     const a = agent.value;
     const drag = editor.reading.throttle.read(() => editor.drag.info.value);
@@ -72,7 +113,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
         {TEXTS.goal}
         <small>{place}</small>
       </h3>
-      <PoseRows agent={agent} part="goal" />
+      <PoseRows agent={agent} part="goal" all={all} />
       <Row label={TEXTS.time} scrub={time}>
         <NumberField
           {...time}
@@ -120,7 +161,7 @@ function Row({ label, children, end, scrub }: RowProps) {
     <div class="pr">
       {scrub ? <Scrub letter={label} class="lab scrub" {...scrub} /> : <span class="lab">{label}</span>}
       <div class="fs">{children}</div>
-      {end ?? <span />}
+      {end || <span />}
     </div>
   );
 }
@@ -156,15 +197,17 @@ function usePart({ agent, part }: PartProps) {
 const about = (free: boolean, v: number | null | undefined, text: (v: number) => string): string =>
   v == null ? '' : `${free ? '≈ ' : ''}${text(v)}`;
 
-function PoseRows(props: PartProps) {
+/** A start is nearly always fixed: its pills are among the rarely used fields. */
+function PoseRows({ all, ...props }: PartProps & { all: boolean }) {
+  const pill = all || props.part === 'goal';
   return (
     <>
-      <Row label={TEXTS.position} end={<FixedPill {...props} field="pos" label={TEXTS.positionWithin} />}>
+      <Row label={TEXTS.position} end={pill && <FixedPill {...props} field="pos" label={TEXTS.positionWithin} />}>
         <Coordinate {...props} axis={0} />
         <Coordinate {...props} axis={1} />
       </Row>
-      <HeadingRow {...props} />
-      <SpeedRow {...props} />
+      {all ? <HeadingRow {...props} /> : null}
+      <SpeedRow {...props} pill={pill} />
     </>
   );
 }
@@ -251,7 +294,7 @@ function HeadingRow(props: PartProps) {
   );
 }
 
-function SpeedRow(props: PartProps) {
+function SpeedRow({ pill, ...props }: PartProps & { pill: boolean }) {
   const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
   const { agent } = props;
   const onFoot = useComputed(() => agent.value.type === 'pedestrian').value;
@@ -267,7 +310,11 @@ function SpeedRow(props: PartProps) {
     range: () => [0, toUnit(topSpeed(agent.value), unit())] as const,
   };
   return (
-    <Row label={TEXTS.speed} scrub={field} end={<FixedPill {...props} field="speed" label={TEXTS.speedWithin} />}>
+    <Row
+      label={TEXTS.speed}
+      scrub={field}
+      end={pill && <FixedPill {...props} field="speed" label={TEXTS.speedWithin} />}
+    >
       <NumberField
         {...field}
         label={TEXTS.speedOf(word)}
@@ -277,7 +324,6 @@ function SpeedRow(props: PartProps) {
         text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
         free={free}
         live={() => dragged('speed')}
-        onUnit={onFoot ? undefined : () => editor.view.setUnit(nextSpeedUnit(editor.view.speedUnit.peek()))}
         onFocus={focused('speed')}
       />
     </Row>

@@ -4,10 +4,9 @@ import type { Agent, Scene } from '../../model/document/scene';
 import { drivingSide } from '../../model/physics/driving-side';
 import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
-import { ActionButton, Segments } from '../parts/buttons';
+import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { Controls } from '../parts/asking';
-import { OTHERS_DO, useOthers } from '../parts/others';
+import { Later } from '../later';
 import { EventList } from './event-list';
 import { SceneScore } from './scene-score';
 import { TEXTS } from '../../texts/panels/inspector';
@@ -49,8 +48,7 @@ function Nothing() {
 
 function About({ scene }: { scene: Scene }) {
   const { editor, form } = useApp();
-  const choices = useOthers();
-  const others = useComputed(() => OTHERS_DO[editor.resting.value?.others ?? 'react']);
+  const some = useComputed(() => editor.reading.events.value.length > 0).value;
   const span = useComputed(() => TEXTS.nextS(num(editor.resting.value?.duration ?? 0, 0)));
   return (
     <>
@@ -78,22 +76,15 @@ function About({ scene }: { scene: Scene }) {
           <small>{span}</small>
         </h3>
         <EventList most={FIRST_EVENTS} />
-        <ActionButton id="what-counts" class="counts" icon="" />
+        {some ? <ActionButton id="what-counts" class="counts" icon="" /> : null}
       </section>
       <SceneScore />
       {form.sheet.value ? (
         <section class="sect">
           <h3>{TEXTS.futures}</h3>
-          <div class="row asking">
-            <Controls />
-          </div>
+          <Later part="generate options" />
         </section>
       ) : null}
-      <section class="sect">
-        <h3>{TEXTS.othersTitle}</h3>
-        <Segments label={TEXTS.behaviourOfOthers} items={choices} />
-        <p class="note">{others}</p>
-      </section>
       <section class="sect last lines">
         <h3>{TEXTS.map}</h3>
         {mapLines(scene).map((l) => (

@@ -3,6 +3,7 @@ import { counted } from '../../model/physics/events';
 import { comparedWithLog } from '../../model/words/change-words';
 import { meetsGoal } from '../../model/physics/playback';
 import { canChange } from '../../model/document/scene';
+import { threshold } from '../../model/document/thresholds';
 import { metres, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import type { Editor } from '../../edit/session/editor';
@@ -26,7 +27,12 @@ function figures(e: Editor): (readonly [string, string])[] {
   const [scene, set] = [e.scene.value, e.answers.motion.value];
   if (!scene?.agents.size || !set.score || set.stale) return [];
   const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
-  const hits = counted(e.reading.events.value).filter((ev) => ev.kind === 'collision').length;
+  const events = counted(e.reading.events.value);
+  const hits = events.filter((ev) => ev.kind === 'collision').length;
+  // Without an event in the scene a small gap is one of the recording.
+  const seconds = (s: number, least: number): string =>
+    `${num(s, 1)} s${!events.length && s < least ? ` · ${TEXTS.inTheRecording}` : ''}`;
+  const ttc = threshold(scene, 'ttc_s');
   const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
   const reached = goals.filter((a) => meetsGoal(set, a)).length;
   const far = all.flatMap((a) =>
@@ -36,8 +42,8 @@ function figures(e: Editor): (readonly [string, string])[] {
   const { minTtc, pet } = set.score;
   return [
     [TEXTS.collisionsPer, num(hits / Math.max(1, all.length), 2)],
-    [TEXTS.minimumTtc, minTtc === null ? TEXTS.none : `${num(minTtc, 1)} s`],
-    ...(pet == null ? [] : [[TEXTS.minimumPet, `${num(pet, 1)} s`] as const]),
+    [TEXTS.minimumTtc, minTtc === null ? TEXTS.none : seconds(minTtc, ttc)],
+    ...(pet == null ? [] : [[TEXTS.minimumPet, seconds(pet, ttc)] as const]),
     ...(goals.length ? [[TEXTS.goalsReached, TEXTS.countOf(reached, goals.length)] as const] : []),
     ...(furthest > 0 ? [[TEXTS.largestDistance, metres(furthest, 1)] as const] : []),
   ];

@@ -1,34 +1,54 @@
-// Options of generation: seed, diversity, and the Generate button.
+// Options of generation: seed, diversity, code of the result, computed length and planning window.
+import type { ComponentChildren } from 'preact';
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { setDiversity, setSeed } from '../../model/document/commands';
 import { DEFAULTS } from '../../model/base/domain';
 import { useApp } from './app-context';
-import { ActionButton, IconButton } from './buttons';
+import { LENGTHS, REPLANS } from '../../model/document/scene';
+import { ActionButton, IconButton, Segments } from './buttons';
 import { Slider } from './slider';
 import { resultCode } from '../../model/document/result-code';
 import { TEXTS } from '../../texts/desk/parts';
 import { TEXTS as CODE } from '../../texts/files/result-code';
 
-export function Controls() {
-  const { editor } = useApp();
-  const away = useComputed(() => editor.answers.away.value !== null).value;
+/** One row for each option, and the way to variants. */
+export function GenerateOptions() {
   return (
-    <>
-      <span class="fieldlab">{TEXTS.seed}</span>
-      <SceneSeed />
-      <IconButton id="new-seed" />
-      <span class="gap" />
-      <span class="fieldlab">{TEXTS.diversity}</span>
-      <DiversitySlider />
-      <ResultCode />
-      <ActionButton id="generate" class="pri" icon="" withKey>
-        {away ? TEXTS.waiting : TEXTS.generate}
-      </ActionButton>
-      <IconButton id="variants" />
-    </>
+    <div class="options">
+      <Option name={TEXTS.seed}>
+        <SceneSeed />
+        <IconButton id="new-seed" />
+      </Option>
+      <Option name={TEXTS.diversity}>
+        <DiversitySlider />
+      </Option>
+      <Option name={TEXTS.length}>
+        <Segments label={TEXTS.computedLength} items={seconds('length', LENGTHS)} />
+      </Option>
+      <Option name={TEXTS.replanEvery}>
+        <Segments label={TEXTS.planningWindow} items={seconds('replan', REPLANS)} />
+      </Option>
+      <Option name={TEXTS.resultCode}>
+        <ResultCode />
+      </Option>
+      <ActionButton id="variants" class="line" size={15} withKey />
+    </div>
   );
 }
+
+function Option({ name, children }: { name: string; children: ComponentChildren }) {
+  return (
+    <div class="option">
+      <span class="lab">{name}</span>
+      {children}
+    </div>
+  );
+}
+
+/** Seconds side by side; the unit is shown once, at the end. */
+const seconds = (action: string, all: readonly number[]): readonly (readonly [string, string])[] =>
+  all.map((s, i) => [`${action}-${s}`, i === all.length - 1 ? `${s} s` : `${s}`]);
 
 /** A six-character code of the shown result, to compare with others; a click copies it. */
 function ResultCode() {

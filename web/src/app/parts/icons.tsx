@@ -36,6 +36,7 @@ const PATHS: Record<string, string> = {
   eye: 'M2 9s2.500-4.500 7-4.500S16 9 16 9s-2.500 4.500-7 4.500S2 9 2 9zM9 11a2 2 0 1 0 0-4 2 2 0 0 0 0 4',
   plus: 'M9 4v10M4 9h10',
   minus: 'M4 9h10',
+  down: 'M5 7l4 4 4-4',
   north: 'M9 2.500l4.500 12.500L9 12.500 4.500 15z',
   fit: 'M3 7V3h4M11 3h4v4M15 11v4h-4M7 15H3v-4',
   warn: 'M9 3l6.500 11.500h-13zM9 7.500V11M9 12.800h.01',

@@ -4,27 +4,24 @@ import type { Others } from '../../model/document/scene';
 import { TEXTS } from '../../texts/desk/parts';
 import { useApp } from './app-context';
 
-type Choices = readonly (readonly [string, string])[];
+type Words = Readonly<Record<Others, string>>;
 
-const choices = (log: string): Choices => [
-  ['others-react', TEXTS.react],
-  ['others-log', log],
-  ['others-still', TEXTS.holdStill],
-];
-const RECORDED = choices(TEXTS.replayLog);
-const PLACED = choices(TEXTS.continueAsNow);
+const RECORDED: Words = { react: TEXTS.react, log: TEXTS.replayLog, still: TEXTS.holdStill };
+const PLACED: Words = { ...RECORDED, log: TEXTS.continueAsNow };
 
-/** Choices for the others, as pairs of action and word. If all were placed there is no recording to replay. */
-export function useOthers(): Choices {
+/** What the others do, in a word. If all were placed there is no recording to replay. */
+export function useOthersWord(): string {
   const { editor } = useApp();
   return useComputed(() => {
-    const all = [...(editor.resting.value?.agents.values() ?? [])];
-    return all.length && all.every((a) => a.placed) ? PLACED : RECORDED;
+    const scene = editor.resting.value;
+    const all = [...(scene?.agents.values() ?? [])];
+    const words = all.length && all.every((a) => a.placed) ? PLACED : RECORDED;
+    return words[scene?.others ?? 'react'];
   }).value;
 }
 
 /** The meaning of each. */
-export const OTHERS_DO: Readonly<Record<Others, string>> = {
+export const OTHERS_DO: Words = {
   react: TEXTS.allReactOnRelease,
   log: TEXTS.recordedReplay,
   still: TEXTS.othersHoldStill,

@@ -7,10 +7,15 @@ import { isRecorded } from '../../model/document/scene';
 import { countAll, isExample } from '../../edit/document/scene-list';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton } from '../parts/buttons';
+import { DrawerTabs } from '../parts/drawer-tabs';
 import { Icon } from '../parts/icons';
 import { dayAndTime } from './dates';
 import { Thumbnail } from './thumbnail';
 import { TEXTS } from '../../texts/desk/scenes';
+
+/** A list longer than this has a search, and recently opened ones first. */
+const MANY = 8,
+  MOST_RECENT = 3;
 
 export function Drawer() {
   const { form, scenes } = useApp();
@@ -20,40 +25,33 @@ export function Drawer() {
   const words = (s: SceneListItem): string => `${s.name} ${s.source ?? ''} ${s.id} ${about(s)}`.toLowerCase();
   return (
     <section class="drawer card" aria-label={TEXTS.scenes} data-group="scenes">
-      <h2>
-        {TEXTS.scenes}
-        <span class="grow" />
-        <ActionButton id="new-map" class="line" size={14} />
-        <IconButton id="new-scene" size={16} />
-        <IconButton id="scenes" icon="x" size={16} />
-      </h2>
-      <label class="field search">
-        <Icon name="search" size={14} />
-        <input
-          ref={input}
-          type="search"
-          placeholder={TEXTS.findAScene}
-          aria-label={TEXTS.findAScene}
-          onInput={() => {
-            query.value = input.current!.value;
-          }}
-          onKeyDown={(e) => {
-            if (e.key === 'Escape') input.current!.blur();
-          }}
-        />
-      </label>
+      <DrawerTabs />
+      <h2 class="sr">{TEXTS.scenes}</h2>
+      {scenes.list.value.length > MANY ? (
+        <label class="field search">
+          <Icon name="search" size={14} />
+          <input
+            ref={input}
+            type="search"
+            placeholder={TEXTS.findAScene}
+            aria-label={TEXTS.findAScene}
+            onInput={() => {
+              query.value = input.current!.value;
+            }}
+            onKeyDown={(e) => {
+              if (e.key === 'Escape') input.current!.blur();
+            }}
+          />
+        </label>
+      ) : null}
       <div class="scns">
         <List items={scenes.list.value.filter((s) => wanted.every((w) => words(s).includes(w)))} />
       </div>
-      {form.touch.value ? (
-        <ActionButton id="choose-files" class="line bring" />
-      ) : (
-        <div class="drop">
-          <b>{TEXTS.dropSceneFiles}</b>
-          {TEXTS.or}
-          <ChooseFiles />
-        </div>
-      )}
+      <div class="ways">
+        <ActionButton id="new-map" class="line" size={15} />
+        <ActionButton id="choose-files" class="line" size={15} />
+      </div>
+      {form.touch.value ? null : <p class="mut dropnote">{TEXTS.dropSceneFiles}</p>}
     </section>
   );
 }
@@ -73,10 +71,6 @@ export function ChooseFiles() {
     </>
   );
 }
-
-/** Recently opened ones come first, if the list is long enough. */
-const MANY = 8,
-  MOST_RECENT = 3;
 
 function List({ items }: { items: readonly SceneListItem[] }) {
   const { scenes } = useApp();

@@ -60,6 +60,9 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
   };
 }
 
+/** Is the plot high enough for curves? Without any it has only events and seconds. */
+export const hasCurves = (a: Axes): boolean => a.y1 - a.y0 > 20;
+
 /** More lines than this would be a grey patch. */
 const MOST_LINES = 40;
 

@@ -9,7 +9,7 @@ import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
 import type { Context } from '../../actions/context';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
-import { eventShown, severalShown, X0, type Axes, type Line } from './axes';
+import { eventShown, severalShown, X0, type Axes, type Line, hasCurves } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
@@ -36,6 +36,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const drawn = agent
     ? (editor.reading.futures.peek()?.modes.map((m) => m.motion) ?? [agent.log])
     : several.map((l) => l.motion);
+  if (!hasCurves(a)) return null;
   return (
     <>
       {agent ? (

@@ -3,7 +3,7 @@ import { Fragment } from 'preact';
 import { counted } from '../../model/physics/events';
 import { num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
-import { eventsShown, LANE, markedSpan, X0, type Axes } from './axes';
+import { eventsShown, hasCurves, LANE, markedSpan, X0, type Axes } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
 /** Least marked seconds behind the curves. */
@@ -17,7 +17,7 @@ export function Grid({ axes: a }: { axes: Axes }) {
       <text x={X0 - 8} y={16} text-anchor="end">
         {TEXTS.events}
       </text>
-      <SpeedLines axes={a} />
+      {hasCurves(a) ? <SpeedLines axes={a} /> : null}
       <SecondLines axes={a} />
     </>
   );

@@ -1,54 +1,45 @@
-// Transport controls, planned time, behaviour of the others, and the speed plot.
+// Transport controls, behaviour of the others, and the speed plot.
 import { useComputed } from '@preact/signals';
-import { LENGTHS, REPLANS } from '../../model/document/scene';
 import { figure, num } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
-import { IconButton, Segments } from '../parts/buttons';
+import { MenuButton } from '../menu';
+import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
-import { useOthers } from '../parts/others';
+import { useOthersWord } from '../parts/others';
 import { Plot } from './plot';
 import { TEXTS } from '../../texts/panels/timeline';
 
 export function Timeline() {
-  const { form } = useApp();
-  const others = useOthers();
+  const { editor, form, variants } = useApp();
+  const sheet = form.sheet.value;
+  const some = useComputed(() => editor.reading.events.value.length > 0).value;
+  const curves = useComputed(
+    () =>
+      editor.selected.value.length > 0 ||
+      editor.selectedEvent.value !== null ||
+      editor.view.beside.value !== null ||
+      variants.compared.value !== null,
+  ).value;
+  const others = useOthersWord();
   return (
-    <footer class="time" aria-label={TEXTS.timeline} data-group="timeline">
+    <footer class="time" aria-label={TEXTS.timeline} data-group="timeline" data-low={curves || sheet ? undefined : ''}>
       <div class="tb">
-        <IconButton id="to-start" />
         <IconButton id="play" class="playing" after={<Icon name="pause" size={18} />} />
-        <IconButton id="to-end" />
-        {form.sheet.value ? <Scrubber /> : null}
+        {sheet ? <Scrubber /> : null}
         <Clock />
         <RateButton />
-        <IconButton id="loop" />
-        <IconButton id="next-event" />
-        <IconButton id="tall-timeline" />
+        {some || sheet ? <IconButton id="next-event" /> : null}
+        {curves || sheet ? <IconButton id="tall-timeline" /> : null}
         <span class="grow" />
-        <Choice name={TEXTS.length} label={TEXTS.computedLength} items={seconds('length', LENGTHS)} />
-        <Choice name={TEXTS.replan} label={TEXTS.planningWindow} items={seconds('replan', REPLANS)} />
-        <Choice name={TEXTS.others} label={TEXTS.behaviourOfOthers} items={others} />
+        <MenuButton name="others" icon="down" label={`${TEXTS.others} ${others}`}>
+          <span class="mut">{`${TEXTS.others} `}</span>
+          {others}
+        </MenuButton>
       </div>
       <Plot />
     </footer>
   );
 }
-
-type Items = readonly (readonly [string, string])[];
-
-/** A choice with its name; both stay together at a line break. */
-function Choice({ name, label, items }: { name: string; label: string; items: Items }) {
-  return (
-    <span class="choice">
-      <span class="fieldlab">{name}</span>
-      <Segments label={label} items={items} />
-    </span>
-  );
-}
-
-/** Seconds side by side; the unit is shown once, at the end. */
-const seconds = (action: string, all: readonly number[]): Items =>
-  all.map((s, i) => [`${action}-${s}`, i === all.length - 1 ? `${s} s` : `${s}`]);
 
 function Clock() {
   const { editor } = useApp();
@@ -85,18 +76,13 @@ function Scrubber() {
   );
 }
 
+/** The speed of playback, and the menu of everything else about it. */
 function RateButton() {
   const { playhead } = useApp().editor;
-  const rate = playhead.rate.value;
+  const rate = figure(playhead.rate.value);
   return (
-    <button
-      type="button"
-      class="btn rate"
-      title={TEXTS.playbackSpeed}
-      aria-label={TEXTS.playbackSpeedTimes(figure(rate))}
-      onClick={(e) => playhead.changeRate(e.shiftKey ? -1 : 1, true)}
-    >
-      {figure(rate)}×
-    </button>
+    <MenuButton name="playback" icon="down" label={TEXTS.playbackSpeedTimes(rate)} class="rate">
+      {rate}×
+    </MenuButton>
   );
 }

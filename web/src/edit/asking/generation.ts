@@ -5,7 +5,7 @@ import { DEFAULTS } from '../../model/base/domain';
 import { goesOneWay, thoseWhoAnswer } from '../../model/document/reaction-records';
 import { emptyMotion, type MotionSet } from '../../model/document/futures';
 import { drawAnew } from '../../model/document/commands';
-import { canChange, GOAL_TIME, sceneKey, type Scene } from '../../model/document/scene';
+import { canChange, GOAL_TIME, sceneKey, touchedIn, type Scene } from '../../model/document/scene';
 import { countedAnew } from '../../model/physics/verdict-updates';
 import { Away } from '../../net/client';
 import type { Generator, Handlers, Question } from '../../net/generator';
@@ -334,9 +334,11 @@ export class Generation implements Part {
     this.saving.retry();
     const done = waiting ? TEXTS.changesComputed(waiting) : '';
     editor.notices.show({ text: TEXTS.theGenerator(done) });
-    const agent = editor.selection.peek();
-    if (editor.answers.motion.peek().stale) this.#workOut({ name: TEXTS.waitingChanges, agent, undo: true });
-    else this.selected(agent);
+    const scene = editor.scene.peek();
+    // Each changed road user is asked again: its known futures may be from before its change.
+    if (scene && editor.answers.motion.peek().stale)
+      this.#workOut({ name: TEXTS.waitingChanges, agent: null, several: touchedIn(scene), undo: true });
+    else this.selected(editor.selection.peek());
   }
 
   /** A plain curve in place of futures while the generator is unreachable. */

@@ -8,7 +8,16 @@ import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import type { Grip } from '../session/drag';
 import { goalTime } from '../moves/moves';
-import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../moves/snap';
+import {
+  alongLane,
+  lanesAhead,
+  lanesFor,
+  laneWords,
+  snapHeading,
+  snapToLane,
+  softStop,
+  type Snapped,
+} from '../moves/snap';
 import { edgesInTheWay } from '../moves/ways-out';
 import type { Modifiers, Press } from './chart';
 import type { Move } from './dragging-handle';
@@ -21,6 +30,15 @@ const PX_PER_SECOND = 40;
 const WHOLE_SECOND_S = 0.15;
 /** A goal further from the start than this prefers lanes that lead away from the start, in metres. */
 const LEADS_AWAY_M = 6;
+
+/** From the foot of a flag to its pennant, pixels. */
+const PENNANT_PX = [9, -26] as const;
+
+/** The tag at the edge is dragged as the flag itself: its pennant comes to the hand. */
+function pennantOf(view: View, { x, y }: Pose): Vec {
+  const [dx, dy] = view.way(...PENNANT_PX);
+  return [x + dx, y + dy];
+}
 
 interface Beginning {
   readonly grip: Grip;
@@ -41,6 +59,8 @@ export class HandleMove implements Move {
   readonly #laneSetsHeading: boolean;
   /** Kerbs hold back the flag of road users that keep to lanes. */
   readonly #resistance: Resistance | null;
+  /** Lanes that the road user can drive to; null for its start, and without any. */
+  readonly #ahead: ReadonlySet<string> | null;
   readonly #touch: boolean;
   #lane: string | null = null;
   #mayCross: readonly string[];
@@ -52,13 +72,14 @@ export class HandleMove implements Move {
   ) {
     const fits = grip.part === 'goal' && grip.handle === 'body' ? lanesFor(agent) : null;
     this.#resistance = fits && new Resistance(editor.scene.peek()!.map, start, fits, goal);
+    this.#ahead = fits && lanesAhead(editor.scene.peek()!.map, agent, start);
     this.#touch = press.touch;
     this.#mayCross = agent.goal.mayCross;
     this.grip = grip;
     this.agent = agent;
     this.#start = start;
     this.#goal = goal;
-    this.#grab = view.from(press.x, press.y);
+    this.#grab = grip.edge ? pennantOf(view, goal) : view.from(press.x, press.y);
     const free = (grip.part === 'goal' ? agent.goal : agent.start).heading === null;
     this.#laneSetsHeading = free || editor.drag.headingFollows(grip.part, agent) || this.#startsOnLane();
   }
@@ -179,7 +200,7 @@ export class HandleMove implements Move {
     const travel = away ? Math.atan2(y - start.y, x - start.x) : null;
     const ownHeading = !this.#laneSetsHeading || grip.part === 'start';
     const heading = ownHeading ? this.#pose.heading : this.#lane ? null : travel;
-    return snapToLane(map, a, x, y, heading, this.view.z, this.#lane, travel);
+    return snapToLane(map, a, x, y, heading, this.view.z, this.#lane, travel, this.#ahead);
   }
 
   #heading(wx: number, wy: number, mods: Modifiers): number {

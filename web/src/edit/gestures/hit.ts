@@ -40,6 +40,7 @@ export interface HitContext {
   view: View;
   chips: readonly Chip[];
   timeTag: Rect | null;
+  edgeTag: Rect | null;
   roadSign: RoadSign | null;
   /** The tool handle painted at a place. */
   toolHandleAt(x: number, y: number): ToolHandle | null;
@@ -95,6 +96,8 @@ function frameHandleAt(c: HitContext, x: number, y: number): FrameHandle | null 
   return within(edge) && !within(-edge) ? 'move' : null;
 }
 
+const EDGE: Grip = { part: 'goal', handle: 'body', edge: true };
+
 function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   if (c.touch) return gripForFinger(c, a, x, y);
   const { view: v, editor } = c;
@@ -104,6 +107,7 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   const goal = editor.reading.goalPose(a);
   if (goal) {
     const g = handlePoints(v, a, goal);
+    if (c.edgeTag && inRect(c.edgeTag, x, y)) return EDGE;
     if (c.timeTag && inRect(c.timeTag, x, y)) return { part: 'goal', handle: 'time' };
     if (goal.set && near(g.tip, x, y, r)) return { part: 'goal', handle: 'speed' };
     if (goal.set && near(g.knob, x, y, r)) return { part: 'goal', handle: 'heading' };
@@ -142,6 +146,7 @@ function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | nu
   const goal = editor.reading.goalPose(a);
   if (goal) {
     const g = handlePoints(v, a, goal);
+    if (c.edgeTag) offer(EDGE, rectAway(c.edgeTag, x, y));
     if (c.timeTag) offer({ part: 'goal', handle: 'time' }, rectAway(c.timeTag, x, y));
     offer({ part: 'goal', handle: 'body' }, Math.min(flagAway(v, g.centre, x, y), boxAway(v, a, goal, x, y)));
     if (goal.set) {

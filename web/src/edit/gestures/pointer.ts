@@ -182,10 +182,11 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign } = this.overlay;
+    const { chips, timeTag, edgeTag, roadSign } = this.overlay;
     const toolHandleAt = (x: number, y: number): ToolHandle | null =>
       firstOf(this.tools, (t) => t.handleAt?.(x, y, touch));
-    return { editor, view: stage.view, chips, timeTag, roadSign, toolHandleAt, pennants: picture.pennants, touch };
+    const { pennants } = picture;
+    return { editor, view: stage.view, chips, timeTag, edgeTag, roadSign, toolHandleAt, pennants, touch };
   }
 
   #down(e: PointerEvent): void {
@@ -230,7 +231,9 @@ export class Gestures {
     if (this.#takenOver()) return;
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
-    if (hitTest(this.#context(false), x, y).kind !== 'none') return;
+    const { kind } = hitTest(this.#context(false), x, y);
+    // On a road user, or where its first click has selected it, it zooms in there, too.
+    if (kind !== 'none' && kind !== 'agent' && kind !== 'grip') return;
     this.stage.glide.by((v) => v.zoomAt(x, y, 1.6));
     this.chart.viewMoved();
   }

@@ -11,6 +11,7 @@ import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
 import { HandleMove } from './handle-move';
+import { wordsOnMap } from './on-the-map';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
 import { rectangle, Sweeping } from './sweeping';
@@ -19,6 +20,8 @@ import { ViaMove } from './via-move';
 
 /** Assumed distance of the goal ahead of a road user without futures, in metres. */
 const GOAL_AHEAD_M = 20;
+/** Time that words about the map stay. */
+const TOLD_MS = 3000;
 
 export const SELECT: Tool = {
   name: 'select',
@@ -126,6 +129,27 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
   editor.takeVia(added.index);
 }
 
+/** With nothing selected a click tells what is there. */
+function tellMap({ editor, surface }: Chart, press: Press): void {
+  const scene = editor.scene.peek();
+  const at = surface.view.from(press.x, press.y);
+  const words = scene && wordsOnMap(scene, at, editor.playhead.time.peek());
+  if (words) editor.notices.show({ text: words }, TOLD_MS);
+}
+
+/** Room for a flag and its label, pixels. */
+const FLAG_ROOM_PX = 70;
+
+/** Moves the picture just far enough to show the flag. */
+function lookAtGoal({ editor, surface }: Chart): void {
+  const a = editor.agent.peek();
+  const goal = a && editor.reading.goalPose(a);
+  if (!goal) return;
+  const [x, y] = surface.view.to(goal.x, goal.y);
+  surface.view.panInto({ x0: x, x1: x, y0: y, y1: y }, FLAG_ROOM_PX);
+  surface.viewChanged();
+}
+
 export function click(chart: Chart, press: Press, timeStamp: number): void {
   const { editor } = chart;
   const { hit } = press;
@@ -180,6 +204,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
         break;
       }
       editor.activate(hit.grip.part);
+      if (hit.grip.edge) lookAtGoal(chart);
       editor.takeVia(hit.grip.index ?? null);
       const box = hit.grip.part === 'start' && hit.grip.handle === 'body';
       const below = box ? chart.parts.agentsAt(press) : [];
@@ -188,6 +213,10 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
     }
     case 'none':
       if (chart.placement.ghosts.peek()) placeGhost(editor, chart.placement);
-      else if (!adds) editor.select(null);
+      else if (!adds) {
+        const some = editor.selected.peek().length > 0;
+        editor.select(null);
+        if (!some) tellMap(chart, press);
+      }
   }
 }

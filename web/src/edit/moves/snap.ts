@@ -1,7 +1,7 @@
 // Snapping to lanes and angles, with a visible sign; Alt disables it.
-import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../../model/base/geometry';
+import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from '../../model/base/geometry';
 import { armWords } from '../../model/words/arm-names';
-import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
+import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
 import { TEXTS } from '../../texts/editing/picture';
 
@@ -14,7 +14,17 @@ export interface Snapped {
 
 const RADIUS_M = 1.8;
 const RADIUS_PX = 14;
+/** The widest lane of a map, metres. */
+const WIDEST_M = 8;
 const AGAINST = 2.1;
+/** A flag on the line still belongs to the lane, metres. */
+const MARGIN_M = 0.2;
+/** A lane that it cannot or may not drive to is as good as one this much further away, metres. */
+const NOT_MINE_M = 1.5;
+/** Lanes within this distance of the start can be entered by a lane change, and lead this far, metres. */
+const BESIDE_START_M = 8;
+const SAME_WAY_RAD = Math.PI / 3;
+const AHEAD_M = 400;
 /** The current lane is preferred by this much, so that the box does not flicker between two. */
 const STAY_BONUS_M = 0.6;
 
@@ -24,8 +34,17 @@ export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null 
   return null;
 }
 
+/** Ids of the lanes that a road user can drive to from its start; null where it starts on none. */
+export function lanesAhead(map: LaneMap, a: Pick<Agent, 'type'>, start: Pose): ReadonlySet<string> | null {
+  const fits = lanesFor(a);
+  const from = fits ? nearestLanes(map, start.x, start.y, start.heading, BESIDE_START_M, fits) : [];
+  const mine = from.filter((h) => Math.abs(wrapAngle(h.heading - start.heading)) < SAME_WAY_RAD);
+  return mine.length ? lanesAfter(map, mine, AHEAD_M) : null;
+}
+
 /**
- * The best lane under a point. `travel` is the line from the start to a goal: lanes back against it are ignored, or a
+ * The best lane under a point: any between its lines, those of `ahead` first, and inside a junction only those.
+ * `travel` is the line from the start to a goal: lanes back against it are ignored, or a
  * goal a little beyond the middle line would turn the car round. Alt places it anywhere.
  */
 export function snapToLane(
@@ -37,18 +56,25 @@ export function snapToLane(
   zoom: number,
   stay: string | null,
   travel: number | null = null,
+  ahead: ReadonlySet<string> | null = null,
 ): Snapped {
   const fits = lanesFor(a);
   const free: Snapped = { x, y, laneHeading: null, lane: null };
   if (!fits) return free;
   const radius = Math.max(RADIUS_M, RADIUS_PX / zoom);
-  const hits = nearestLanes(map, x, y, heading, radius, fits);
+  const hits = nearestLanes(map, x, y, heading, Math.max(radius, WIDEST_M / 2), fits).filter(
+    ({ d, lane }) => d <= Math.max(radius, lane.width / 2 + MARGIN_M),
+  );
   let best: LaneHit | null = null,
     score = Infinity;
   for (const h of hits) {
     const bike = a.type === 'cyclist' && h.lane.kind === 'bike' ? 0.8 : 0;
     if (travel !== null && Math.abs(wrapAngle(h.heading - travel)) > AGAINST) continue;
-    const s = h.score - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
+    const far = ahead !== null && !ahead.has(h.lane.id);
+    // The turn of another arm crosses this place, and leads elsewhere.
+    if (far && h.lane.inside) continue;
+    const notMine = far || (h.lane.type === 'bus_lane' && a.kind !== 'bus') ? NOT_MINE_M : 0;
+    const s = h.score + notMine - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
     if (s < score) {
       score = s;
       best = h;
@@ -144,22 +170,21 @@ function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, hea
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
   if (!hit) return TEXTS.offTheLanes;
-  const arm = hit.lane.kind === 'walk' ? null : armWords(map, hit.lane);
+  if (hit.lane.kind === 'walk') return TEXTS.besideTheRoad;
+  const arm = armWords(map, hit.lane);
   if (arm) return arm;
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
   const what =
     hit.lane.kind === 'bike'
       ? TEXTS.bikeLane
-      : hit.lane.kind === 'walk'
-        ? TEXTS.pavement
-        : junction
-          ? TEXTS.insideTheJunction
-          : hit.lane.type === 'freeway'
-            ? TEXTS.motorwayLane
-            : hit.lane.type === 'bus_lane'
-              ? TEXTS.busLane
-              : TEXTS.lane;
+      : junction
+        ? TEXTS.insideTheJunction
+        : hit.lane.type === 'freeway'
+          ? TEXTS.motorwayLane
+          : hit.lane.type === 'bus_lane'
+            ? TEXTS.busLane
+            : TEXTS.lane;
   return junction ? TEXTS.bound(what, way) : TEXTS.wayBound(way, what);
 }
 

@@ -4,7 +4,7 @@ import type { Pose } from '../../model/base/geometry';
 import { reachableWays, reachBetween, shortfall } from '../../model/physics/reach';
 import { canChange, startPose, type Agent } from '../../model/document/scene';
 import { metres, seconds, speedLabel } from '../../model/base/units';
-import { pill, tag, type Labels } from '../../draw/labels';
+import { pill, tag, type Labels, type Rect } from '../../draw/labels';
 import { paintFlag, paintGhost, paintHandles, paintString } from '../../draw/handles';
 import { paintRing, paintWays } from '../../draw/ground';
 import { polyline } from '../../draw/strokes';
@@ -15,9 +15,21 @@ import type { Lag } from '../session/drag';
 import { outOfReach, type OutOfReach } from '../moves/goal-verdict';
 import { TEXTS } from '../../texts/editing/picture';
 
+/** Distance of the tag's place from the edge of the picture, and its height. */
+const EDGE_PX = 30;
+const EDGE_TAG_PX = 26;
+const EDGE_TRIES = [
+  [-32, -13],
+  [-32, -43],
+  [-32, 17],
+] as const;
+
 export class GoalOverlay {
   /** Painted place of the time tag, for the pointer. */
-  timeTag: { x: number; y: number; w: number; h: number } | null = null;
+  timeTag: Rect | null = null;
+
+  /** Painted place of the flag's tag at the edge of the picture, for the pointer. */
+  edgeTag: Rect | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -139,6 +151,21 @@ export class GoalOverlay {
           },
     );
     if (goal.set && r) this.timeTag = r;
+  }
+
+  /** A flag outside the picture has a tag at the edge, with the distance; it is dragged as the flag itself. */
+  paintEdgeTag(g: Pen, v: View, a: Agent, now: Pose | null, goal: Pose & { set: boolean }): void {
+    const { editor: e } = this;
+    if (e.drag.info.value || e.playhead.playing.value || a.locked || v.isClear(goal.x, goal.y)) return;
+    const c = colours();
+    const { left, right, top, bottom } = v.inset;
+    const middle = [(v.w + left - right) / 2, (v.h + top - bottom) / 2] as const;
+    const from = now && v.isClear(now.x, now.y, EDGE_PX) ? v.to(now.x, now.y) : middle;
+    const [x, y] = v.exit(from, v.to(goal.x, goal.y), EDGE_PX);
+    const start = startPose(a) ?? goal;
+    const text = metres(Math.hypot(goal.x - start.x, goal.y - start.y), 0);
+    const look = goal.set ? { bg: c.goal, fg: c.surface } : { fg: c['goal-text'], border: c.goal };
+    this.edgeTag = pill(g, this.labels, x, y, text, { ...look, icon: 'flag', height: EDGE_TAG_PX, tries: EDGE_TRIES });
   }
 
   private paintNearest(g: Pen, v: View, a: Agent, nearest: OutOfReach['nearest']): void {

@@ -33,7 +33,7 @@ import { TEXTS } from '../../texts/editing/picture';
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
 /** Lower end of the tool rail, pixels; the free part of the picture shows whether the rail and a drawer are open. */
-const RAIL_H = 484;
+const RAIL_H = 190;
 const RAIL_W = 62;
 const DRAG_HELP_W = 650;
 /** Above the zoom control, or above the + button on a small page. */
@@ -78,6 +78,11 @@ export class Overlay {
     return this.goal.timeTag;
   }
 
+  /** Painted place of the flag's tag at the edge, for the pointer. */
+  get edgeTag(): GoalOverlay['edgeTag'] {
+    return this.goal.edgeTag;
+  }
+
   /** Painted place of the road route's sign, for the pointer. */
   get roadSign(): VerdictOverlay['roadSign'] {
     return this.verdicts.roadSign;
@@ -92,7 +97,7 @@ export class Overlay {
     const { editor: e } = this;
     const scene = e.scene.value;
     this.chips = [];
-    this.goal.timeTag = null;
+    this.goal.timeTag = this.goal.edgeTag = null;
     this.verdicts.roadSign = null;
     const alone = this.tools.find((t) => t.isAlone);
     if (!scene && !alone) return;
@@ -221,7 +226,10 @@ export class Overlay {
     if (e.view.layers.value.log) this.paintLog(g, v, a, now);
     this.hovered.paint(g, v, a);
     if (!atStart && start) paintGhost(g, v, a, start, c['ink-2'], null, [], 1.25);
-    if (goal) this.goal.paintGoal(g, v, a, goal);
+    if (goal) {
+      this.goal.paintGoal(g, v, a, goal);
+      this.goal.paintEdgeTag(g, v, a, now, goal);
+    }
     if (now) {
       stamp(g, v, a, now, true);
       g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);

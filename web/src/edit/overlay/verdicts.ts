@@ -14,10 +14,9 @@ import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import { roadWay } from '../moves/ways-out';
-import { TEXTS } from '../../texts/editing/picture';
 
-/** Places beyond this number are counted, not named. */
-const NAMED = 3;
+/** At most this many places of a path are named: the worst. */
+const NAMED = 2;
 
 export class VerdictOverlay {
   /** Painted place of the road route's sign, for the pointer. */
@@ -62,10 +61,12 @@ export class VerdictOverlay {
     }
   }
 
-  /** One word at each place; a red path always has one. */
+  /** A word at the worst places of the shown path, or of the pointed one; the others' words are in the list. */
   paintWords(g: Pen, v: View, f: Futures, visible: readonly number[], most = NAMED): void {
     const inView = (p: FaultPlace): boolean => !this.labels.outside(...v.to(p.fault.at[0], p.fault.at[1]));
-    const places = faultPlaces(f, visible, this.editor.reading.chosen.value).filter(inView);
+    const chosen = this.editor.reading.chosen.value;
+    const path = visible.length === 1 ? visible[0] : chosen;
+    const places = faultPlaces(f, visible, chosen).filter((p) => p.futures.includes(path) && inView(p));
     if (places.length) this.labels.avoiding(pathBoxes(v, f, visible), () => this.placeWords(g, v, places, most));
   }
 
@@ -78,12 +79,6 @@ export class VerdictOverlay {
       const of = p.futures.includes(this.editor.reading.chosen.value) ? '' : `${lettersOf(p.futures)} · `;
       pill(g, this.labels, x, y, `${of}${words}`, pillStyle(p));
     });
-    const rest = places.length - most;
-    if (rest > 0 && most === NAMED) {
-      const [x, y] = v.to(places[NAMED].fault.at[0], places[NAMED].fault.at[1]);
-      const { bg: leader } = pillStyle(places[NAMED]);
-      pill(g, this.labels, x, y, TEXTS.andMore(rest), { leader, border: leader, radii: RADII });
-    }
   }
 
   /** Under the paths: the route by the road, for a goal reached by breaking rules. */

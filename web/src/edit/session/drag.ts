@@ -17,6 +17,8 @@ export interface Grip {
   readonly handle: HandleName;
   /** Index of the via point. */
   readonly index?: number;
+  /** Taken by its tag at the edge of the picture: the flag itself is outside. */
+  readonly edge?: true;
 }
 
 /** Lag of the flag behind the pointer while a kerb holds it back: from the flag to the pointer, metres. */

@@ -188,6 +188,22 @@ export function nearestLanes(
   return hits.sort((a, b) => a.score - b.score);
 }
 
+/** Ids of the lanes that follow from these within a distance, themselves included, metres. */
+export function lanesAfter(map: LaneMap, from: readonly LaneHit[], far: number): ReadonlySet<string> {
+  const left = new Map<string, number>();
+  const open = from.map(({ lane, s }) => ({ lane, rest: far + s }));
+  for (let node = open.pop(); node; node = open.pop()) {
+    const { lane, rest } = node;
+    if (rest <= (left.get(lane.id) ?? 0)) continue;
+    left.set(lane.id, rest);
+    for (const id of lane.next) {
+      const next = map.lanes.get(id);
+      if (next) open.push({ lane: next, rest: rest - lane.line.length });
+    }
+  }
+  return new Set(left.keys());
+}
+
 export interface Route {
   readonly line: Line;
   readonly length: number;

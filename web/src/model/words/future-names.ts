@@ -1,19 +1,9 @@
-// Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones. No two in a
-// list are equal.
+// Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones, in seconds
+// or metres where it has one. Futures that look the same have the same name.
 import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
-import { LETTERS } from '../document/futures';
 import { wrapAngle } from '../base/geometry';
-import {
-  distances,
-  endPose,
-  furthestApart,
-  hardestBraking,
-  lastStep,
-  pathLength,
-  poseAt,
-  STEP_S,
-  type Motion,
-} from '../base/motion';
+import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
+import { metres, seconds } from '../base/units';
 import { TEXTS as KINDS } from '../../texts/scene/kinds';
 import { TEXTS } from '../../texts/scene/names';
 
@@ -38,7 +28,7 @@ export interface Named {
 }
 
 /** Letters that fit in a row of the list. */
-const LONGEST = 24;
+const LONGEST = 26;
 
 /** Words for one property of a future, the best first, then shorter ones. */
 interface Candidate {
@@ -79,7 +69,7 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
   }
   // A small true difference is more informative than a similarity.
   for (const part of SMALL) for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c, part));
-  for (const i of list.unnamed) list.likenToOther(i, said[i][0]);
+  for (const i of list.unnamed) list.repeat(i, said[i][0]);
   return list.names;
 }
 
@@ -148,39 +138,22 @@ class NameList {
       .sort((p, q) => Math.abs(q.by) - Math.abs(p.by));
     for (const { t, by } of differs) {
       const word = by > 0 ? t.more : lessOf(t, i);
-      const beyond = (j: number): number => Math.sign(by) * (t.values.get(j)! - t.values.get(i)!);
-      const ends = (j: number, end: string): boolean => this.#names[j]!.name.endsWith(end);
-      const inOrder = (end: string): boolean =>
-        named.every(
-          (j) => !ends(j, ` ${word}`) || (end === word && ends(j, TEXTS.aBit(word)) ? beyond(j) < 0 : beyond(j) > 0),
-        );
-      if ([TEXTS.aBitFirst(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
+      const exact = t.amount?.(by * t.least) ?? word;
+      if (this.#give(i, c, exact) || (exact !== word && this.#give(i, c, word))) return true;
       const short = by > 0 || word === t.less ? t.short?.[by > 0 ? 0 : 1] : undefined;
       if (short && this.#give(i, c, short)) return true;
     }
     return false;
   }
 
-  /** An indistinguishable future is named by its similarity to one with a name of its own. */
-  likenToOther(i: number, c: Candidate): void {
-    const others = this.#names.flatMap((n, j) => (n && j !== i && !isLikened(n.name) ? [j] : []));
-    const far = new Map(others.map((j) => [j, furthestApart(this.modes[j].motion, this.modes[i].motion)]));
-    others.sort((a, b) => far.get(a)! - far.get(b)!);
-    for (const j of others) {
-      const likes = LIKES.map((like) => like(LETTERS[j]));
-      if (likes.some((like) => this.#give(i, c, like))) return;
-      const alone = likes.slice(1).map((like) => like.charAt(0).toUpperCase() + like.slice(1));
-      if (alone.some((like) => this.#give(i, { basis: c.basis, forms: [like] }, ''))) return;
-    }
+  /** A future that looks like another one has the same name. */
+  repeat(i: number, { basis, forms }: Candidate): void {
+    this.#names[i] = { name: forms[0], basis };
   }
 }
 
 /** Shares of the visible threshold, used where nothing else distinguishes. */
 const SMALL = [0.5, 0.2] as const;
-
-const LIKES = [TEXTS.like, TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
-
-const isLikened = (name: string): boolean => LIKES.some((like) => [...LETTERS].some((l) => name.endsWith(like(l))));
 
 // -------------------------------------------------------------- properties of each
 
@@ -243,7 +216,7 @@ function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
     const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
     const short = shortName(name);
     const forms = [`${word} ${name}`, `${word} ${short}`];
-    if (r.kind === 'gives_way_to') forms.push(TEXTS.letsGo(short));
+    if (r.kind === 'gives_way_to') forms.push(TEXTS.yieldsTo(short));
     if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
   }
   return [...out.values()];
@@ -359,6 +332,8 @@ interface Trait {
   readonly less: string;
   /** Shorter words for more and for less of it. */
   readonly short?: readonly [more: string, less: string];
+  /** The difference in numbers, signed. */
+  readonly amount?: (by: number) => string;
   /** The word for almost nothing of it, in place of "less". */
   readonly none?: { readonly below: number; readonly word: string };
 }
@@ -385,15 +360,8 @@ function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
   ].filter((claim) => claim.margins >= 1);
 }
 
-/** Words of a scale, from the first of a group outwards: one for each visible level. */
-const SCALE: Readonly<Record<number, readonly string[]>> = {
-  1: ['', ''],
-  2: ['', '', TEXTS.much],
-  3: ['', TEXTS.aBitPrefix, '', TEXTS.much],
-};
-
 /** More and less of a trait than the first has, level by level. */
-function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): Claim[] {
+function scaleOf({ values, least, more, less, amount }: Trait, all: readonly number[]): Claim[] {
   const [first] = all;
   const out: Claim[] = [];
   for (const [sign, word] of [
@@ -404,9 +372,9 @@ function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): 
     const levels: number[] = [];
     for (const i of [...all].sort((a, b) => beyond(a) - beyond(b)))
       if (beyond(i) >= 1 + (levels.length ? beyond(levels.at(-1)!) : 0)) levels.push(i);
-    // With more levels than words, the outermost get them.
-    const kept = levels.length > 3 ? [levels[0], levels[levels.length >> 1], levels.at(-1)!] : levels;
-    kept.forEach((i, k) => out.push({ i, word: SCALE[kept.length][k + 1] + word, margins: beyond(i) }));
+    const exact = (i: number): string => amount?.(values.get(i)! - values.get(first)!) ?? word;
+    // A single one needs no number.
+    levels.forEach((i) => out.push({ i, word: levels.length > 1 ? exact(i) : word, margins: beyond(i) }));
   }
   return out;
 }
@@ -436,6 +404,9 @@ interface Traits {
   readonly halfway: Trait;
 }
 
+/** Differences of slower ones are not converted to seconds by their own speed, m/s. */
+const LEAST_PACE_MPS = 0.5;
+
 /** All visible traits in which members of a group may differ. */
 function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
   const motion = (i: number): Motion => modes[i].motion;
@@ -451,10 +422,19 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const ends = group.map(at(1));
   const far = Math.max(1, 0.03 * Math.max(...ends));
   const together = Math.max(...ends) - Math.min(...ends) < far;
-  const halfway = trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later);
+  const speed = Math.max(LEAST_PACE_MPS, distances(motion(group[0]))[n] / (n * STEP_S));
+  const halfway: Trait = {
+    ...trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later),
+    amount: (by) => (by > 0 ? TEXTS.earlierBy : TEXTS.laterBy)(seconds(Math.max(0.1, Math.abs(by) / speed))),
+  };
   const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
   // With a goal all get equally far, so progress is compared on the way.
-  const pace = together ? halfway : trait(at(1), far, more, less);
+  const pace: Trait = together
+    ? halfway
+    : {
+        ...trait(at(1), far, more, less),
+        amount: (by) => (by > 0 ? TEXTS.furtherBy : TEXTS.shorterBy)(metres(Math.max(1, Math.abs(by)), 0)),
+      };
   const [first] = group;
   const turn = totalTurn(motion(first));
   const turns = Math.abs(turn) > 0.4;

@@ -2,15 +2,16 @@
 import { table } from '../table';
 
 export const GROUP_TITLES = table('groups', {
-  look: 'Select and look',
-  place: 'Place',
-  edit: 'Edit',
-  move: 'Move',
-  goal: 'Goal and futures',
-  rounds: 'Rounds',
-  time: 'Time',
-  variants: 'Variants',
-  scene: 'Scene',
-  everything: 'Everything',
-  cases: 'Cases',
+  place: 'Add road users',
+  select: 'Select road users',
+  look: 'Move the view, show layers',
+  edit: 'Copy, lock and delete',
+  move: 'Move and turn',
+  goal: 'Set goals, choose futures',
+  rounds: 'Compare in rounds',
+  time: 'Play and step through time',
+  variants: 'Make and compare variants',
+  scene: 'Open, save and share',
+  everything: 'Undo, find, get help',
+  cases: 'Find cases',
 });

@@ -36,6 +36,7 @@ export const TEXTS = table('hud', {
   layers: 'Layers',
   allLayers: 'All layers',
   tools: 'Tools',
+  addAndMore: 'Add, and more tools',
   noSnapping: 'no snapping',
   alongTheLane: 'along the lane',
   at15Steps: '15° steps',

@@ -26,6 +26,8 @@ export const TEXTS = table('page', {
   fileAndSettings: 'File and settings',
   actions: 'Actions',
   more: 'More',
+  generateOptions: 'Options of Generate',
+  waiting: 'Waiting …',
   dragtraffic: (name: string) => `${name}, DragTraffic`,
   dragging: 'Dragging',
   recordedScene: 'Recorded scene',

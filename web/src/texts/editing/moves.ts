@@ -64,6 +64,6 @@ export const TEXTS = table('moves', {
   unlocked: 'unlocked',
   reacts: 'reacts',
   react: 'react',
-  goalAsInLog: (name: string) => `Goal of ${name} as in the log`,
+  goalAsInLog: (name: string) => `Goal of ${name} as recorded`,
   swapped: (one: string, other: string) => `${one} and ${other} swapped`,
 });

@@ -352,13 +352,15 @@ export class Variants {
     const motion = editor.answers.motion.peek();
     // The user's own work is replaced by the first variant, and can be kept beside the new ones. Values of a range are
     // shown beside the document's own.
-    const isWork = !ranged && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
+    // A chosen future stays the scene's own, and the variants are beside it.
+    const stays = ranged || (subject !== null && now.agents.get(subject)?.chosen != null);
+    const isWork = !stays && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
     const was: Take = { scene: now, set: { ...motion, key: sceneKey(now) } };
     if (takes.length && takes[0].scene.castKey === now.castKey) {
       this.#keepSets(takes);
       const states = takes.map((t) => stateOfVariant(t.scene, subject));
       const put = replaceVariants(now, states);
-      editor.commits.run(ranged ? put : inOneStep(put, takeVariant(now, states[0], put.name)));
+      editor.commits.run(stays ? put : inOneStep(put, takeVariant(now, states[0], put.name)));
       this.#current.value = null;
     }
     const n = takes.length;

@@ -2,15 +2,16 @@ import type { GROUP_TITLES } from '../../desk/groups';
 import type { Said } from '../../table';
 
 export const german: Said<typeof GROUP_TITLES> = {
-  look: 'Auswählen und ansehen',
-  place: 'Einsetzen',
-  edit: 'Bearbeiten',
-  move: 'Bewegen',
-  goal: 'Ziel und Zukünfte',
-  rounds: 'Runden',
-  time: 'Zeit',
-  variants: 'Varianten',
-  scene: 'Szene',
-  everything: 'Alles',
-  cases: 'Fälle',
+  place: 'Verkehrsteilnehmer hinzufügen',
+  select: 'Verkehrsteilnehmer auswählen',
+  look: 'Ansicht bewegen, Ebenen zeigen',
+  edit: 'Kopieren, sperren, löschen',
+  move: 'Bewegen und drehen',
+  goal: 'Ziele setzen, Zukünfte wählen',
+  rounds: 'In Runden vergleichen',
+  time: 'Abspielen, Zeit wählen',
+  variants: 'Varianten erzeugen, vergleichen',
+  scene: 'Öffnen, sichern, teilen',
+  everything: 'Rückgängig, suchen, Hilfe',
+  cases: 'Fälle suchen',
 };

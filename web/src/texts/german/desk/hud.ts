@@ -41,6 +41,7 @@ export const german: Said<typeof TEXTS> = {
   layers: 'Ebenen',
   allLayers: 'Alle Ebenen',
   tools: 'Werkzeuge',
+  addAndMore: 'Hinzufügen, weitere Werkzeuge',
   noSnapping: 'ohne Einrasten',
   alongTheLane: 'die Spur entlang',
   at15Steps: 'in 15°-Schritten',

@@ -27,6 +27,8 @@ export const german: Said<typeof TEXTS> = {
   fileAndSettings: 'Datei und Einstellungen',
   actions: 'Aktionen',
   more: 'Mehr',
+  generateOptions: 'Optionen der Berechnung',
+  waiting: 'Wartet …',
   dragtraffic: (name) => `${name}, DragTraffic`,
   dragging: 'Wird gezogen',
   recordedScene: 'Aufgezeichnete Szene',
