@@ -4971,6 +4971,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
+                    };
+                };
+            };
         };
     };
     metrics: {
@@ -5084,6 +5096,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
                     };
                 };
             };
@@ -5203,7 +5227,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description not-ready */
+            /** @description busy, not-ready */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5211,7 +5235,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "not-ready";
+                        code?: "busy" | "not-ready";
                     };
                 };
             };
@@ -5399,7 +5423,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5407,7 +5431,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -5546,6 +5570,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
                     };
                 };
             };
@@ -5773,7 +5809,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5781,7 +5817,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -5990,7 +6026,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5998,7 +6034,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -6142,6 +6178,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
+                    };
+                };
+            };
         };
     };
     cancelJob: {
@@ -6267,6 +6315,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
                     };
                 };
             };
@@ -6587,6 +6647,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy";
+                    };
+                };
+            };
         };
     };
     listMaps: {
@@ -6703,7 +6775,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable */
+            /** @description busy, store-unavailable */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6711,7 +6783,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable";
+                        code?: "busy" | "store-unavailable";
                     };
                 };
             };
@@ -6864,7 +6936,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6872,7 +6944,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -7102,7 +7174,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -7110,7 +7182,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -7267,7 +7339,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable */
+            /** @description busy, store-unavailable */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -7275,7 +7347,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable";
+                        code?: "busy" | "store-unavailable";
                     };
                 };
             };
@@ -7448,7 +7520,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -7456,7 +7528,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -7648,7 +7720,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -7656,7 +7728,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -7891,7 +7963,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -7899,7 +7971,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -8081,7 +8153,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable */
+            /** @description busy, store-unavailable */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -8089,7 +8161,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable";
+                        code?: "busy" | "store-unavailable";
                     };
                 };
             };
@@ -8318,7 +8390,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -8326,7 +8398,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -8541,7 +8613,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -8549,7 +8621,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -8746,7 +8818,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -8754,7 +8826,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -8919,7 +8991,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -8927,7 +8999,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
@@ -9140,7 +9212,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description store-unavailable, busy, shutting-down */
+            /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -9148,7 +9220,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "store-unavailable" | "busy" | "shutting-down";
+                        code?: "busy" | "store-unavailable" | "shutting-down";
                     };
                 };
             };
