@@ -212,6 +212,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
   it('turns a cyclist by its tiller, changes its speed by the arrow, moves its start', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('14');
+    await d.page.click('button.more');
     await d.key('z');
     await d.settled();
     const z = await d.zoom();
@@ -478,7 +479,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Control+k');
     await d.page.keyboard.type('loop');
     await d.key('Enter');
-    expect(await d.page.locator('[data-action="loop"]').getAttribute('aria-pressed')).toBe('false');
+    await d.page.click('[data-menu="playback"]');
+    expect(await d.page.locator('.menu [data-action="loop"]').getAttribute('aria-pressed')).toBe('false');
+    await d.key('Escape');
     expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe(
       '9.0 seconds',
     );
@@ -560,6 +563,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
   it('plans 20 s: the timeline stretches, the set length is sent, playback runs to the end', async () => {
     d = await (await Driver.open(browser)).ready();
     expect(await d.text('.tm')).toContain('/ 9.0 s');
+    await d.page.click('[data-menu="generate"]');
     await d.page.locator('[data-action="length-20"]').click();
     await d.settled();
     expect(await d.text('.tm')).toContain('/ 20.0 s');
@@ -567,6 +571,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.locator('[data-action="replan-3"]').click();
     await d.settled();
     expect(d.last()).toMatchObject({ horizon_s: 20, replan_interval_s: 3 });
+    await d.key('Escape');
     await d.select('1');
     expect(await d.page.locator('.plot text').allTextContents()).toContain('20 s');
     const time = d.page.locator('[data-field="goal-time"]');
@@ -590,6 +595,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('19.5 s');
     await d.key('Space');
     await d.page.waitForFunction(() => document.querySelector('.tm')?.textContent?.startsWith('20.0 s'));
+    await d.page.click('[data-menu="generate"]');
     await d.page.locator('[data-action="length-12"]').click();
     await d.settled();
     expect(await d.value('goal-time')).toBe(12);
