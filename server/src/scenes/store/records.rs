@@ -215,13 +215,16 @@ impl Store {
         let again = Arc::clone(&task);
         match self.write(move |tx| task(tx)).await {
             Err(error) if error.is_disk_full() => {
+                // Many maps take more of the log than it has.
+                self.reserve.give_up();
                 let dropped = self.write(|tx| Ok(tx.execute(UNUSED_MAPS, [])?)).await.unwrap_or(0);
+                self.emptied().await;
+                self.reserve.restore();
                 if dropped == 0 {
                     // The last write was refused, whatever became of this one.
                     self.reserve.note(true);
                     return Err(error);
                 }
-                self.emptied().await;
                 self.write(move |tx| again(tx)).await
             }
             done => done,
