@@ -215,13 +215,19 @@ impl Store {
         let again = Arc::clone(&task);
         match self.write(move |tx| task(tx)).await {
             Err(error) if error.is_disk_full() => {
-                let dropped = self.write(|tx| Ok(tx.execute(UNUSED_MAPS, [])?)).await.unwrap_or(0);
-                if dropped == 0 {
-                    // The last write was refused, whatever became of this one.
-                    self.reserve.note(true);
+                let unused = self.read(|connection| {
+                    let sql = "SELECT count(*) FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)";
+                    Ok(connection.query_row(sql, [], |row| row.get::<_, i64>(0))?)
+                });
+                if unused.await? == 0 {
                     return Err(error);
                 }
+                // Many maps take more of the log than it has.
+                self.reserve.give_up();
+                let dropped = self.write(|tx| Ok(tx.execute(UNUSED_MAPS, [])?)).await;
                 self.emptied().await;
+                self.reserve.restore();
+                dropped?;
                 self.write(move |tx| again(tx)).await
             }
             done => done,
